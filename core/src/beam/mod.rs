@@ -1,0 +1,13 @@
+//! The beam: cubic Bernoulli-Euler elements behind a rigid hub, assembled in the hub frame.
+//!
+//! Shapes live in types: [`Model`]`<N, W>` has `N` degrees of freedom and matrices `W − 1`
+//! sub-diagonals wide. Everything here is f64 and runs once, at set-up.
+
+mod assembly;
+mod element;
+mod lumped;
+mod model;
+mod modes;
+
+pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
+pub use modes::Modes;

@@ -1,0 +1,126 @@
+//! What can be wrong with a scene or a move: kinds of fault, each naming its parameter.
+
+use core::fmt;
+
+/// A scene or a move that is not accepted.
+///
+/// Each variant carries the parameter's full name as it stands in a scene file, the value that was
+/// given and what is accepted; [`fmt::Display`] prints them in one line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Error {
+    /// Infinite, NaN, or outside `min..=max`.
+    OutOfRange {
+        /// The field, e.g. `link.length`.
+        parameter: &'static str,
+        /// What was given.
+        value: f64,
+        /// Least accepted value.
+        min: f64,
+        /// Greatest accepted value.
+        max: f64,
+        /// Unit of all three, e.g. `m`.
+        unit: &'static str,
+    },
+    /// The move needs more than the drive may give.
+    LimitExceeded {
+        /// The limit's field, e.g. `limits.rate`.
+        parameter: &'static str,
+        /// The limit.
+        limit: f64,
+        /// What the move needs.
+        needed: f64,
+        /// Unit of both.
+        unit: &'static str,
+    },
+    /// The hub would turn more than a radian a tick.
+    TooFast {
+        /// Peak rate of the move, rad/s.
+        rate: f64,
+        /// One radian a tick, rad/s.
+        max: f64,
+    },
+    /// A rest-to-rest move behind one that leaves the hub turning.
+    NotAtRest {
+        /// Rate at which the queue ends, rad/s.
+        rate: f64,
+    },
+    /// The queue has not enough free segments for the move.
+    QueueFull {
+        /// Segments that the move takes.
+        needed: usize,
+        /// Segments that are free.
+        free: usize,
+    },
+    /// Gravity exceeds the buckling load of the upright link.
+    Buckles {
+        /// The gravity that was given, m/s².
+        gravity: f64,
+    },
+    /// The model's degrees of freedom do not fit the scene.
+    DegreesOfFreedom {
+        /// Degrees of freedom of the type.
+        given: usize,
+        /// Degrees of freedom that the scene needs.
+        needed: usize,
+    },
+}
+
+impl Error {
+    /// `value` if it lies in `min..=max`, else the error that names `parameter`.
+    pub(crate) fn check(
+        parameter: &'static str,
+        value: f64,
+        min: f64,
+        max: f64,
+        unit: &'static str,
+    ) -> Result<f64, Self> {
+        if (min..=max).contains(&value) {
+            Ok(value)
+        } else {
+            Err(Self::OutOfRange { parameter, value, min, max, unit })
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::OutOfRange { parameter, value, min, max, unit } => {
+                write!(f, "{parameter} = {value}: accepted is {min} to {max}")?;
+                if unit.is_empty() { Ok(()) } else { write!(f, " {unit}") }
+            }
+            Self::LimitExceeded { parameter, limit, needed, unit } => write!(
+                f,
+                "{parameter} = {limit} {unit}: the move needs {needed:.6} {unit}; accepted is a \
+                 longer move or a higher limit"
+            ),
+            Self::TooFast { rate, max } => write!(
+                f,
+                "move.duration: the move peaks at {rate:.6} rad/s; accepted is up to {max} rad/s, \
+                 one radian a tick"
+            ),
+            Self::NotAtRest { rate } => write!(
+                f,
+                "move.profile: the hub turns at {rate} rad/s when this rest-to-rest move begins; \
+                 accepted is a spin-up to rate = 0 before it"
+            ),
+            Self::QueueFull { needed, free } => write!(
+                f,
+                "moves: this one takes {needed} segments of the queue; accepted is up to {free} now"
+            ),
+            Self::Buckles { gravity } => write!(
+                f,
+                "gravity.acceleration = {gravity}: the upright link buckles under its own weight; \
+                 accepted is less gravity, a stiffer link or a lighter payload"
+            ),
+            Self::DegreesOfFreedom { given, needed } => write!(
+                f,
+                "elements: the model type has {given} degrees of freedom; accepted is {needed} for \
+                 this scene"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for Error {}

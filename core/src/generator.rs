@@ -1,0 +1,217 @@
+//! The one type the firmware drives.
+
+use heapless::Deque;
+
+use crate::Error;
+use crate::math::Scalar;
+use crate::motion::{Angle, Hub, Limits, Move, Plan, Segment, Start};
+use crate::stepper::{Response, Stepper};
+
+/// What the motor controller gets every tick. SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Setpoint<T> {
+    /// Hub angle θ.
+    pub angle: Angle<T>,
+    /// θ̇, rad/s.
+    pub rate: T,
+    /// θ̈, rad/s²; where it jumps, the right-hand value.
+    pub acceleration: T,
+    /// Torque into the hub by inverse dynamics, N m.
+    pub torque: T,
+    /// The tip in the global frame `(x, y)`, m.
+    pub tip: [T; 2],
+    /// The tip's deflection, its hub-frame Y, m.
+    pub deflection: T,
+}
+
+/// A queue of moves and the arm that follows them: one [`Generator::tick`] a tick.
+///
+/// `S` is the stepper, `QUEUE` the segments that can wait: a cubic, quintic, cycloid, spin-up or
+/// dwell takes one, a trapezoid three, an S-curve seven.
+///
+/// Call k of `tick` (from 0) returns the setpoint at `t = k h`. With the queue empty the hub holds
+/// its angle, or its rate after a spin-up.
+#[derive(Clone, Debug)]
+pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
+    stepper: S,
+    state: S::State,
+    hub: Hub<S::Scalar>,
+    /// θ̈ just before now.
+    landing: S::Scalar,
+    current: Segment<S::Scalar>,
+    /// Ticks since the current segment's first.
+    k: u32,
+    queue: Deque<Segment<S::Scalar>, QUEUE>,
+    /// What follows the queue: its end, held.
+    tail: Segment<S::Scalar>,
+    /// The tail's start in set-up's precision.
+    end: Start,
+    limits: Limits,
+    holding: bool,
+    running: bool,
+}
+
+impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
+    /// An arm at rest in static equilibrium at hub angle `from`, rad.
+    pub fn new(stepper: S, from: f64) -> Result<Self, Error> {
+        let from = Error::check("move.from", from, -1e6, 1e6, "rad")?;
+        let end = Start { angle: Angle::from_radians(from), rate: 0.0 };
+        let tail = hold(end, stepper.tick());
+        // The hold before the first tick has no length: a move pushed now begins at t = 0.
+        let current = tail.cut(0);
+        let hub = current.hub(0);
+        let state = stepper.equilibrium(&hub);
+        Ok(Self {
+            stepper,
+            state,
+            hub,
+            landing: S::Scalar::ZERO,
+            current,
+            k: 0,
+            queue: Deque::new(),
+            tail,
+            end,
+            limits: Limits::default(),
+            holding: true,
+            running: false,
+        })
+    }
+
+    /// Refuses from now on the moves that exceed `limits`.
+    pub fn limit(&mut self, limits: Limits) -> Result<(), Error> {
+        self.limits = limits.validate()?;
+        Ok(())
+    }
+
+    /// Plans a move and puts it behind the others; with none waiting it begins at the next tick.
+    ///
+    /// Runs in f64 and is not for the tick's interrupt. Either the whole move is taken or nothing
+    /// changes.
+    pub fn push(&mut self, motion: &Move) -> Result<Plan, Error> {
+        let plan = Plan::new(motion, self.next_start(), &self.limits, self.stepper.tick())?;
+        let (needed, free) = (plan.segments.len(), QUEUE - self.queue.len());
+        if needed > free {
+            return Err(Error::QueueFull { needed, free });
+        }
+        for segment in &plan.segments {
+            // There is room: just counted.
+            let _ = self.queue.push_back(segment.cast());
+        }
+        if self.holding {
+            self.current = self.current.cut(self.next_k());
+        }
+        self.end = plan.end;
+        self.tail = hold(plan.end, self.stepper.tick());
+        Ok(plan)
+    }
+
+    /// The next setpoint. Never fails, never allocates; the same operations on host and target.
+    #[inline(always)]
+    pub fn tick(&mut self) -> Setpoint<S::Scalar> {
+        let before = self.hub;
+        self.k = self.next_k();
+        if self.k >= self.current.count() {
+            self.landing = self.current.landing();
+            self.advance();
+            self.hub = self.current.hub(self.k);
+        } else {
+            self.hub = self.current.hub(self.k);
+            self.landing = self.hub.acceleration;
+        }
+        if self.running {
+            self.stepper.step(&mut self.state, &before, &self.hub);
+        }
+        self.running = true;
+        self.setpoint()
+    }
+
+    /// The latest setpoint again.
+    #[inline(always)]
+    pub fn setpoint(&self) -> Setpoint<S::Scalar> {
+        respond(&self.hub, self.stepper.response(&self.state, &self.hub))
+    }
+
+    /// The latest setpoint as it was just before: it differs where a move has ended with an
+    /// acceleration, which the torque jumps with.
+    pub fn setpoint_before(&self) -> Setpoint<S::Scalar> {
+        let hub = Hub { acceleration: self.landing, ..self.hub };
+        respond(&hub, self.stepper.response(&self.state, &hub))
+    }
+
+    /// No move under way or waiting.
+    pub fn is_holding(&self) -> bool {
+        self.queue.is_empty() && self.holding
+    }
+
+    /// The arm's state at the latest setpoint.
+    pub fn state(&self) -> &S::State {
+        &self.state
+    }
+
+    /// The hub at the latest setpoint.
+    pub fn hub(&self) -> &Hub<S::Scalar> {
+        &self.hub
+    }
+
+    /// The stepper.
+    pub fn stepper(&self) -> &S {
+        &self.stepper
+    }
+
+    /// Index of the coming tick in the current segment.
+    #[inline(always)]
+    fn next_k(&self) -> u32 {
+        if self.running { self.k + 1 } else { 0 }
+    }
+
+    /// Where a move that is pushed now begins.
+    fn next_start(&self) -> Start {
+        if self.queue.is_empty() && self.holding {
+            let angle = self.current.hub(self.next_k()).angle;
+            let angle = Angle { turns: angle.turns, part: angle.part.to_f64() };
+            Start { angle, rate: self.end.rate }
+        } else {
+            self.end
+        }
+    }
+
+    /// Takes up the next segment, or holds.
+    #[inline(always)]
+    fn advance(&mut self) {
+        match self.queue.pop_front() {
+            Some(segment) => {
+                self.current = segment;
+                self.holding = false;
+            }
+            // A hold that has run out (after 497 days at 10 ms) goes on from where it is.
+            None if self.holding => {
+                let angle = self.current.hub(self.k).angle;
+                self.current = self.tail.moved(angle);
+            }
+            None => {
+                self.current = self.tail;
+                self.holding = true;
+            }
+        }
+        self.k = 0;
+    }
+}
+
+/// The end of a move, held for as long as ticks can be counted.
+fn hold<T: Scalar>(end: Start, tick: f64) -> Segment<T> {
+    Segment::cruise(end.angle, end.rate, u32::MAX, tick).cast()
+}
+
+#[inline(always)]
+fn respond<T: Scalar>(hub: &Hub<T>, response: Response<T>) -> Setpoint<T> {
+    let [x, y] = response.tip;
+    Setpoint {
+        angle: hub.angle,
+        rate: hub.rate,
+        acceleration: hub.acceleration,
+        torque: response.torque,
+        tip: [x * hub.cos - y * hub.sin, x * hub.sin + y * hub.cos],
+        deflection: y,
+    }
+}

@@ -1,0 +1,153 @@
+//! Symmetric band matrices and their LDLᵀ factors.
+
+use super::Scalar;
+
+/// Symmetric `N × N` matrix with `W − 1` sub-diagonals, row-wise: `rows[i][d] = A[i][i − d]`.
+///
+/// A chain of beam elements couples neighbouring nodes only, so eight of them need `W = 4` of 16
+/// columns; `W = N` is a dense matrix. Entries with `d > i` do not exist and stay zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Band<T, const N: usize, const W: usize> {
+    rows: [[T; W]; N],
+}
+
+impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
+    /// The zero matrix.
+    pub const ZERO: Self = {
+        assert!(1 <= W, "a band holds the diagonal");
+        Self { rows: [[T::ZERO; W]; N] }
+    };
+
+    /// `A[i][j]`; zero outside the band.
+    ///
+    /// # Panics
+    /// If `i` or `j` is not below `N`. Set-up only.
+    pub fn get(&self, i: usize, j: usize) -> T {
+        let (row, distance) = (i.max(j), i.abs_diff(j));
+        if distance < W { self.rows[row][distance] } else { T::ZERO }
+    }
+
+    /// Adds `value` to `A[i][j]` and, being symmetric, to `A[j][i]`.
+    ///
+    /// # Panics
+    /// If `(i, j)` lies outside the band. Set-up only.
+    pub(crate) fn add(&mut self, i: usize, j: usize, value: T) {
+        self.rows[i.max(j)][i.abs_diff(j)] += value;
+    }
+
+    /// Applies `f` to each stored entry.
+    pub fn map<U: Scalar>(&self, mut f: impl FnMut(T) -> U) -> Band<U, N, W> {
+        Band { rows: self.rows.map(|row| row.map(&mut f)) }
+    }
+
+    /// `A + s B`.
+    #[inline(always)]
+    pub fn plus(&self, s: T, other: &Self) -> Self {
+        let mut sum = *self;
+        for i in 0..N {
+            for d in 0..W {
+                sum.rows[i][d] += s * other.rows[i][d];
+            }
+        }
+        sum
+    }
+
+    /// `A x`.
+    #[inline(always)]
+    pub fn times(&self, x: &[T; N]) -> [T; N] {
+        let mut y = [T::ZERO; N];
+        for i in 0..N {
+            y[i] += self.rows[i][0] * x[i];
+            for d in 1..W {
+                if d <= i {
+                    y[i] += self.rows[i][d] * x[i - d];
+                    y[i - d] += self.rows[i][d] * x[i];
+                }
+            }
+        }
+        y
+    }
+
+    /// `LDLᵀ` factors by symmetric elimination without pivoting, which a positive definite
+    /// matrix does not need. Cost about `N W²/2` multiplications and `N` divisions.
+    ///
+    /// A matrix that is not positive definite gives factors for which
+    /// [`Ldl::is_positive`] is false.
+    #[inline(always)]
+    pub fn factor(&self) -> Ldl<T, N, W> {
+        let mut lower = self.rows;
+        let mut inverse = [T::ZERO; N];
+        for i in 0..N {
+            // Turns row i of A into c[d] = L[i][i-d] D[i-d], then into L, collecting the pivot.
+            let mut pivot = lower[i][0];
+            for d in (1..W).rev() {
+                if d <= i {
+                    let j = i - d;
+                    let mut c = lower[i][d];
+                    for e in 1..W {
+                        if e <= j && d + e < W {
+                            c -= lower[i][d + e] * lower[j][e];
+                        }
+                    }
+                    lower[i][d] = c;
+                }
+            }
+            for d in 1..W {
+                if d <= i {
+                    let c = lower[i][d];
+                    let l = c * inverse[i - d];
+                    pivot -= c * l;
+                    lower[i][d] = l;
+                }
+            }
+            lower[i][0] = pivot;
+            inverse[i] = T::ONE / pivot;
+        }
+        Ldl { lower, inverse }
+    }
+}
+
+/// `A = L D Lᵀ` with unit lower-triangular `L` of `A`'s band width.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ldl<T, const N: usize, const W: usize> {
+    /// `lower[i][d] = L[i][i − d]` for `d ≥ 1`; `lower[i][0]` is the pivot `Dᵢ`.
+    lower: [[T; W]; N],
+    /// `1/Dᵢ`: the solve multiplies, it does not divide.
+    inverse: [T; N],
+}
+
+impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
+    /// Applies `f` to each stored number, e.g. to round set-up's factors to the tick's scalar.
+    pub fn map<U: Scalar>(&self, mut f: impl FnMut(T) -> U) -> Ldl<U, N, W> {
+        Ldl { lower: self.lower.map(|row| row.map(&mut f)), inverse: self.inverse.map(&mut f) }
+    }
+
+    /// Whether every pivot is positive and finite, so that `A` is positive definite.
+    pub fn is_positive(&self) -> bool {
+        self.lower.iter().all(|row| row[0] > T::ZERO && row[0].is_finite())
+    }
+
+    /// Solves `A x = b`: one forward and one back substitution.
+    #[inline(always)]
+    pub fn solve(&self, b: &[T; N]) -> [T; N] {
+        let mut x = *b;
+        for i in 0..N {
+            for d in 1..W {
+                if d <= i {
+                    x[i] -= self.lower[i][d] * x[i - d];
+                }
+            }
+        }
+        for i in 0..N {
+            x[i] = x[i] * self.inverse[i];
+        }
+        for i in (0..N).rev() {
+            for d in 1..W {
+                if d <= i {
+                    x[i - d] -= self.lower[i][d] * x[i];
+                }
+            }
+        }
+        x
+    }
+}

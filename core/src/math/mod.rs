@@ -1,0 +1,32 @@
+//! The little mathematics the beam needs, in fixed-size arrays.
+//!
+//! Functions of real numbers are called by path from here (never as methods), so that host and
+//! target run the same code and give the same bits.
+
+mod band;
+mod jacobi;
+mod scalar;
+
+pub use band::{Band, Ldl};
+pub(crate) use jacobi::generalized_eigen;
+pub use scalar::Scalar;
+
+/// Square root, correctly rounded, the same bits everywhere. Set-up only.
+pub(crate) fn sqrt(x: f64) -> f64 {
+    libm::sqrt(x)
+}
+
+/// `Σ aᵢ bᵢ`.
+#[inline(always)]
+pub(crate) fn dot<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
+    let mut sum = T::ZERO;
+    for i in 0..N {
+        sum += a[i] * b[i];
+    }
+    sum
+}
+
+/// Rounds a set-up vector to the scalar of the tick.
+pub(crate) fn cast<T: Scalar, const N: usize>(v: &[f64; N]) -> [T; N] {
+    v.map(T::from_f64)
+}

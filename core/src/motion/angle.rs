@@ -1,0 +1,57 @@
+//! The hub angle as whole turns and a remainder.
+
+use core::f64::consts::TAU;
+
+use crate::math::Scalar;
+
+/// An angle `turns + part`, in turns.
+///
+/// `part` lies in `−½ ..= ½`, so that its resolution (3e-8 turn in f32) does not depend on how
+/// often the hub has gone round. Turns rather than radians, because whole turns then come off
+/// without rounding.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Angle<T> {
+    /// Whole turns; wraps after 2³¹.
+    pub turns: i32,
+    /// The rest, turns, `−½ ..= ½`.
+    pub part: T,
+}
+
+impl<T: Scalar> Angle<T> {
+    /// The angle that many turns from `self`. `|delta|` below 2³⁰ turns.
+    #[inline(always)]
+    pub fn plus(self, delta: T) -> Self {
+        let sum = self.part + delta;
+        let whole = sum.nearest();
+        Self { turns: self.turns.wrapping_add(whole), part: sum - T::from_i32(whole) }
+    }
+
+    /// Turns, as one number: exact to 2e-16 of itself.
+    pub fn in_turns(self) -> f64 {
+        f64::from(self.turns) + self.part.to_f64()
+    }
+
+    /// Radians, as one number.
+    pub fn radians(self) -> f64 {
+        TAU * self.in_turns()
+    }
+
+    /// `(sin θ, cos θ)`.
+    #[inline(always)]
+    pub fn sin_cos(self) -> (T, T) {
+        self.part.sin_cos_turns()
+    }
+}
+
+impl Angle<f64> {
+    /// From radians; `|radians|` below 2³⁰ turns.
+    pub fn from_radians(radians: f64) -> Self {
+        Self { turns: 0, part: 0.0 }.plus(radians / TAU)
+    }
+
+    /// Rounds the remainder to the scalar of the tick.
+    pub fn cast<T: Scalar>(self) -> Angle<T> {
+        Angle { turns: self.turns, part: T::from_f64(self.part) }
+    }
+}

@@ -1,0 +1,72 @@
+//! What the drive may do, and what a move needs.
+
+use crate::Error;
+
+/// Limits of the drive; `None` is unlimited.
+///
+/// Rate, acceleration and jerk are checked when a move is accepted, against the exact peaks of its
+/// profile. Torque depends on the arm's vibration and is checked by whoever has run the move.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Limits {
+    /// |θ̇|, rad/s.
+    pub rate: Option<f64>,
+    /// |θ̈|, rad/s².
+    pub acceleration: Option<f64>,
+    /// |d³θ/dt³| inside the move, rad/s³. The jumps of acceleration that a cubic or a trapezoid
+    /// makes have no finite jerk: with this limit they are refused.
+    pub jerk: Option<f64>,
+    /// |τ| at the hub, N m.
+    pub torque: Option<f64>,
+}
+
+/// Greatest magnitudes over a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peaks {
+    /// |θ̇|, rad/s.
+    pub rate: f64,
+    /// |θ̈|, rad/s².
+    pub acceleration: f64,
+    /// |d³θ/dt³|, rad/s³; infinite where the acceleration jumps.
+    pub jerk: f64,
+}
+
+impl Limits {
+    /// The limits themselves if each is positive and finite.
+    pub fn validate(self) -> Result<Self, Error> {
+        let check = |parameter, value: Option<f64>, unit| match value {
+            Some(value) => Error::check(parameter, value, 1e-9, 1e12, unit).map(drop),
+            None => Ok(()),
+        };
+        check("limits.rate", self.rate, "rad/s")?;
+        check("limits.acceleration", self.acceleration, "rad/s^2")?;
+        check("limits.jerk", self.jerk, "rad/s^3")?;
+        check("limits.torque", self.torque, "N m")?;
+        Ok(self)
+    }
+
+    /// Refuses peaks above a limit, with 1e-9 of it for rounding.
+    pub fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
+        within("limits.rate", self.rate, peaks.rate, "rad/s")?;
+        within("limits.acceleration", self.acceleration, peaks.acceleration, "rad/s^2")?;
+        within("limits.jerk", self.jerk, peaks.jerk, "rad/s^3")
+    }
+
+    /// Refuses a torque (N m) above the limit.
+    pub fn admit_torque(&self, torque: f64) -> Result<(), Error> {
+        within("limits.torque", self.torque, torque, "N m")
+    }
+}
+
+fn within(
+    parameter: &'static str,
+    limit: Option<f64>,
+    needed: f64,
+    unit: &'static str,
+) -> Result<(), Error> {
+    match limit {
+        Some(limit) if needed.is_nan() || needed > limit * (1.0 + 1e-9) => {
+            Err(Error::LimitExceeded { parameter, limit, needed, unit })
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,14 @@
+//! The commanded motion of the hub: what a user asks for ([`Move`]), checked against the drive's
+//! [`Limits`] and cut into [`Segment`]s that cost a few multiplications a tick.
+
+mod angle;
+mod limits;
+mod plan;
+mod profile;
+mod segment;
+
+pub use angle::Angle;
+pub use limits::{Limits, Peaks};
+pub use plan::{MAX_SEGMENTS, Plan, Start};
+pub use profile::{Move, Profile};
+pub use segment::{Hub, Segment};

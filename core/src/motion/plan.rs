@@ -1,0 +1,178 @@
+//! Cuts a move into segments. Runs once a move, in f64.
+
+use core::f64::consts::TAU;
+
+use heapless::Vec;
+
+use super::segment::Shape;
+use super::{Angle, Limits, Move, Peaks, Profile, Segment};
+use crate::Error;
+
+/// Segments of the longest plan, an S-curve.
+pub const MAX_SEGMENTS: usize = 7;
+
+/// Where a move begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// θ.
+    pub angle: Angle<f64>,
+    /// θ̇, rad/s.
+    pub rate: f64,
+}
+
+/// A move that was accepted: its segments and where it ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// The motion, first to last.
+    pub segments: Vec<Segment<f64>, MAX_SEGMENTS>,
+    /// Where it ends: the next move's start.
+    pub end: Start,
+    /// Whole ticks it takes.
+    pub ticks: u32,
+    /// Greatest magnitudes.
+    pub peaks: Peaks,
+    /// Duration as planned less duration as asked for, s: what rounding to whole ticks changed.
+    pub rounded_by: f64,
+}
+
+impl Plan {
+    /// Plans `motion` from `start`, with setpoints every `tick` s.
+    pub fn new(motion: &Move, start: Start, limits: &Limits, tick: f64) -> Result<Self, Error> {
+        let ticks = motion.ticks(tick)?;
+        let duration = f64::from(ticks) * tick;
+        let turned = |rate: f64| rate * duration / TAU;
+        let (shapes, end, peaks) = match *motion {
+            Move::To { profile, to, .. } => {
+                let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+                if start.rate != 0.0 {
+                    return Err(Error::NotAtRest { rate: start.rate });
+                }
+                let delta = to / TAU - start.angle.in_turns();
+                let end = Start { angle: start.angle.plus(delta), rate: 0.0 };
+                (rest_to_rest(profile, delta), end, profile.peaks(delta * TAU, duration))
+            }
+            Move::SpinUp { rate, .. } => {
+                let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
+                let change = rate - start.rate;
+                let mean = 0.5 * (rate + start.rate);
+                let end = Start { angle: start.angle.plus(turned(mean)), rate };
+                let peaks = Peaks {
+                    rate: rate.abs().max(start.rate.abs()),
+                    acceleration: 2.0 * change.abs() / duration,
+                    jerk: TAU * change.abs() / (duration * duration),
+                };
+                (spin_up(turned(start.rate), turned(change)), end, peaks)
+            }
+            // No shapes: a hold, exact over any number of turns.
+            Move::Dwell { .. } => {
+                let angle = start.angle.plus(turned(start.rate));
+                let peaks = Peaks { rate: start.rate.abs(), acceleration: 0.0, jerk: 0.0 };
+                (Shapes::new(), Start { angle, rate: start.rate }, peaks)
+            }
+        };
+        limits.admit(&peaks)?;
+        if peaks.rate * tick > 1.0 {
+            return Err(Error::TooFast { rate: peaks.rate, max: 1.0 / tick });
+        }
+        let segments = if shapes.is_empty() {
+            Vec::from_iter([Segment::cruise(start.angle, start.rate, ticks, tick)])
+        } else {
+            lay(&shapes, start.angle, ticks, tick)
+        };
+        Ok(Self { segments, end, ticks, peaks, rounded_by: duration - motion.duration() })
+    }
+}
+
+/// Shapes end to end, each with its share of the move's time.
+type Shapes = Vec<(f64, Shape<f64>), MAX_SEGMENTS>;
+
+/// Largest angle and rate that a move may name: 1e6 rad resolve to 1e-10 rad.
+const MAX_ANGLE: f64 = 1e6;
+
+fn rest_to_rest(profile: Profile, d: f64) -> Shapes {
+    match profile {
+        Profile::Cubic => Vec::from_iter([(1.0, Shape::Cubic([0.0, 3.0 * d, -2.0 * d]))]),
+        Profile::Quintic => {
+            let c = [0.0, 0.0, 10.0 * d, -15.0 * d, 6.0 * d];
+            Vec::from_iter([(1.0, Shape::Quintic(c))])
+        }
+        Profile::Cycloid => {
+            let shape = Shape::Harmonic { c: [d, 0.0], a: -d / TAU, b: 0.0 };
+            Vec::from_iter([(1.0, shape)])
+        }
+        Profile::Trapezoid => {
+            let a = 4.5 * d;
+            integrate(&[(1.0 / 3.0, a, 0.0), (1.0 / 3.0, 0.0, 0.0), (1.0 / 3.0, -a, 0.0)])
+        }
+        Profile::SCurve => {
+            let (j, a) = (42.875 * d, 6.125 * d);
+            let f = 1.0 / 7.0;
+            integrate(&[
+                (f, 0.0, j),
+                (f, a, 0.0),
+                (f, a, -j),
+                (f, 0.0, 0.0),
+                (f, 0.0, -j),
+                (f, -a, 0.0),
+                (f, -a, j),
+            ])
+        }
+    }
+}
+
+/// Cubics for stretches `(share of T, acceleration at its beginning, jerk)`, per T² and T³, from
+/// rest.
+fn integrate(stretches: &[(f64, f64, f64)]) -> Shapes {
+    let mut rate = 0.0;
+    stretches
+        .iter()
+        .map(|&(f, a, j)| {
+            let c = [rate * f, a * f * f / 2.0, j * f * f * f / 6.0];
+            rate += (a + j * f / 2.0) * f;
+            (f, Shape::Cubic(c))
+        })
+        .collect()
+}
+
+/// `v` turns at the old rate, and half of `dv` more by the end:
+/// `Δ = v s + dv [s²/2 + (cos 2πs − 1)/4π²]`.
+fn spin_up(v: f64, dv: f64) -> Shapes {
+    let shape = Shape::Harmonic { c: [v, dv / 2.0], a: 0.0, b: dv / (TAU * TAU) };
+    Vec::from_iter([(1.0, shape)])
+}
+
+/// Lays shapes end to end over `ticks` ticks. A stretch that contains no tick is left out.
+fn lay(
+    shapes: &[(f64, Shape<f64>)],
+    start: Angle<f64>,
+    ticks: u32,
+    tick: f64,
+) -> Vec<Segment<f64>, MAX_SEGMENTS> {
+    let total = f64::from(ticks);
+    let mut segments = Vec::new();
+    let (mut angle, mut share) = (start, 0.0);
+    for &(fraction, shape) in shapes {
+        let (begin, end) = (share * total, (share + fraction) * total);
+        let (first, next) = (first_tick(begin), first_tick(end).min(total));
+        let segment = Segment::new(
+            angle,
+            shape,
+            fraction * total,
+            (first - begin).max(0.0),
+            (next - first) as u32,
+            tick,
+        );
+        if next > first {
+            // At most MAX_SEGMENTS shapes come in.
+            let _ = segments.push(segment);
+        }
+        angle = segment.end();
+        share += fraction;
+    }
+    segments
+}
+
+/// The first whole tick at or after `t` ticks, with room for the rounding of thirds and sevenths.
+fn first_tick(t: f64) -> f64 {
+    libm::ceil(t - 1e-6)
+}

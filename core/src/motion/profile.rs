@@ -1,0 +1,119 @@
+//! The moves a user can ask for.
+
+use core::f64::consts::TAU;
+
+use super::Peaks;
+use crate::Error;
+
+/// The shape of a rest-to-rest move over `s = t/T ∈ 0..1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Profile {
+    /// `3s² − 2s³`, the profile that explains the paper's runs. The acceleration jumps at both
+    /// ends.
+    Cubic,
+    /// `10s³ − 15s⁴ + 6s⁵`.
+    Quintic,
+    /// `s − sin(2πs)/2π`.
+    Cycloid,
+    /// Constant acceleration, rate, deceleration, a third of the time each. The acceleration
+    /// jumps four times.
+    Trapezoid,
+    /// Constant jerk in seven equal stretches: + 0 − 0 − 0 +.
+    SCurve,
+}
+
+impl Profile {
+    /// Every profile.
+    pub const ALL: [Self; 5] =
+        [Self::Cubic, Self::Quintic, Self::Cycloid, Self::Trapezoid, Self::SCurve];
+
+    /// Name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cubic => "cubic",
+            Self::Quintic => "quintic",
+            Self::Cycloid => "cycloid",
+            Self::Trapezoid => "trapezoid",
+            Self::SCurve => "s-curve",
+        }
+    }
+
+    /// The profile of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|profile| profile.name() == name)
+    }
+
+    /// Peaks of a turn by `angle` rad in `duration` s.
+    ///
+    /// Cubic 1.5, 6; quintic 1.875, 10/√3, 60; cycloid 2, 2π, 4π²; trapezoid 1.5, 4.5;
+    /// S-curve 1.75, 6.125, 42.875: times angle over T, T², T³.
+    pub fn peaks(self, angle: f64, duration: f64) -> Peaks {
+        let (rate, acceleration, jerk) = match self {
+            Self::Cubic => (1.5, 6.0, f64::INFINITY),
+            Self::Quintic => (1.875, 5.773_502_691_896_258, 60.0),
+            Self::Cycloid => (2.0, TAU, TAU * TAU),
+            Self::Trapezoid => (1.5, 4.5, f64::INFINITY),
+            Self::SCurve => (1.75, 6.125, 42.875),
+        };
+        let scale = angle.abs() / duration;
+        Peaks {
+            rate: rate * scale,
+            acceleration: acceleration * scale / duration,
+            // A move of zero length has no jumps.
+            jerk: if angle == 0.0 { 0.0 } else { jerk * scale / (duration * duration) },
+        }
+    }
+}
+
+/// One entry of the queue of moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Move {
+    /// Rest to rest.
+    To {
+        /// The motion's shape.
+        profile: Profile,
+        /// T, s; rounded to the nearest whole tick.
+        duration: f64,
+        /// Angle at the end, rad, counted from the same zero as the hub's.
+        to: f64,
+    },
+    /// Smooth change of the rate, from what it is to `rate`, after Simo and Vu-Quoc:
+    /// `θ̈ = (Δω/T)(1 − cos 2πs)`. The hub keeps turning after it.
+    SpinUp {
+        /// T, s; rounded to the nearest whole tick.
+        duration: f64,
+        /// Rate at the end, rad/s; 0 brings a turning hub to rest.
+        rate: f64,
+    },
+    /// The hub keeps its rate: zero after every move but a spin-up.
+    Dwell {
+        /// T, s; rounded to the nearest whole tick.
+        duration: f64,
+    },
+}
+
+impl Move {
+    /// T, s, as asked for.
+    pub fn duration(&self) -> f64 {
+        match *self {
+            Self::To { duration, .. }
+            | Self::SpinUp { duration, .. }
+            | Self::Dwell { duration } => duration,
+        }
+    }
+
+    /// Whole ticks nearest to the duration; at least one.
+    pub fn ticks(&self, tick: f64) -> Result<u32, Error> {
+        let duration = Error::check(
+            "move.duration",
+            self.duration(),
+            0.5 * tick,
+            tick * f64::from(MAX_TICKS),
+            "s",
+        )?;
+        Ok((libm::round(duration / tick) as u32).max(1))
+    }
+}
+
+/// Longest move: tick counts up to here are exact in an f32.
+const MAX_TICKS: u32 = 1 << 24;

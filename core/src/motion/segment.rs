@@ -1,0 +1,240 @@
+//! A piece of the commanded motion in the form that the tick evaluates.
+
+use core::f64::consts::TAU;
+
+use super::Angle;
+use crate::math::Scalar;
+
+/// The hub at one instant. Rate and acceleration in rad/s and rad/s²; where the acceleration
+/// jumps it is the right-hand value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hub<T> {
+    /// θ.
+    pub angle: Angle<T>,
+    /// sin θ.
+    pub sin: T,
+    /// cos θ.
+    pub cos: T,
+    /// θ̇, rad/s.
+    pub rate: T,
+    /// θ̈, rad/s².
+    pub acceleration: T,
+}
+
+/// A stretch of the motion with one formula, `s = 0..1` over its length.
+///
+/// The first tick that belongs to a segment may lie a fraction of a tick after its beginning: the
+/// thirds of a trapezoid need not be whole ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment<T> {
+    start: Angle<T>,
+    /// Ticks that belong to the segment.
+    count: u32,
+    /// `s` at the first of them.
+    offset: T,
+    /// `s` a tick.
+    advance: T,
+    /// `2π / D`, turns per `s` to rad/s, `D` the length in seconds.
+    rate_scale: T,
+    /// `2π / D²`.
+    acceleration_scale: T,
+    /// θ̈ at `s = 1`, from the left.
+    landing: T,
+    shape: Shape<T>,
+}
+
+/// Turns from the segment's start, as a function of `s`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shape<T> {
+    /// `c₁s + c₂s² + c₃s³`.
+    Cubic([T; 3]),
+    /// `c₁s + … + c₅s⁵`.
+    Quintic([T; 5]),
+    /// `c₁s + c₂s² + a sin 2πs + b (cos 2πs − 1)`.
+    Harmonic { c: [T; 2], a: T, b: T },
+    /// Constant rate (rad/s). `step / 2⁶⁴` turns a tick, multiplied out in integers: after 10⁹
+    /// ticks the angle is within 3e-11 turn.
+    Cruise { rate: T, step: i64 },
+}
+
+/// `(Δ, dΔ/ds, d²Δ/ds²)` of a shape in turns.
+type Derivatives<T> = (T, T, T);
+
+impl<T: Scalar> Segment<T> {
+    /// The hub at the segment's tick `k`, `k < count`.
+    #[inline(always)]
+    pub fn hub(&self, k: u32) -> Hub<T> {
+        let (angle, rate, acceleration) = match self.shape {
+            Shape::Cruise { rate, step } => (self.start.cruise(step, k), rate, T::ZERO),
+            _ => {
+                let s = self.offset + T::from_u32(k) * self.advance;
+                let (delta, first, second) = self.derivatives(s);
+                (self.start.plus(delta), first * self.rate_scale, second * self.acceleration_scale)
+            }
+        };
+        let (sin, cos) = angle.sin_cos();
+        Hub { angle, sin, cos, rate, acceleration }
+    }
+
+    #[inline(always)]
+    fn derivatives(&self, s: T) -> Derivatives<T> {
+        match self.shape {
+            Shape::Cubic([c1, c2, c3]) => {
+                let (c2_2, c3_3) = (T::TWO * c2, (T::TWO + T::ONE) * c3);
+                (((c3 * s + c2) * s + c1) * s, (c3_3 * s + c2_2) * s + c1, T::TWO * c3_3 * s + c2_2)
+            }
+            Shape::Quintic([c1, c2, c3, c4, c5]) => {
+                let three = T::TWO + T::ONE;
+                let (d2, d3) = (T::TWO * c2, three * c3);
+                let (d4, d5) = ((three + T::ONE) * c4, (three + T::TWO) * c5);
+                (
+                    ((((c5 * s + c4) * s + c3) * s + c2) * s + c1) * s,
+                    (((d5 * s + d4) * s + d3) * s + d2) * s + c1,
+                    (((three + T::ONE) * d5 * s + three * d4) * s + T::TWO * d3) * s + d2,
+                )
+            }
+            Shape::Harmonic { c: [c1, c2], a, b } => {
+                let (sin, cos) = s.sin_cos_turns();
+                let tau = T::from_f64(TAU);
+                let c2_2 = T::TWO * c2;
+                (
+                    (c2 * s + c1) * s + a * sin + b * (cos - T::ONE),
+                    c2_2 * s + c1 + tau * (a * cos - b * sin),
+                    c2_2 - tau * tau * (a * sin + b * cos),
+                )
+            }
+            Shape::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
+        }
+    }
+
+    /// Ticks that belong to the segment.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Angle at the segment's beginning.
+    pub fn start(&self) -> Angle<T> {
+        self.start
+    }
+
+    /// θ̈ at the segment's end, from the left.
+    pub(crate) fn landing(&self) -> T {
+        self.landing
+    }
+
+    /// The same segment, ending `count` ticks after its beginning.
+    pub(crate) fn cut(self, count: u32) -> Self {
+        Self { count, ..self }
+    }
+
+    /// The same segment, beginning at another angle.
+    pub(crate) fn moved(self, start: Angle<T>) -> Self {
+        Self { start, ..self }
+    }
+}
+
+impl<T: Scalar> Angle<T> {
+    /// The angle `k` steps of `step / 2⁶⁴` turns on, rounded once.
+    #[inline(always)]
+    fn cruise(self, step: i64, k: u32) -> Self {
+        // step × k, at most 96 bits, as whole turns and a 64-bit fraction.
+        let low = (step as u32 as u64) * u64::from(k);
+        let high = (step >> 32) * i64::from(k) + (low >> 32) as i64;
+        let fraction = (high << 32) | (low & 0xffff_ffff) as i64;
+        // A fraction of ½ and more reads as negative: one turn on.
+        let whole = (high >> 32) as i32 + i32::from(fraction < 0);
+        let turned = self.plus(T::from_fraction(fraction));
+        Self { turns: turned.turns.wrapping_add(whole), part: turned.part }
+    }
+}
+
+impl Segment<f64> {
+    /// A segment of `length` ticks (not whole in general) that begins `before` ticks, 0 to 1,
+    /// before the first tick that belongs to it.
+    pub(crate) fn new(
+        start: Angle<f64>,
+        shape: Shape<f64>,
+        length: f64,
+        before: f64,
+        count: u32,
+        tick: f64,
+    ) -> Self {
+        let duration = length * tick;
+        let mut segment = Self {
+            start,
+            count,
+            offset: before / length,
+            advance: 1.0 / length,
+            rate_scale: TAU / duration,
+            acceleration_scale: TAU / (duration * duration),
+            landing: 0.0,
+            shape,
+        };
+        segment.landing = segment.derivatives(1.0).2 * segment.acceleration_scale;
+        segment
+    }
+
+    /// Constant `rate` (rad/s) for `count` ticks.
+    pub(crate) fn cruise(start: Angle<f64>, rate: f64, count: u32, tick: f64) -> Self {
+        // At most ½ turn a tick by the rate check of `Plan`, so the product fits an i64.
+        let step = libm::round(rate * tick / TAU * 18_446_744_073_709_551_616.0) as i64;
+        Self {
+            start,
+            count,
+            offset: 0.0,
+            advance: 0.0,
+            rate_scale: 0.0,
+            acceleration_scale: 0.0,
+            landing: 0.0,
+            shape: Shape::Cruise { rate, step },
+        }
+    }
+
+    /// The hub any real number of ticks after the segment's first, for solvers that choose their
+    /// own steps. May be negative down to the segment's true beginning.
+    pub fn hub_at(&self, ticks: f64) -> Hub<f64> {
+        let (angle, rate, acceleration) = match self.shape {
+            Shape::Cruise { rate, step } => {
+                let turns = step as f64 / 18_446_744_073_709_551_616.0 * ticks;
+                (self.start.plus(turns), rate, 0.0)
+            }
+            _ => {
+                let s = self.offset + ticks * self.advance;
+                let (delta, first, second) = self.derivatives(s);
+                (self.start.plus(delta), first * self.rate_scale, second * self.acceleration_scale)
+            }
+        };
+        let (sin, cos) = angle.sin_cos();
+        Hub { angle, sin, cos, rate, acceleration }
+    }
+
+    /// The angle at `s = 1`.
+    pub(crate) fn end(&self) -> Angle<f64> {
+        self.start.plus(self.derivatives(1.0).0)
+    }
+
+    /// Ticks from the segment's true beginning to its first tick, 0 to 1.
+    pub fn ticks_before(&self) -> f64 {
+        if self.advance == 0.0 { 0.0 } else { self.offset / self.advance }
+    }
+
+    /// Rounds to the scalar of the tick.
+    pub fn cast<T: Scalar>(&self) -> Segment<T> {
+        let f = T::from_f64;
+        Segment {
+            start: self.start.cast(),
+            count: self.count,
+            offset: f(self.offset),
+            advance: f(self.advance),
+            rate_scale: f(self.rate_scale),
+            acceleration_scale: f(self.acceleration_scale),
+            landing: f(self.landing),
+            shape: match self.shape {
+                Shape::Cubic(c) => Shape::Cubic(c.map(f)),
+                Shape::Quintic(c) => Shape::Quintic(c.map(f)),
+                Shape::Harmonic { c, a, b } => Shape::Harmonic { c: c.map(f), a: f(a), b: f(b) },
+                Shape::Cruise { rate, step } => Shape::Cruise { rate: f(rate), step },
+            },
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! The arm as its user describes it: SI units, validated. Every number a user can get wrong in an
+//! arm is checked here, before any matrix is built.
+
+use crate::Error;
+use crate::material::{Material, Strip};
+
+/// An arm: a strip clamped to a motor hub, with a payload at its tip.
+///
+/// The hub frame turns with the hub angle θ; its x axis lies along the undeformed link, the clamp
+/// at `(hub.radius, 0)`. Gravity acts along global −Y.
+///
+/// Fields are public so that a scene reads like its file; [`Scene::validate`] is called wherever a
+/// model is built from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scene {
+    /// The flexible link.
+    pub link: Link,
+    /// The rigid hub.
+    pub hub: Hub,
+    /// The mass at the tip.
+    pub payload: Payload,
+    /// Rayleigh damping.
+    pub damping: Damping,
+    /// Gravity along global −Y, m/s²; 0 is a horizontal plane.
+    pub gravity: f64,
+}
+
+/// A uniform link: cubic Bernoulli-Euler bending in the plane of motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// `L`, clamp to tip, m.
+    pub length: f64,
+    /// `m`, whole link, kg.
+    pub mass: f64,
+    /// `EI`, N m².
+    pub bending_stiffness: f64,
+}
+
+/// The motor hub.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Hub {
+    /// `r`, motor axis to clamp, rigid, m.
+    pub radius: f64,
+    /// `J_h` about the axis, kg m².
+    pub inertia: f64,
+}
+
+/// The payload at the tip.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Payload {
+    /// `m_p`, kg.
+    pub mass: f64,
+    /// `J_p` about the tip, kg m².
+    pub inertia: f64,
+}
+
+/// Rayleigh damping `C = αM + βK`: α on absolute velocity, β on the deformation rate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Damping {
+    /// α, 1/s.
+    pub alpha: f64,
+    /// β, s.
+    pub beta: f64,
+}
+
+impl Link {
+    /// Stiffness from Young's modulus `E` (Pa) and second moment of area `I` (m⁴): `EI = E · I`.
+    pub fn from_section(
+        length: f64,
+        mass: f64,
+        youngs_modulus: f64,
+        second_moment: f64,
+    ) -> Result<Self, Error> {
+        let e = Error::check("link.youngs_modulus", youngs_modulus, 1e3, 1e13, "Pa")?;
+        let i = Error::check("link.second_moment", second_moment, 1e-20, 1.0, "m^4")?;
+        Self { length, mass, bending_stiffness: e * i }.validate()
+    }
+
+    /// A strip of a tabulated material, bending about its thickness: `EI = E w t³/12`,
+    /// `m = ρ w t L`.
+    pub fn from_material(length: f64, material: &Material, strip: Strip) -> Result<Self, Error> {
+        let strip = strip.validate()?;
+        Self {
+            length,
+            mass: material.density * strip.area() * length,
+            bending_stiffness: material.youngs_modulus * strip.second_moment(),
+        }
+        .validate()
+    }
+
+    fn validate(self) -> Result<Self, Error> {
+        Error::check("link.length", self.length, 1e-3, 1e3, "m")?;
+        Error::check("link.mass", self.mass, 1e-7, 1e5, "kg")?;
+        Error::check("link.bending_stiffness", self.bending_stiffness, 1e-9, 1e12, "N m^2")?;
+        Ok(self)
+    }
+}
+
+impl Scene {
+    /// A bare link in the horizontal plane, clamped at the axis, undamped.
+    pub const fn new(link: Link) -> Self {
+        Self {
+            link,
+            hub: Hub { radius: 0.0, inertia: 0.0 },
+            payload: Payload { mass: 0.0, inertia: 0.0 },
+            damping: Damping { alpha: 0.0, beta: 0.0 },
+            gravity: 0.0,
+        }
+    }
+
+    /// The scene itself if every field is finite and in range, else the first that is not.
+    pub fn validate(self) -> Result<Self, Error> {
+        self.link.validate()?;
+        Error::check("hub.radius", self.hub.radius, 0.0, 1e3, "m")?;
+        Error::check("hub.inertia", self.hub.inertia, 0.0, 1e6, "kg m^2")?;
+        Error::check("payload.mass", self.payload.mass, 0.0, 1e5, "kg")?;
+        Error::check("payload.inertia", self.payload.inertia, 0.0, 1e6, "kg m^2")?;
+        Error::check("damping.alpha", self.damping.alpha, 0.0, 1e3, "1/s")?;
+        Error::check("damping.beta", self.damping.beta, 0.0, 1.0, "s")?;
+        Error::check("gravity.acceleration", self.gravity, 0.0, 1e3, "m/s^2")?;
+        Ok(self)
+    }
+
+    /// `ρA = m/L`, mass per length, kg/m.
+    pub fn mass_per_length(&self) -> f64 {
+        self.link.mass / self.link.length
+    }
+
+    /// `r + L`, axis to tip of the undeformed arm, m.
+    pub fn reach(&self) -> f64 {
+        self.hub.radius + self.link.length
+    }
+
+    /// `J_r = ∫ρA(r+x)² dx + m_p(r+L)² + J_p`: inertia of the undeformed link and payload about
+    /// the axis, kg m².
+    pub fn rigid_inertia(&self) -> f64 {
+        let (r, l, reach) = (self.hub.radius, self.link.length, self.reach());
+        self.link.mass * (r * r + r * l + l * l / 3.0)
+            + self.payload.mass * reach * reach
+            + self.payload.inertia
+    }
+
+    /// `S = ∫ρA(r+x) dx + m_p(r+L)`: first moment of mass about the axis, kg m.
+    pub fn first_moment(&self) -> f64 {
+        self.link.mass * (self.hub.radius + 0.5 * self.link.length)
+            + self.payload.mass * self.reach()
+    }
+}

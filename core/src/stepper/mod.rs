@@ -1,0 +1,51 @@
+//! What advances the arm by one tick. A stepper is immutable once built: factors and constants for
+//! one tick length. Its state is separate and small, so that a restart is a new state and two runs
+//! can share one stepper.
+
+mod newmark;
+mod rigid;
+
+pub use newmark::{Newmark, Vibration};
+pub use rigid::Rigid;
+
+use crate::Error;
+use crate::math::Scalar;
+use crate::motion::Hub;
+
+/// The arm's answer at one instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response<T> {
+    /// Torque that the motor must put into the hub, N m.
+    pub torque: T,
+    /// The tip in the hub frame `(X, Y)`, m; Y is the deflection.
+    pub tip: [T; 2],
+}
+
+/// Advances an arm whose hub follows a commanded motion.
+///
+/// `step` and `response` are the tick path: no allocation, no panic, no `Result`, a fixed number of
+/// operations for a given stepper.
+pub trait Stepper {
+    /// The scalar of the tick.
+    type Scalar: Scalar;
+
+    /// What changes from tick to tick.
+    type State: Copy;
+
+    /// h, s.
+    fn tick(&self) -> f64;
+
+    /// Static equilibrium with the hub at rest at `hub.angle`. Set-up only.
+    fn equilibrium(&self, hub: &Hub<Self::Scalar>) -> Self::State;
+
+    /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
+    fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
+
+    /// Hub torque and tip for a state and the hub at the same instant.
+    fn response(&self, state: &Self::State, hub: &Hub<Self::Scalar>) -> Response<Self::Scalar>;
+}
+
+/// The tick length if it is one: 1 µs to 1 s.
+fn check_tick(tick: f64) -> Result<f64, Error> {
+    Error::check("solver.tick", tick, 1e-6, 1.0, "s")
+}

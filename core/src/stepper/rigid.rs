@@ -1,0 +1,55 @@
+//! The arm that does not bend.
+
+use super::{Response, Stepper};
+use crate::Error;
+use crate::math::Scalar;
+use crate::motion::Hub;
+use crate::scene::Scene;
+
+/// Rigid arm: `τ = (J_h + J_r)θ̈ + J_r αθ̇ + g cosθ S`, the tip at `(r + L, 0)`.
+#[derive(Clone, Copy, Debug)]
+pub struct Rigid<T> {
+    tick: f64,
+    inertia: T,
+    drag: T,
+    weight: T,
+    reach: T,
+}
+
+impl<T: Scalar> Rigid<T> {
+    /// `tick` in s.
+    pub fn new(scene: &Scene, tick: f64) -> Result<Self, Error> {
+        let scene = scene.validate()?;
+        let tick = super::check_tick(tick)?;
+        let inertia = scene.rigid_inertia();
+        Ok(Self {
+            tick,
+            inertia: T::from_f64(scene.hub.inertia + inertia),
+            drag: T::from_f64(scene.damping.alpha * inertia),
+            weight: T::from_f64(scene.gravity * scene.first_moment()),
+            reach: T::from_f64(scene.reach()),
+        })
+    }
+}
+
+impl<T: Scalar> Stepper for Rigid<T> {
+    type Scalar = T;
+    type State = ();
+
+    fn tick(&self) -> f64 {
+        self.tick
+    }
+
+    fn equilibrium(&self, _: &Hub<T>) {}
+
+    #[inline(always)]
+    fn step(&self, (): &mut (), _: &Hub<T>, _: &Hub<T>) {}
+
+    #[inline(always)]
+    fn response(&self, (): &(), hub: &Hub<T>) -> Response<T> {
+        Response {
+            torque: self.inertia * hub.acceleration + self.drag * hub.rate + self.weight * hub.cos,
+            tip: [self.reach, T::ZERO],
+        }
+    }
+}

@@ -1,0 +1,4 @@
+#![forbid(unsafe_code)]
+//! The desktop side of stillbeam.
+
+pub mod trajectory;

@@ -1,0 +1,98 @@
+//! The commanded motion of a whole scene, at any time: what the core plans, kept in f64 for
+//! solvers that choose their own steps.
+
+use stillbeam::motion::{Angle, Hub, Limits, Plan, Segment, Start};
+use stillbeam::{Error, Move};
+
+/// Which value to take where the commanded acceleration jumps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Just before.
+    Left,
+    /// Just after.
+    Right,
+}
+
+/// Moves end to end, from rest.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    pieces: Vec<Piece>,
+    plans: Vec<Plan>,
+    tick: f64,
+    ticks: u64,
+}
+
+/// One segment and the time it covers.
+#[derive(Clone, Debug)]
+struct Piece {
+    begin: f64,
+    end: f64,
+    /// Time of the segment's first whole tick.
+    first: f64,
+    segment: Segment<f64>,
+}
+
+impl Trajectory {
+    /// Plans the moves from rest at `from` rad. At least one move.
+    pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, Error> {
+        let mut start = Start { angle: Angle::from_radians(from), rate: 0.0 };
+        let mut trajectory = Self { pieces: Vec::new(), plans: Vec::new(), tick, ticks: 0 };
+        for motion in moves {
+            let plan = Plan::new(motion, start, limits, tick)?;
+            let mut k = trajectory.ticks;
+            for segment in &plan.segments {
+                let first = k as f64 * tick;
+                let begin = first - segment.ticks_before() * tick;
+                if let Some(last) = trajectory.pieces.last_mut() {
+                    last.end = begin;
+                }
+                k += u64::from(segment.count());
+                let end = k as f64 * tick;
+                trajectory.pieces.push(Piece { begin, end, first, segment: *segment });
+            }
+            trajectory.ticks = k;
+            start = plan.end;
+            trajectory.plans.push(plan);
+        }
+        Ok(trajectory)
+    }
+
+    /// The hub at time `t` s; before the beginning and after the end, the nearest of the two.
+    pub fn at(&self, t: f64, side: Side) -> Hub<f64> {
+        // Times within a nanotick of a border belong to it.
+        let eps = 1e-9 * self.tick;
+        let after = match side {
+            Side::Left => self.pieces.partition_point(|piece| piece.begin < t - eps),
+            Side::Right => self.pieces.partition_point(|piece| piece.begin <= t + eps),
+        };
+        let piece = &self.pieces[after.saturating_sub(1)];
+        let t = t.clamp(piece.begin, piece.end);
+        piece.segment.hub_at((t - piece.first) / self.tick)
+    }
+
+    /// Times strictly inside the run at which the motion's formula changes; its acceleration or a
+    /// higher derivative may jump there. An integrator restarts at each.
+    pub fn breaks(&self) -> Vec<f64> {
+        self.pieces.iter().skip(1).map(|piece| piece.begin).collect()
+    }
+
+    /// Ticks of the whole run.
+    pub fn ticks(&self) -> u64 {
+        self.ticks
+    }
+
+    /// h, s.
+    pub fn tick(&self) -> f64 {
+        self.tick
+    }
+
+    /// Length of the whole run, s.
+    pub fn duration(&self) -> f64 {
+        self.ticks as f64 * self.tick
+    }
+
+    /// The plans of the moves, in order.
+    pub fn plans(&self) -> &[Plan] {
+        &self.plans
+    }
+}
