@@ -119,7 +119,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.landing = self.hub.acceleration;
         }
         if self.running {
-            self.stepper.step(&mut self.state, &before, &self.hub);
+            let arrival = Hub { acceleration: self.landing, ..self.hub };
+            self.stepper.step(&mut self.state, &before, &arrival);
         }
         self.running = true;
         self.setpoint()

@@ -5,9 +5,13 @@
 
 mod assembly;
 mod element;
+mod expansion;
 mod lumped;
 mod model;
 mod modes;
+mod rod;
 
+pub(crate) use expansion::{Even, Expansion, MAX_EVEN, MAX_ODD, Odd};
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
 pub use modes::Modes;
+pub use rod::{Kinetics, Rod};

@@ -5,10 +5,12 @@
 
 mod band;
 mod jacobi;
+mod propagator;
 mod scalar;
 
 pub use band::{Band, Ldl};
 pub(crate) use jacobi::generalized_eigen;
+pub(crate) use propagator::phi_functions;
 pub use scalar::Scalar;
 
 /// Square root, correctly rounded, the same bits everywhere. Set-up only.

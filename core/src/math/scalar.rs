@@ -31,6 +31,9 @@ pub trait Scalar:
     /// 2.
     const TWO: Self;
 
+    /// Distance from 1 to the next number.
+    const EPSILON: Self;
+
     /// Rounds to nearest, ties to even.
     fn from_f64(value: f64) -> Self;
 
@@ -68,6 +71,7 @@ macro_rules! scalar {
             const ONE: Self = 1.0;
             const HALF: Self = 0.5;
             const TWO: Self = 2.0;
+            const EPSILON: Self = <$t>::EPSILON;
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {

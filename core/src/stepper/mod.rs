@@ -2,9 +2,14 @@
 //! one tick length. Its state is separate and small, so that a restart is a new state and two runs
 //! can share one stepper.
 
+mod elastica;
+mod modal;
 mod newmark;
+mod oscillator;
 mod rigid;
 
+pub use elastica::{Elastica, ElasticaState, Quality};
+pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, Vibration};
 pub use rigid::Rigid;
 

@@ -1,0 +1,128 @@
+//! One mode, advanced exactly over a step: what the steppers in modal coordinates share.
+
+use crate::math::{Scalar, phi_functions};
+use crate::motion::Hub;
+
+/// `ȧ = p + nₐ`, `ṗ = −ω²a − (α + βω²)p − b u(t) + n_p`, with `u = θ̈ + αθ̇`.
+///
+/// `a` in m √kg, `p = ȧ` of the linear part. Exact for any step as long as `u` is a parabola and
+/// the remainder `n` a straight line within it; modes that the step cannot resolve included.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Oscillator<T> {
+    /// `exp(hA)`, its determinant rounded down to at most the true one, so that rounding never
+    /// feeds the mode energy.
+    exponential: [[T; 2]; 2],
+    /// Weights of `u` at the beginning, in the mean and at the end of the step.
+    drive: [[T; 3]; 2],
+    /// `hφ₁`, `hφ₂`: weights of `n` at the beginning, and of its change over the step.
+    constant: [[T; 2]; 2],
+    slope: [[T; 2]; 2],
+    /// `h(φ₂/2 + φ₃)`: corrects for the change of `n` having been extrapolated.
+    correction: [[T; 2]; 2],
+}
+
+/// What drives the modes within a step: a parabola with these values at the beginning and at the
+/// end, and this mean.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drive<T> {
+    pub begin: T,
+    pub mean: T,
+    pub end: T,
+}
+
+impl<T: Scalar> Drive<T> {
+    /// The parabola of `u = θ̈ + αθ̇` over a tick: its mean is what the rate gained, so that a jump
+    /// of the acceleration within the tick does its full work.
+    #[inline(always)]
+    pub(super) fn between(before: &Hub<T>, after: &Hub<T>, per_tick: T, alpha: T) -> Self {
+        let gained = (after.rate - before.rate) * per_tick;
+        Self {
+            begin: before.acceleration + alpha * before.rate,
+            mean: gained + alpha * (T::HALF * (before.rate + after.rate)),
+            end: after.acceleration + alpha * after.rate,
+        }
+    }
+
+    /// The same parabola over the first and over the second half of the tick.
+    #[inline(always)]
+    pub(super) fn halves(&self, quarter: T) -> [Self; 2] {
+        let ends = quarter * (self.begin + self.end);
+        let middle = (T::ONE + T::HALF) * self.mean - ends;
+        // The mean of a parabola's first half, from its ends and its own mean.
+        let first = self.mean + quarter * (self.begin - self.end);
+        let second = self.mean - quarter * (self.begin - self.end);
+        [
+            Self { begin: self.begin, mean: first, end: middle },
+            Self { begin: middle, mean: second, end: self.end },
+        ]
+    }
+
+    /// As the weights of [`Oscillator`] take it.
+    #[inline(always)]
+    fn values(&self) -> [T; 3] {
+        [self.begin, self.mean, self.end]
+    }
+}
+
+impl<T: Scalar> Oscillator<T> {
+    /// For a step of `h` s; `omega` in rad/s, `alpha` in 1/s, `beta` in s, `b` the mode's coupling
+    /// to the hub.
+    pub(super) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
+        let stiffness = omega * omega;
+        let a = [[0.0, h], [-h * stiffness, -h * (alpha + beta * stiffness)]];
+        let [exponential, p1, p2, p3] = phi_functions(&a);
+        let cast = |matrix: [[f64; 2]; 2]| matrix.map(|row| row.map(T::from_f64));
+        Self {
+            exponential: contracting(exponential),
+            // u = u₀ + c₁s + c₂s², c₁ = 6ū − 4u₀ − 2u₁, c₂ = 3(u₀ + u₁ − 2ū), s = 0..1:
+            // the response is h(φ₁u₀ + φ₂c₁ + 2φ₃c₂) times the second column.
+            drive: core::array::from_fn(|r| {
+                let (f1, f2, f3) = (h * p1[r][1], h * p2[r][1], h * p3[r][1]);
+                [f1 - 4.0 * f2 + 6.0 * f3, 6.0 * f2 - 12.0 * f3, 6.0 * f3 - 2.0 * f2]
+                    .map(|weight| T::from_f64(-b * weight))
+            }),
+            constant: cast(p1.map(|row| row.map(|x| h * x))),
+            slope: cast(p2.map(|row| row.map(|x| h * x))),
+            correction: cast(core::array::from_fn(|i| {
+                core::array::from_fn(|j| h * (0.5 * p2[i][j] + p3[i][j]))
+            })),
+        }
+    }
+
+    /// The state after a step with `n` and its change as they are expected to go on.
+    #[inline(always)]
+    pub(super) fn predict(&self, y: [T; 2], drive: &Drive<T>, n: [T; 2], change: [T; 2]) -> [T; 2] {
+        let u = drive.values();
+        [0, 1].map(|r| {
+            self.exponential[r][0] * y[0]
+                + self.exponential[r][1] * y[1]
+                + (self.drive[r][0] * u[0] + self.drive[r][1] * u[1] + self.drive[r][2] * u[2])
+                + (self.constant[r][0] * n[0] + self.constant[r][1] * n[1])
+                + (self.slope[r][0] * change[0] + self.slope[r][1] * change[1])
+        })
+    }
+
+    /// What to add to the prediction once `n` at the end is known: `excess` is its change less the
+    /// expected one.
+    #[inline(always)]
+    pub(super) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
+        [0, 1].map(|r| y[r] + self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1])
+    }
+}
+
+/// Rounds the exponential so that the determinant of the rounded matrix does not exceed the true
+/// one. Rounded to nearest it may, and a mode would then grow: 3 % in 10⁶ ticks were seen in f32.
+fn contracting<T: Scalar>(exact: [[f64; 2]; 2]) -> [[T; 2]; 2] {
+    let determinant = |m: &[[f64; 2]; 2]| m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    let limit = determinant(&exact);
+    let mut shrink = 1.0;
+    loop {
+        let rounded = exact.map(|row| row.map(|x| T::from_f64(shrink * x)));
+        let as_f64 = rounded.map(|row| row.map(T::to_f64));
+        // In f64 the product of two f32 is exact, and the sum's rounding far below an f32's.
+        if determinant(&as_f64) <= limit {
+            return rounded;
+        }
+        shrink -= 0.125 * T::EPSILON.to_f64();
+    }
+}
