@@ -18,35 +18,37 @@ static BUILDING: Mutex<()> = Mutex::new(());
 /// # Errors
 /// What cargo said, or which target to install.
 pub fn build(bin: &str) -> Result<PathBuf, String> {
-    let _one = BUILDING.lock();
-    compile(bin, &[])
+    build_variant(bin, None)
 }
 
-/// Builds the minimal image of one method, by its name in the list of methods.
+/// Builds `bin` with one environment variable, on which the program's source depends.
 ///
 /// # Errors
 /// As [`build`].
-pub fn build_minimal(method: &str) -> Result<PathBuf, String> {
-    let _one = BUILDING.lock();
-    let built = compile("minimal", &[("STILLBEAM_METHOD", method)])?;
-    let kept = built.with_file_name(format!("minimal-{method}"));
-    fs::copy(&built, &kept).map_err(|error| format!("{}: {error}", kept.display()))?;
-    Ok(kept)
+pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, String> {
+    build_variant(bin, Some((variable, value)))
 }
 
-fn compile(bin: &str, variables: &[(&str, &str)]) -> Result<PathBuf, String> {
+fn build_variant(bin: &str, variable: Option<(&str, &str)>) -> Result<PathBuf, String> {
     require_target(TARGET)?;
+    let _one = BUILDING.lock();
     // A folder of its own: the cargo that runs the tests may hold the lock of the usual one.
     let folder = root().join("target/firmware");
-    let mut cargo = cargo();
-    cargo
+    run(cargo()
         .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", bin])
         .args(["--profile", "firmware", "--target", TARGET, "--target-dir"])
         .arg(&folder)
         .env_remove("STILLBEAM_METHOD")
-        .envs(variables.iter().copied());
-    run(&mut cargo)?;
-    Ok(folder.join(TARGET).join("firmware").join(bin))
+        .env_remove("STILLBEAM_FAULT")
+        .envs(variable))?;
+    // Variants share a file name: each is kept under one of its own.
+    let built = folder.join(TARGET).join("firmware").join(bin);
+    let name = variable.map_or(bin.to_owned(), |(_, value)| format!("{bin}-{value}"));
+    let kept = folder.join("images").join(name);
+    fs::create_dir_all(folder.join("images"))
+        .and_then(|()| fs::copy(&built, &kept))
+        .map_err(|error| format!("{}: {error}", kept.display()))?;
+    Ok(kept)
 }
 
 /// Cargo in the workspace's root, free of what the cargo that runs the tests has set: flags from

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use object::elf::{SHF_ALLOC, SHF_WRITE};
 use object::read::elf::ElfFile32;
-use object::{Object, ObjectSection, SectionFlags, SectionKind};
+use object::{Object, ObjectSection, ObjectSymbol, SectionFlags, SectionKind, SymbolKind};
 
 /// Bytes of flash and RAM.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,12 +21,9 @@ pub struct Footprint {
 /// # Errors
 /// The file is missing or not an image for the target.
 pub fn footprint(image: &Path) -> Result<Footprint, String> {
-    let name = image.display();
-    let bytes = fs::read(image).map_err(|error| format!("{name}: {error}"))?;
-    let elf: ElfFile32<'_> =
-        ElfFile32::parse(&*bytes).map_err(|error| format!("{name}: {error}"))?;
+    let bytes = read(image)?;
     let mut footprint = Footprint { flash: 0, ram: 0 };
-    for section in elf.sections() {
+    for section in parse(image, &bytes)?.sections() {
         let SectionFlags::Elf { sh_flags, .. } = section.flags() else { continue };
         if sh_flags.0 & SHF_ALLOC.0 == 0 {
             continue;
@@ -39,4 +36,23 @@ pub fn footprint(image: &Path) -> Result<Footprint, String> {
         }
     }
     Ok(footprint)
+}
+
+/// Names of the functions in an image, mangled.
+///
+/// # Errors
+/// As [`footprint`].
+pub fn functions(image: &Path) -> Result<Vec<String>, String> {
+    let bytes = read(image)?;
+    let elf = parse(image, &bytes)?;
+    let functions = elf.symbols().filter(|symbol| symbol.kind() == SymbolKind::Text);
+    Ok(functions.filter_map(|symbol| symbol.name().ok().map(str::to_owned)).collect())
+}
+
+fn read(image: &Path) -> Result<Vec<u8>, String> {
+    fs::read(image).map_err(|error| format!("{}: {error}", image.display()))
+}
+
+fn parse<'a>(image: &Path, bytes: &'a [u8]) -> Result<ElfFile32<'a>, String> {
+    ElfFile32::parse(bytes).map_err(|error| format!("{}: {error}", image.display()))
 }

@@ -5,7 +5,9 @@
 pub mod emulator;
 pub mod firmware;
 pub mod image;
+pub mod page;
 pub mod stream;
+pub mod table;
 
 use std::path::PathBuf;
 
