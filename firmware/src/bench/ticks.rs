@@ -33,11 +33,12 @@ const fn to(profile: Profile, duration: f64, to: f64) -> Move {
     Move::To { profile, duration, to }
 }
 
-/// The table's run: two cubics and a rest. Both cross quarters of a turn.
-const MOVES: [Move; 2] = [to(Profile::Cubic, 1.0, 3.0), to(Profile::Cubic, 0.7, -1.4)];
+/// The table's run: an S-curve, which is seven cubics, a cubic, and a rest. Both cross quarters of
+/// a turn.
+const MOVES: [Move; 2] = [to(Profile::SCurve, 1.0, 3.0), to(Profile::Cubic, 0.7, -1.4)];
 
 /// The other motions, which cost the same with every method: counted with the cheapest. A
-/// trapezoid and an S-curve are cubics.
+/// trapezoid is three cubics.
 const MOTIONS: [(&str, &[Move]); 3] = [
     ("quintic", &[to(Profile::Quintic, 1.0, 3.0), to(Profile::Quintic, 0.7, -1.4)]),
     ("cycloid", &[to(Profile::Cycloid, 1.0, 3.0), to(Profile::Cycloid, 0.7, -1.4)]),
@@ -83,7 +84,7 @@ impl<C: Counter, W: Write> Bench<'_, C, W> {
         let mut counts = [Extremes::NONE; PATHS.len()];
         for k in 0..=run.ticks + 50 {
             let (setpoint, count) = self.watch.count(|| tick(black_box(&mut arm)));
-            counts[run.path(k, setpoint.rate != 0.0)].take(count);
+            counts[run.path(k, setpoint.rate == 0.0)].take(count);
         }
         for (path, count) in PATHS.iter().zip(counts).filter(|(_, count)| *count != Extremes::NONE)
         {
@@ -111,10 +112,10 @@ fn tick<S: Stepper<Scalar = f32>>(arm: &mut Generator<S, 16>) -> Setpoint<f32> {
     arm.tick()
 }
 
-/// Words for the paths of a tick: inside a move; taking up the next segment of a move; taking up
-/// the hold after the last; holding at rest; holding a rate; the first tick, which takes up a
-/// segment and has nothing to step.
-const PATHS: [&str; 6] = ["", "next-segment", "landing", "at-rest", "cruise", "first"];
+/// Words for the paths of a tick: inside a move; taking up the next segment of a move, the hub
+/// turning or `still`; taking up the hold after the last, likewise; holding a rate; at rest.
+const PATHS: [&str; 7] =
+    ["", "next-segment", "next-segment still", "landing", "landing still", "cruise", "at-rest"];
 
 /// At which ticks a segment ends.
 #[derive(Default)]
@@ -134,12 +135,12 @@ impl Run {
     }
 
     /// Index in [`PATHS`] of tick `k`.
-    fn path(&self, k: u32, turning: bool) -> usize {
+    fn path(&self, k: u32, still: bool) -> usize {
+        let still = usize::from(still);
         match k {
-            0 => 5,
-            _ if k == self.ticks => 2,
-            _ if k > self.ticks => 3 + usize::from(turning),
-            _ if self.ends[..self.segments].contains(&k) => 1,
+            _ if k > self.ticks => 5 + still,
+            _ if k == self.ticks => 3 + still,
+            _ if k == 0 || self.ends[..self.segments].contains(&k) => 1 + still,
             _ => 0,
         }
     }
