@@ -57,8 +57,7 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// An arm at rest in static equilibrium at hub angle `from`, rad.
     pub fn new(stepper: S, from: f64) -> Result<Self, Error> {
-        let from = Error::check("move.from", from, -1e6, 1e6, "rad")?;
-        let end = Start { angle: Angle::from_radians(from), rate: 0.0 };
+        let end = Start::at_rest(from)?;
         let tail = hold(end, stepper.tick());
         // The hold before the first tick has no length: a move pushed now begins at t = 0.
         let current = tail.cut(0);

@@ -1,4 +1,18 @@
 #![forbid(unsafe_code)]
-//! The desktop side of stillbeam.
+//! The desktop side of stillbeam: the same core on scene files, and what judges it.
+//!
+//! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
+//! motion ([`trajectory`]), the core's run ([`run`], [`model_choice`]), its table ([`table`],
+//! [`output`]), and how far two tables are apart ([`compare`], [`statics`]).
 
+pub mod compare;
+pub mod error;
+pub mod model_choice;
+pub mod output;
+pub mod run;
+pub mod scene_file;
+pub mod scenes;
+pub mod solver;
+pub mod statics;
+pub mod table;
 pub mod trajectory;

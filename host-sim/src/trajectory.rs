@@ -1,7 +1,7 @@
 //! The commanded motion of a whole scene, at any time: what the core plans, kept in f64 for
 //! solvers that choose their own steps.
 
-use stillbeam::motion::{Angle, Hub, Limits, Plan, Segment, Start};
+use stillbeam::motion::{Hub, Limits, Plan, Segment, Start};
 use stillbeam::{Error, Move};
 
 /// Which value to take where the commanded acceleration jumps.
@@ -35,7 +35,7 @@ struct Piece {
 impl Trajectory {
     /// Plans the moves from rest at `from` rad. At least one move.
     pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, Error> {
-        let mut start = Start { angle: Angle::from_radians(from), rate: 0.0 };
+        let mut start = Start::at_rest(from)?;
         let mut trajectory = Self { pieces: Vec::new(), plans: Vec::new(), tick, ticks: 0 };
         for motion in moves {
             let plan = Plan::new(motion, start, limits, tick)?;

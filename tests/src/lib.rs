@@ -1,17 +1,57 @@
 #![forbid(unsafe_code)]
-//! Helpers of the tests that cross crates: building the firmware, running it in QEMU, comparing
-//! its stream, the instruction table.
+//! What the tests share: truth files and the scenes they belong to; building the firmware, running
+//! it in QEMU, comparing its stream, the table of instructions.
 
 pub mod emulator;
 pub mod firmware;
 pub mod image;
+pub mod instructions;
 pub mod page;
 pub mod stream;
-pub mod table;
 
 use std::path::PathBuf;
+
+use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::solver::{Mass, Method, Scalar, Solver};
+use stillbeam_sim::table::{self, Row};
+
+/// Scenes that have a truth file.
+pub const TRUTH_SCENES: [&str; 6] =
+    ["d-fast", "a-tip30", "b-tip30", "b-tip30-damped-hub", "s-gravity", "spin-up"];
 
 /// The workspace's root folder.
 pub fn root() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// A file of `tests/truth/`.
+pub fn truth_path(file: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("truth").join(file)
+}
+
+/// The scene and its truth.
+///
+/// # Panics
+/// If a committed file cannot be read.
+pub fn truth(name: &str) -> (SceneFile, Vec<Row>) {
+    let scene = SceneFile::read(&truth_path(&format!("{name}.toml"))).expect("committed scene");
+    let rows = table::read(&truth_path(&format!("{name}.csv"))).expect("committed truth");
+    (scene, rows)
+}
+
+/// Newmark with consistent mass.
+pub fn newmark(elements: usize, tick: f64, scalar: Scalar) -> Solver {
+    Solver { method: Method::Newmark, elements, mass: Mass::Consistent, tick, scalar, spin: true }
+}
+
+/// Asserts `|value − expected| ≤ tolerance` and says by how much it fails.
+///
+/// # Panics
+/// If it does not hold.
+#[track_caller]
+pub fn assert_near(what: &str, value: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (value - expected).abs() <= tolerance,
+        "{what}: {value} is not {expected} within {tolerance}"
+    );
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::table::{Bench, Count, Minimal};
+use crate::instructions::{Bench, Count, Minimal};
 
 /// The tables stand between these lines; what is around them is written by hand.
 const BEGIN: &str = "<!-- instructions: begin (written by `cargo run --release -p stillbeam-tests \

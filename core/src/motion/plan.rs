@@ -20,6 +20,14 @@ pub struct Start {
     pub rate: f64,
 }
 
+impl Start {
+    /// At rest at `from` rad.
+    pub fn at_rest(from: f64) -> Result<Self, Error> {
+        let from = Error::check("move.from", from, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+        Ok(Self { angle: Angle::from_radians(from), rate: 0.0 })
+    }
+}
+
 /// A move that was accepted: its segments and where it ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {

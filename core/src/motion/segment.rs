@@ -25,6 +25,9 @@ pub struct Hub<T> {
 ///
 /// The first tick that belongs to a segment may lie a fraction of a tick after its beginning: the
 /// thirds of a trapezoid need not be whole ticks.
+///
+/// Error in f32: angle 6e-7 of the segment's own turn (a cruise: 3e-8 turn, however long), rate and
+/// acceleration 1e-6 of their peaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment<T> {
     start: Angle<T>,

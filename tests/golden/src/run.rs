@@ -1,9 +1,12 @@
 //! Runs every scene with every method, the same way on host and target.
 
-use stillbeam::{Error, Generator, Move, Setpoint};
+use stillbeam::{Error, Generator, Setpoint};
 
 use crate::methods::{Method, Visitor, visit_all};
 use crate::scenes::{Run, SCENES};
+
+/// Segments of the longest scene, at least.
+const QUEUE: usize = 32;
 
 /// One scene with one method.
 #[derive(Clone, Copy, Debug)]
@@ -62,12 +65,11 @@ impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Visitor for Runner<'_, F> {
 
 fn one<M: Method>(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Result<(), Error> {
     let stepper = M::stepper(&run.scene, run.tick)?;
-    let mut arm = Generator::<_, 8>::new(stepper, run.from)?;
+    let mut arm = Generator::<_, QUEUE>::new(stepper, run.from)?;
     let mut ticks = 0;
     for motion in run.moves {
         ticks += arm.push(motion)?.ticks;
     }
-    ticks += Move::Dwell { duration: run.settle }.ticks(run.tick)?;
     for k in 0..=ticks {
         sink(k, &arm.tick());
     }

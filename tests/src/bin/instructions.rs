@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 use std::{env, fs};
 
-use stillbeam_tests::{page, root, table};
+use stillbeam_tests::{instructions, page, root};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -24,15 +24,15 @@ fn main() -> ExitCode {
 }
 
 fn write() -> Result<(), String> {
-    let bench = table::count()?;
+    let bench = instructions::count()?;
     let mut minimal = BTreeMap::new();
     for count in &bench.counts {
         if !minimal.contains_key(&count.id) {
-            minimal.insert(count.id.clone(), table::minimal(&count.id)?);
+            minimal.insert(count.id.clone(), instructions::minimal(&count.id)?);
         }
     }
     let path = root().join("docs/instructions.csv");
-    fs::write(&path, table::csv(&bench, &minimal)).map_err(|e| format!("{path:?}: {e}"))?;
+    fs::write(&path, instructions::csv(&bench, &minimal)).map_err(|e| format!("{path:?}: {e}"))?;
     let path = root().join("docs/instructions.md");
     let text = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
     let text = page::replace(&text, &page::tables(&bench, &minimal))?;
@@ -42,6 +42,6 @@ fn write() -> Result<(), String> {
 fn check() -> Result<(), String> {
     let path = root().join("docs/instructions.csv");
     let csv = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
-    let found = table::regressions(&table::count()?, &csv, 2)?;
+    let found = instructions::regressions(&instructions::count()?, &csv, 2)?;
     if found.is_empty() { Ok(()) } else { Err(found.join("\n")) }
 }

@@ -1,0 +1,63 @@
+//! `compare`: two runs of a scene.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stillbeam_sim::compare::{Comparison, compare};
+use stillbeam_sim::error::Error;
+use stillbeam_sim::{scenes, table};
+
+#[derive(clap::Args)]
+pub struct CompareArgs {
+    /// The run to judge
+    a: PathBuf,
+    /// The run to judge it by
+    b: PathBuf,
+    /// Scene file, or the name of an embedded scene, of both
+    #[arg(long)]
+    scene: String,
+    /// Exit with 1 where the largest tip error is above this fraction of L
+    #[arg(long, value_name = "FRACTION", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+}
+
+impl CompareArgs {
+    pub fn execute(self) -> Result<ExitCode, Error> {
+        if let Some(tolerance) = self.tolerance
+            && !(0.0..=10.0).contains(&tolerance)
+        {
+            return Err(Error::new(format_args!(
+                "--tolerance = {tolerance}: accepted is 0 to 10, a fraction of L"
+            )));
+        }
+        let scene = scenes::open(&self.scene)?;
+        let (a, b) = (table::read(&self.a)?, table::read(&self.b)?);
+        let result = compare(&a, &b, &scene)?;
+        print(&result);
+        let refused = self.tolerance.is_some_and(|tolerance| result.tip_max > tolerance);
+        if let (true, Some(tolerance)) = (refused, self.tolerance) {
+            println!("  above the tolerance of {tolerance} L");
+        }
+        Ok(if refused { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+    }
+}
+
+fn print(result: &Comparison) {
+    let mm = 1e3 * result.length;
+    println!("{} common times", result.common);
+    println!(
+        "  tip error, max   {:.6} L  {:.4} mm  at {:.3} s",
+        result.tip_max,
+        result.tip_max * mm,
+        result.tip_max_at
+    );
+    println!("  tip error, rms   {:.6} L  {:.4} mm", result.tip_rms, result.tip_rms * mm);
+    println!("  torque error     {:.3} % of the peak, away from jumps", 100.0 * result.torque);
+    if let Some((a, b)) = result.residual {
+        println!(
+            "  residual         {a:.6} L  {:.4} mm  against {b:.6} L  {:.4} mm",
+            a * mm,
+            b * mm
+        );
+    }
+}

@@ -1,0 +1,58 @@
+//! `run`: the core on a scene.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stillbeam_sim::compare::residual;
+use stillbeam_sim::error::Error;
+use stillbeam_sim::solver::SolverKeys;
+use stillbeam_sim::table::Row;
+use stillbeam_sim::{run, scenes, table};
+
+#[derive(clap::Args)]
+pub struct RunArgs {
+    /// Scene file, or the name of an embedded scene
+    scene: String,
+    /// Where the setpoints go
+    #[arg(long, value_name = "OUT.csv")]
+    csv: PathBuf,
+    #[command(flatten)]
+    solver: SolverKeys,
+    /// Leave out centrifugal stiffening and softening
+    #[arg(long)]
+    no_spin: bool,
+}
+
+impl RunArgs {
+    pub fn execute(self) -> Result<ExitCode, Error> {
+        let scene = scenes::open(&self.scene)?;
+        let typed = SolverKeys { spin: self.no_spin.then_some(false), ..self.solver };
+        let solver = typed.or(scene.solver).resolve()?;
+        for line in scene.roundings(solver.tick)? {
+            eprintln!("note: {line}");
+        }
+        let rows = run::run(&scene, &solver)?;
+        table::write(&self.csv, &rows)?;
+        let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
+        println!("{}: {}", scene.name, solver.describe());
+        println!("  {} setpoints to {}", rows.len(), self.csv.display());
+        println!("  peak torque      {:.4} N m", peak(|row| row.torque_nm.abs()));
+        println!(
+            "  peak deflection  {:.2} mm ({:.1} % of L)",
+            1e3 * peak(|row| row.deflection_m.abs()),
+            100.0 * peak(|row| row.deflection_m.abs()) / scene.arm.link.length
+        );
+        let bent = peak(|row| row.deflection_m.abs()) / scene.arm.link.length;
+        if bent > 0.3 {
+            println!("  note: small-deflection kinematics; beyond 30 % of L they are a guess");
+        }
+        if let Some(residual) = residual(&rows, &scene)? {
+            println!(
+                "  residual         {:.2} mm ({:.2} % of L) after the move",
+                1e3 * residual * scene.arm.link.length,
+                100.0 * residual
+            );
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}

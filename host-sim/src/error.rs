@@ -1,0 +1,45 @@
+//! What can go wrong on the command line, in one line each.
+
+use std::fmt;
+use std::path::Path;
+
+/// A request that cannot be carried out.
+///
+/// Displays as one line that names the field or file, its value and what is accepted. The command
+/// line exits with [`Error::EXIT_CODE`] and has written nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Error(String);
+
+impl Error {
+    /// Exit code for bad input.
+    pub const EXIT_CODE: u8 = 2;
+
+    /// An error with that text; line breaks become spaces.
+    pub fn new(text: impl fmt::Display) -> Self {
+        Self(text.to_string().split_whitespace().collect::<Vec<_>>().join(" "))
+    }
+
+    /// The same error, found in `place`: a file, or a move of the queue.
+    pub fn within(self, place: impl fmt::Display) -> Self {
+        Self::new(format_args!("{place}: {self}"))
+    }
+
+    /// A file that cannot be read or written.
+    pub fn file(path: &Path, cause: impl fmt::Display) -> Self {
+        Self::new(format_args!("{}: {cause}", path.display()))
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl From<stillbeam::Error> for Error {
+    fn from(error: stillbeam::Error) -> Self {
+        Self::new(error)
+    }
+}

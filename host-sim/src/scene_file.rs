@@ -1,0 +1,342 @@
+//! Scene files: TOML in SI units to a validated arm and its moves.
+
+use std::fmt::Display;
+use std::path::Path;
+
+use serde::Deserialize;
+use stillbeam::material::{MATERIALS, Material, Strip};
+use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Profile, Scene};
+
+use crate::error::Error;
+use crate::solver::SolverKeys;
+use crate::trajectory::Trajectory;
+
+/// A scene as read: the arm, what it shall do, and what the file says of the solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneFile {
+    /// Name of the embedded scene, or the file's path.
+    pub name: String,
+    /// The arm.
+    pub arm: Scene,
+    /// Hub angle at the beginning, rad.
+    pub from: f64,
+    /// What the hub does, each move with the time to settle after it.
+    pub moves: Vec<Step>,
+    /// Limits of the drive.
+    pub limits: Limits,
+    /// The `[solver]` table.
+    pub solver: SolverKeys,
+}
+
+/// One move and the rest after it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    /// The move.
+    pub motion: Move,
+    /// Time after it, s; 0 for none.
+    pub settle: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    link: LinkTable,
+    #[serde(default)]
+    hub: HubTable,
+    #[serde(default)]
+    payload: PayloadTable,
+    #[serde(default)]
+    damping: DampingTable,
+    #[serde(default)]
+    gravity: GravityTable,
+    #[serde(rename = "move")]
+    motion: Option<MoveTable>,
+    moves: Option<Vec<MoveTable>>,
+    #[serde(default)]
+    limits: LimitsTable,
+    #[serde(default)]
+    solver: SolverKeys,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LinkTable {
+    length: f64,
+    mass: Option<f64>,
+    bending_stiffness: Option<f64>,
+    youngs_modulus: Option<f64>,
+    second_moment: Option<f64>,
+    material: Option<String>,
+    width: Option<f64>,
+    thickness: Option<f64>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct HubTable {
+    radius: f64,
+    inertia: f64,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct PayloadTable {
+    mass: f64,
+    inertia: f64,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct DampingTable {
+    alpha: f64,
+    beta: f64,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct GravityTable {
+    acceleration: f64,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct LimitsTable {
+    rate: Option<f64>,
+    acceleration: Option<f64>,
+    jerk: Option<f64>,
+    torque: Option<f64>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MoveTable {
+    profile: String,
+    duration: f64,
+    from: Option<f64>,
+    to: Option<f64>,
+    rate: Option<f64>,
+    #[serde(default)]
+    settle: f64,
+}
+
+impl SceneFile {
+    /// Reads and validates a scene file.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(path).map_err(|cause| {
+            Error::file(path, format_args!("{cause}; accepted is a scene file or a scene's name"))
+        })?;
+        let place = path.display().to_string();
+        Self::parse(&place, &text).map_err(|error| error.within(&place))
+    }
+
+    /// Parses and validates the text of a scene file.
+    pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
+        let document =
+            toml::Deserializer::parse(text).map_err(|error| Error::new(error.message()))?;
+        let file: File = serde_path_to_error::deserialize(document).map_err(|error| {
+            let path = error.path().to_string();
+            let message = error.inner().message().to_owned();
+            if path == "." { Error::new(message) } else { Error::new(message).within(path) }
+        })?;
+        let gravity = file.gravity.acceleration;
+        let arm = Scene {
+            link: file.link.build()?,
+            hub: Hub { radius: file.hub.radius, inertia: file.hub.inertia },
+            payload: Payload { mass: file.payload.mass, inertia: file.payload.inertia },
+            damping: Damping { alpha: file.damping.alpha, beta: file.damping.beta },
+            gravity,
+        }
+        .validate()?;
+        let limits = Limits {
+            rate: file.limits.rate,
+            acceleration: file.limits.acceleration,
+            jerk: file.limits.jerk,
+            torque: file.limits.torque,
+        }
+        .validate()?;
+        let (tables, many) = match (file.motion, file.moves) {
+            (Some(one), None) => (vec![one], false),
+            (None, Some(many)) if !many.is_empty() => (many, true),
+            _ => {
+                return Err(Error::new("move: accepted is either [move] or one or more [[moves]]"));
+            }
+        };
+        let from = tables[0].from.unwrap_or(0.0);
+        let mut at = Some(from);
+        let mut moves = Vec::new();
+        for (index, table) in tables.iter().enumerate() {
+            let step = table.build(index, &mut at);
+            moves.push(if many { step.map_err(|e| e.within(place_of(index)))? } else { step? });
+        }
+        let scene = Self { name: name.to_owned(), arm, from, moves, limits, solver: file.solver };
+        scene.trajectory(file.solver.resolve()?.tick)?;
+        Ok(scene)
+    }
+
+    /// The commanded motion with every duration rounded to whole ticks.
+    pub fn trajectory(&self, tick: f64) -> Result<Trajectory, Error> {
+        Ok(Trajectory::plan(self.from, &self.motions(), &self.limits, tick)?)
+    }
+
+    /// The moves with their dwells, as the generator's queue takes them.
+    pub fn motions(&self) -> Vec<Move> {
+        let with_dwell = |step: &Step| {
+            let dwell = (step.settle > 0.0).then_some(Move::Dwell { duration: step.settle });
+            std::iter::once(step.motion).chain(dwell)
+        };
+        self.moves.iter().flat_map(with_dwell).collect()
+    }
+
+    /// What rounding to whole ticks changed, a line each.
+    pub fn roundings(&self, tick: f64) -> Result<Vec<String>, Error> {
+        let trajectory = self.trajectory(tick)?;
+        let motions = self.motions();
+        let report = motions.iter().zip(trajectory.plans()).filter_map(|(motion, plan)| {
+            let asked = motion.duration();
+            // Not worth a word: what a decimal fraction of a second lacks in binary.
+            (plan.rounded_by.abs() > 1e-9 * asked).then(|| {
+                let key = if matches!(motion, Move::Dwell { .. }) { "settle" } else { "duration" };
+                let rounded = f64::from(plan.ticks) * tick;
+                format!(
+                    "move.{key} = {asked} s is no multiple of the tick ({tick} s): rounded to \
+                     {} s",
+                    (rounded * 1e9).round() / 1e9
+                )
+            })
+        });
+        Ok(report.collect())
+    }
+}
+
+fn place_of(index: usize) -> String {
+    format!("moves[{index}]")
+}
+
+impl LinkTable {
+    fn build(&self) -> Result<Link, Error> {
+        let strip = match (self.width, self.thickness) {
+            (Some(width), Some(thickness)) => Some(Strip { width, thickness }.validate()?),
+            (None, None) => None,
+            (Some(width), None) => return Err(missing("link.thickness", "width", width)),
+            (None, Some(thickness)) => return Err(missing("link.width", "thickness", thickness)),
+        };
+        let material = self.material.as_deref().map(named_material).transpose()?;
+        let modulus = match (self.youngs_modulus, material) {
+            (Some(_), Some(material)) => {
+                return Err(clash("link.youngs_modulus", "material", material.name));
+            }
+            (modulus, material) => modulus.or(material.map(|m| m.youngs_modulus)),
+        };
+        let second_moment = match (self.second_moment, strip) {
+            (Some(_), Some(strip)) => {
+                return Err(clash("link.second_moment", "width", strip.width));
+            }
+            (moment, strip) => moment.or(strip.map(|s| s.second_moment())),
+        };
+        let mass = match (self.mass, material, strip) {
+            (Some(mass), ..) => mass,
+            (None, Some(material), Some(strip)) => material.density * strip.area() * self.length,
+            _ => {
+                return Err(Error::new(
+                    "link.mass: missing; accepted is a mass in kg, or material with width and \
+                     thickness",
+                ));
+            }
+        };
+        let stiffness = match (self.bending_stiffness, modulus, second_moment) {
+            (Some(_), Some(modulus), _) if material.is_none() => {
+                return Err(clash("link.bending_stiffness", "youngs_modulus", modulus));
+            }
+            (Some(stiffness), ..) => stiffness,
+            (None, Some(modulus), Some(second_moment)) => {
+                return Ok(Link::from_section(self.length, mass, modulus, second_moment)?);
+            }
+            _ => {
+                return Err(Error::new(
+                    "link.bending_stiffness: missing; accepted is EI in N m^2, or youngs_modulus \
+                     or material with second_moment or width and thickness",
+                ));
+            }
+        };
+        Ok(Link { length: self.length, mass, bending_stiffness: stiffness })
+    }
+}
+
+fn named_material(name: &str) -> Result<&'static Material, Error> {
+    Material::named(name).ok_or_else(|| {
+        let known = MATERIALS.map(|material| material.name).join(", ");
+        Error::new(format_args!("link.material = \"{name}\": accepted is {known}"))
+    })
+}
+
+fn missing(field: &str, other: &str, value: f64) -> Error {
+    Error::new(format_args!(
+        "{field}: missing beside {other} = {value}; accepted is both or neither"
+    ))
+}
+
+fn clash(field: &str, other: &str, value: impl Display) -> Error {
+    Error::new(format_args!("{field}: given beside {other} = {value}; accepted is one of the two"))
+}
+
+impl MoveTable {
+    /// `at` is the angle where the move before it ends, none behind a turning hub.
+    fn build(&self, index: usize, at: &mut Option<f64>) -> Result<Step, Error> {
+        if let (Some(from), true) = (self.from, index > 0)
+            && *at != Some(from)
+        {
+            let accepted = at.map_or("no from, behind a turning hub".to_owned(), |angle| {
+                format!("{angle}, where the move before ends, or no from")
+            });
+            return Err(Error::new(format_args!("from = {from}: accepted is {accepted}")));
+        }
+        if !(0.0..=1e6).contains(&self.settle) {
+            return Err(Error::new(format_args!(
+                "move.settle = {}: accepted is 0 to 1000000 s",
+                self.settle
+            )));
+        }
+        let duration = self.duration;
+        let refuse = |key: &str, value: Option<f64>| match value {
+            Some(value) => Err(Error::new(format_args!(
+                "move.{key} = {value}: accepted is none with profile \"{}\"",
+                self.profile
+            ))),
+            None => Ok(()),
+        };
+        let need = |key: &str, unit: &str, value: Option<f64>| {
+            value.ok_or_else(|| {
+                Error::new(format_args!(
+                    "move.{key}: missing; accepted is a number in {unit} with profile \"{}\"",
+                    self.profile
+                ))
+            })
+        };
+        let motion = match self.profile.as_str() {
+            "spin-up" => {
+                refuse("to", self.to)?;
+                let rate = need("rate", "rad/s", self.rate)?;
+                *at = None;
+                Move::SpinUp { duration, rate }
+            }
+            "dwell" => {
+                refuse("to", self.to)?;
+                refuse("rate", self.rate)?;
+                Move::Dwell { duration }
+            }
+            name => {
+                let profile = Profile::named(name).ok_or_else(|| {
+                    let known = Profile::ALL.map(Profile::name).join(", ");
+                    Error::new(format_args!(
+                        "move.profile = \"{name}\": accepted is {known}, spin-up, dwell"
+                    ))
+                })?;
+                refuse("rate", self.rate)?;
+                let to = need("to", "rad", self.to)?;
+                *at = Some(to);
+                Move::To { profile, duration, to }
+            }
+        };
+        Ok(Step { motion, settle: self.settle })
+    }
+}

@@ -1,0 +1,54 @@
+//! Scenes that come with the program, by name.
+
+use crate::error::Error;
+use crate::scene_file::SceneFile;
+
+macro_rules! embedded {
+    ($($name:literal: $about:literal,)*) => {
+        /// `(name, what it is, text of the file)`.
+        const EMBEDDED: &[(&str, &str, &str)] =
+            &[$(($name, $about, include_str!(concat!("../scenes/", $name, ".toml"))),)*];
+    };
+}
+
+embedded! {
+    "d-fast": "member D bare, \u{3c0} rad in 0.2 s: the paper's section 3, violent",
+    "a-tip30": "member A with 30 g, \u{3c0} rad in 2 s",
+    "b-tip30": "member B with 30 g, \u{3c0} rad in 2 s: arrives almost still",
+    "c-tip30": "member C with 30 g, \u{3c0} rad in 2 s",
+    "d-tip30": "member D with 30 g, \u{3c0} rad in 2 s",
+    "b-tip30-damped-hub": "member B with 30 g, damped, hub radius 40 mm",
+    "s-gravity": "1 m arm in a vertical plane, payload with inertia",
+    "spin-up": "10 m blade brought to 6 rad/s, after Simo and Vu-Quoc",
+    "pick-and-place": "a queue of moves: out, drop, back",
+}
+
+/// Name and description of every embedded scene.
+pub fn list() -> impl Iterator<Item = (&'static str, &'static str)> {
+    EMBEDDED.iter().map(|&(name, about, _)| (name, about))
+}
+
+/// The embedded scene of that name, if there is one.
+pub fn named(name: &str) -> Option<Result<SceneFile, Error>> {
+    EMBEDDED
+        .iter()
+        .find(|entry| entry.0 == name)
+        .map(|(name, _, text)| SceneFile::parse(name, text).map_err(|e| e.within(name)))
+}
+
+/// An embedded scene by name, or else a scene file by path.
+pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
+    named(name_or_path).unwrap_or_else(|| {
+        SceneFile::read(name_or_path.as_ref()).map_err(|error| {
+            let known = list().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+            if std::path::Path::new(name_or_path).exists() {
+                error
+            } else {
+                Error::new(format_args!(
+                    "scene = \"{name_or_path}\": no such file; accepted is a scene file or one of \
+                     {known}"
+                ))
+            }
+        })
+    })
+}

@@ -1,0 +1,111 @@
+//! The table of a run: one row a setpoint, the same columns for every solver.
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::output;
+
+/// One row of a run's CSV.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Time, s.
+    pub t_s: f64,
+    /// θ, rad, not wrapped.
+    pub hub_angle_rad: f64,
+    /// θ̇, rad/s.
+    pub hub_rate_rad_s: f64,
+    /// θ̈, rad/s²; the left-hand value at the end of a move, else the right-hand one.
+    pub hub_accel_rad_s2: f64,
+    /// Tip, global X, m.
+    pub tip_x_m: f64,
+    /// Tip, global Y, m.
+    pub tip_y_m: f64,
+    /// Tip, hub-frame Y, m.
+    pub deflection_m: f64,
+    /// Torque into the hub, N m; jumps with the acceleration.
+    pub torque_nm: f64,
+}
+
+impl Row {
+    /// Every number to the digits that are written: nine, the time twelve.
+    fn rounded(self) -> Self {
+        Self {
+            t_s: significant(self.t_s, 12),
+            hub_angle_rad: significant(self.hub_angle_rad, 9),
+            hub_rate_rad_s: significant(self.hub_rate_rad_s, 9),
+            hub_accel_rad_s2: significant(self.hub_accel_rad_s2, 9),
+            tip_x_m: significant(self.tip_x_m, 9),
+            tip_y_m: significant(self.tip_y_m, 9),
+            deflection_m: significant(self.deflection_m, 9),
+            torque_nm: significant(self.torque_nm, 9),
+        }
+    }
+}
+
+/// `x` to that many significant digits.
+fn significant(x: f64, digits: usize) -> f64 {
+    format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
+}
+
+/// Writes the table as CSV, whole or not at all.
+pub fn write(path: &Path, rows: &[Row]) -> Result<(), Error> {
+    output::write_whole(path, |file| {
+        let mut csv = csv::Writer::from_writer(file);
+        for row in rows {
+            csv.serialize(row.rounded()).map_err(std::io::Error::other)?;
+        }
+        csv.flush()
+    })
+}
+
+/// Reads a table; refuses other columns, numbers that are not finite and times that do not rise.
+pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
+    let mut csv = csv::Reader::from_path(path).map_err(|error| {
+        Error::file(path, format_args!("{error}; accepted is a CSV of run or reference"))
+    })?;
+    let mut rows: Vec<Row> = Vec::new();
+    for (index, row) in csv.deserialize().enumerate() {
+        let line = index + 2;
+        let row: Row = row.map_err(|error| Error::file(path, error))?;
+        let finite = [
+            row.t_s,
+            row.hub_angle_rad,
+            row.hub_rate_rad_s,
+            row.hub_accel_rad_s2,
+            row.tip_x_m,
+            row.tip_y_m,
+            row.deflection_m,
+            row.torque_nm,
+        ]
+        .iter()
+        .all(|value| value.is_finite());
+        if !finite {
+            return Err(Error::file(path, format_args!("line {line}: accepted is finite numbers")));
+        }
+        if rows.last().is_some_and(|last| last.t_s >= row.t_s) {
+            return Err(Error::file(
+                path,
+                format_args!("line {line}: t_s = {}: accepted is a rising time", row.t_s),
+            ));
+        }
+        rows.push(row);
+    }
+    if rows.is_empty() {
+        return Err(Error::file(path, "no rows; accepted is a CSV of run or reference"));
+    }
+    Ok(rows)
+}
+
+/// Columns of numbers under one header, for figures and studies.
+pub fn write_columns(path: &Path, header: &[&str], rows: &[Vec<f64>]) -> Result<(), Error> {
+    output::write_whole(path, |file| {
+        let mut csv = csv::Writer::from_writer(file);
+        csv.write_record(header)?;
+        for row in rows {
+            csv.write_record(row.iter().map(|&x| significant(x, 9).to_string()))?;
+        }
+        csv.flush()
+    })
+}

@@ -1,0 +1,12 @@
+//! The command line as a user meets it. Built as a test of `stillbeam-sim`, so that cargo builds
+//! the program first and says where it is.
+
+mod bad_input;
+mod commands;
+
+use assert_cmd::Command;
+
+/// The program.
+fn sim() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_stillbeam-sim"))
+}

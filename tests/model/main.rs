@@ -1,0 +1,5 @@
+//! The beam's matrices against closed forms.
+
+mod modes;
+mod statics;
+mod trigonometry;

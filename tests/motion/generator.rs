@@ -1,0 +1,145 @@
+use stillbeam::beam::OneElement;
+use stillbeam::stepper::{Newmark, Rigid};
+use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
+use stillbeam_tests::assert_near;
+
+type Arm = Generator<Newmark<f64, 2, 2>, 7>;
+
+fn scene() -> Scene {
+    let mut scene = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.05 });
+    scene.payload.mass = 0.03;
+    scene
+}
+
+fn arm(from: f64) -> Arm {
+    let model = OneElement::consistent(&scene()).expect("model");
+    Arm::new(Newmark::new(&model, 0.01).expect("stepper"), from).expect("generator")
+}
+
+fn to(profile: Profile, duration: f64, to: f64) -> Move {
+    Move::To { profile, duration, to }
+}
+
+#[test]
+fn the_first_tick_is_the_beginning_with_the_right_hand_acceleration() {
+    let mut arm = arm(0.5);
+    arm.push(&to(Profile::Cubic, 1.0, 1.5)).expect("move");
+    let first = arm.tick();
+    assert_near("angle", first.angle.radians(), 0.5, 1e-15);
+    assert_near("rate", first.rate, 0.0, 0.0);
+    assert_near("acceleration", first.acceleration, 6.0, 1e-12);
+    assert_near("deflection", first.deflection, 0.0, 0.0);
+}
+
+#[test]
+fn the_end_of_a_move_is_seen_from_both_sides() {
+    let mut arm = arm(0.0);
+    arm.push(&to(Profile::Cubic, 1.0, 1.0)).expect("move");
+    let last = (0..=100).map(|_| arm.tick()).last().expect("ticks");
+    let before = arm.setpoint_before();
+    assert_near("right", last.acceleration, 0.0, 0.0);
+    assert_near("left", before.acceleration, -6.0, 1e-9);
+    assert_near("angle", last.angle.radians(), 1.0, 1e-15);
+    assert_eq!(last.tip, before.tip);
+    // Only what moves with the hub at once feels the jump: here most of a light link's inertia.
+    assert!(before.torque < last.torque);
+    assert!(arm.is_holding());
+}
+
+#[test]
+fn an_idle_arm_holds_and_a_move_pushed_then_begins_at_the_next_tick() {
+    let mut arm = arm(0.2);
+    for _ in 0..10 {
+        assert_near("hold", arm.tick().angle.radians(), 0.2, 1e-15);
+    }
+    arm.push(&to(Profile::Quintic, 0.1, 0.4)).expect("move");
+    assert!(!arm.is_holding());
+    let ticks: Vec<_> = (0..=10).map(|_| arm.tick().angle.radians()).collect();
+    assert_near("begins", ticks[0], 0.2, 1e-15);
+    assert_near("middle", ticks[5], 0.3, 1e-12);
+    assert_near("ends", ticks[10], 0.4, 1e-15);
+}
+
+#[test]
+fn queued_moves_follow_without_a_gap() {
+    let mut arm = arm(0.0);
+    arm.push(&to(Profile::Cubic, 0.2, 1.0)).expect("move");
+    arm.push(&to(Profile::Trapezoid, 0.3, -0.5)).expect("move");
+    arm.push(&Move::Dwell { duration: 0.1 }).expect("move");
+    arm.push(&to(Profile::Cycloid, 0.2, 0.0)).expect("move");
+    let angles: Vec<_> = (0..=80).map(|_| arm.tick().angle.radians()).collect();
+    for (k, expected) in [(20, 1.0), (50, -0.5), (60, -0.5), (80, 0.0)] {
+        assert_near("border", angles[k], expected, 1e-12);
+    }
+}
+
+#[test]
+fn a_full_queue_refuses_the_whole_move_and_keeps_the_rest() {
+    let mut arm = arm(0.0);
+    arm.push(&to(Profile::Cubic, 0.1, 1.0)).expect("move");
+    let error = arm.push(&to(Profile::SCurve, 0.1, 2.0)).expect_err("seven do not fit");
+    assert_eq!(error, Error::QueueFull { needed: 7, free: 6 });
+    // The refused move has left no trace: the next one starts from the first one's end.
+    let plan = arm.push(&to(Profile::Cubic, 0.1, 1.0)).expect("fits");
+    assert_near("peak", plan.peaks.rate, 0.0, 0.0);
+}
+
+#[test]
+fn a_rest_to_rest_move_behind_a_turning_hub_is_refused_until_it_is_braked() {
+    let mut arm = arm(0.0);
+    arm.push(&Move::SpinUp { duration: 1.0, rate: 3.0 }).expect("spin-up");
+    let error = arm.push(&to(Profile::Cubic, 1.0, 0.0)).expect_err("turning");
+    assert_eq!(error, Error::NotAtRest { rate: 3.0 });
+    for _ in 0..400 {
+        arm.tick();
+    }
+    assert_near("cruise", arm.setpoint().rate, 3.0, 1e-15);
+    assert_near("angle", arm.setpoint().angle.radians(), 1.5 + 3.0 * 2.99, 1e-12);
+    // Pushed while cruising: begins where the hub will be at the next tick.
+    let plan = arm.push(&Move::SpinUp { duration: 1.0, rate: 0.0 }).expect("brake");
+    let next = arm.tick();
+    assert_near("begins", next.angle.radians(), 1.5 + 3.0 * 3.0, 1e-12);
+    for _ in 0..100 {
+        arm.tick();
+    }
+    assert_near("rest", arm.setpoint().rate, 0.0, 1e-12);
+    assert_near("end", arm.setpoint().angle.radians(), plan.end.angle.radians(), 1e-12);
+    arm.push(&to(Profile::Cubic, 2.0, 0.0)).expect("at rest again");
+}
+
+#[test]
+fn two_runs_share_nothing_but_the_stepper() {
+    let model = OneElement::consistent(&scene()).expect("model");
+    let stepper = Newmark::<f32, 2, 2>::new(&model, 0.01).expect("stepper");
+    let fresh = || Generator::<_, 4>::new(stepper, 0.0).expect("generator");
+    let (mut first, mut second) = (fresh(), fresh());
+    first.push(&to(Profile::Cubic, 0.5, 1.0)).expect("move");
+    second.push(&to(Profile::Cubic, 0.5, 1.0)).expect("move");
+    let a: Vec<_> = (0..100).map(|_| first.tick()).collect();
+    let b: Vec<_> = (0..100).map(|_| second.tick()).collect();
+    assert_eq!(a, b);
+}
+
+/// `τ = (J_h + J_r) θ̈ + J_r α θ̇ + g S cos θ`, by hand for a point mass on a light link.
+#[test]
+fn the_rigid_arm_needs_the_textbook_torque() {
+    let mut scene = Scene::new(Link { length: 1.0, mass: 1e-7, bending_stiffness: 1.0 });
+    scene.hub.radius = 0.5;
+    scene.hub.inertia = 0.25;
+    scene.payload.mass = 2.0;
+    scene.damping.alpha = 0.1;
+    scene.gravity = 10.0;
+    let rigid = Rigid::<f64>::new(&scene, 0.01).expect("stepper");
+    let mut arm = Generator::<_, 4>::new(rigid, 0.3).expect("generator");
+    arm.push(&to(Profile::Quintic, 1.0, 1.0)).expect("move");
+    for _ in 0..=100 {
+        let s = arm.tick();
+        let inertia = 2.0 * 2.25;
+        let torque = (0.25 + inertia) * s.acceleration
+            + 0.1 * inertia * s.rate
+            + 10.0 * 3.0 * s.angle.radians().cos();
+        assert_near("torque", s.torque, torque, 1e-5);
+        assert_near("tip", s.tip[0].hypot(s.tip[1]), 1.5, 1e-12);
+        assert_near("deflection", s.deflection, 0.0, 0.0);
+    }
+}

@@ -1,0 +1,4 @@
+//! The commanded motion, and the generator that follows it.
+
+mod generator;
+mod plan;

@@ -1,0 +1,7 @@
+//! Whole runs: against truth, against finer steps, against the law of energy, and on random arms.
+
+mod convergence;
+mod energy;
+mod properties;
+mod scene_files;
+mod truth;
