@@ -1,5 +1,13 @@
 #![forbid(unsafe_code)]
-//! What the tests share: truth files and the scenes they belong to.
+//! What the tests share: truth files and the scenes they belong to; building the firmware, running
+//! it in QEMU, comparing its stream, the table of instructions.
+
+pub mod emulator;
+pub mod firmware;
+pub mod image;
+pub mod instructions;
+pub mod page;
+pub mod stream;
 
 use std::path::PathBuf;
 
@@ -10,6 +18,11 @@ use stillbeam_sim::table::{self, Row};
 /// Scenes that have a truth file.
 pub const TRUTH_SCENES: [&str; 6] =
     ["d-fast", "a-tip30", "b-tip30", "b-tip30-damped-hub", "s-gravity", "spin-up"];
+
+/// The workspace's root folder.
+pub fn root() -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
 
 /// A file of `tests/truth/`.
 pub fn truth_path(file: &str) -> PathBuf {

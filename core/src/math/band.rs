@@ -57,7 +57,9 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
     pub fn times(&self, x: &[T; N]) -> [T; N] {
         let mut y = [T::ZERO; N];
         for i in 0..N {
-            y[i] += self.rows[i][0] * x[i];
+            // Rows above have only added to those above them: nothing is overwritten, and nothing
+            // is added to zero, which the compiler could not leave out.
+            y[i] = self.rows[i][0] * x[i];
             for d in 1..W {
                 if d <= i {
                     y[i] += self.rows[i][d] * x[i - d];
@@ -66,6 +68,29 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
             }
         }
         y
+    }
+
+    /// `s A`.
+    #[inline(always)]
+    pub fn scaled(&self, s: T) -> Self {
+        Self { rows: self.rows.map(|row| row.map(|entry| s * entry)) }
+    }
+
+    /// `½ xᵀA x`, at half the cost of the product.
+    #[inline(always)]
+    pub fn half_form(&self, x: &[T; N]) -> T {
+        let mut on = self.rows[0][0] * x[0] * x[0];
+        let mut off = T::ZERO;
+        for i in 1..N {
+            on += self.rows[i][0] * x[i] * x[i];
+            for d in 1..W {
+                if d <= i {
+                    let product = self.rows[i][d] * x[i - d] * x[i];
+                    off = if i == 1 { product } else { off + product };
+                }
+            }
+        }
+        if N == 1 { T::HALF * on } else { T::HALF * on + off }
     }
 
     /// `LDLᵀ` factors by symmetric elimination without pivoting, which a positive definite

@@ -21,8 +21,10 @@ pub(crate) fn sqrt(x: f64) -> f64 {
 /// `Σ aᵢ bᵢ`.
 #[inline(always)]
 pub(crate) fn dot<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
-    let mut sum = T::ZERO;
-    for i in 0..N {
+    const { assert!(N >= 1, "a vector has an element") }
+    // From the first product: adding it to zero is an instruction that the compiler must keep.
+    let mut sum = a[0] * b[0];
+    for i in 1..N {
         sum += a[i] * b[i];
     }
     sum

@@ -46,8 +46,10 @@ pub trait Scalar:
     /// Rounds to nearest, ties to even.
     fn from_u32(value: u32) -> Self;
 
-    /// Nearest whole number, halves away from zero, saturating; NaN gives 0.
-    fn nearest(self) -> i32;
+    /// The nearest whole number, halves to even, and what is left: `self = whole + rest` exactly.
+    ///
+    /// `|self| ≤ 2²²`. Outside of it, and for NaN, both are arbitrary.
+    fn split(self) -> (i32, Self);
 
     /// The signed binary fraction `value / 2⁶⁴`, in `−½ ..= ½`, to the scalar's precision.
     fn from_fraction(value: i64) -> Self;
@@ -65,7 +67,7 @@ pub trait Scalar:
 }
 
 macro_rules! scalar {
-    ($t:ty, $fraction:expr, $sin:expr, $cos:expr) => {
+    ($t:ty, $shift:expr, $fraction:expr, $sin:expr, $cos:expr) => {
         impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -94,9 +96,12 @@ macro_rules! scalar {
             }
 
             #[inline(always)]
-            fn nearest(self) -> i32 {
-                let half = if self < 0.0 { -0.5 } else { 0.5 };
-                (self + half) as i32
+            fn split(self) -> (i32, Self) {
+                // Added to 1.5 × 2^(mantissa bits), a number loses what is behind its point, and
+                // the lowest bits are the whole part: four instructions, no branch.
+                let shifted = self + $shift;
+                let whole = shifted.to_bits().wrapping_sub(<$t>::to_bits($shift)) as i32;
+                (whole, self - (shifted - $shift))
             }
 
             #[inline(always)]
@@ -106,8 +111,7 @@ macro_rules! scalar {
 
             #[inline(always)]
             fn sin_cos_turns(self) -> (Self, Self) {
-                let quarters = (4.0 * self).nearest();
-                let r = self - 0.25 * quarters as $t;
+                let (quarters, r) = (4.0 * self).split();
                 let z = r * r;
                 let s = r * horner(&$sin, z);
                 let c = 1.0 + z * horner(&$cos, z);
@@ -126,40 +130,73 @@ macro_rules! scalar {
 /// `Σ cₖ zᵏ`.
 #[inline(always)]
 fn horner<T: Scalar, const N: usize>(coefficients: &[T; N], z: T) -> T {
-    let mut sum = T::ZERO;
-    for i in (0..N).rev() {
+    let mut sum = coefficients[N - 1];
+    for i in (0..N - 1).rev() {
         sum = sum * z + coefficients[i];
     }
     sum
 }
 
+/// Coefficients per turn as coefficients per quarter turn, `cₖ / 4^(2k + first)`: exact.
+const fn quarter<const N: usize>(mut c: [f64; N], first: u32) -> [f64; N] {
+    let mut k = 0;
+    while k < N {
+        c[k] /= (1u64 << (2 * (2 * k as u32 + first))) as f64;
+        k += 1;
+    }
+    c
+}
+
+/// As [`quarter`], in `f32`.
+const fn quarter_f32<const N: usize>(c: [f32; N], first: u32) -> [f32; N] {
+    let mut scaled = c;
+    let mut k = 0;
+    while k < N {
+        scaled[k] /= (1u64 << (2 * (2 * k as u32 + first))) as f32;
+        k += 1;
+    }
+    scaled
+}
+
 // The upper half carries 32 bits, more than an f32 holds; one conversion instead of a soft one.
 scalar!(
     f32,
+    12_582_912.0,
     |value: i64| (value >> 32) as i32 as f32 * (1.0 / 4_294_967_296.0),
-    [core::f32::consts::TAU, -41.341_663, 81.592_54, -75.401_61],
-    [-19.739_208, 64.939_37, -85.448_82, 59.424_107]
+    const { quarter_f32([core::f32::consts::TAU, -41.341_663, 81.592_54, -75.401_61], 1) },
+    const { quarter_f32([-19.739_208, 64.939_37, -85.448_82, 59.424_107], 2) }
 );
 
 scalar!(
     f64,
+    6_755_399_441_055_744.0,
     |value: i64| value as f64 * (1.0 / 18_446_744_073_709_551_616.0),
-    [
-        core::f64::consts::TAU,
-        -41.341_702_240_399_636,
-        81.605_249_275_948_04,
-        -76.705_859_704_274_55,
-        42.058_685_020_160_894,
-        -15.093_804_209_987_114,
-        3.780_868_959_302_295_5
-    ],
-    [
-        -19.739_208_802_178_717,
-        64.939_394_022_668_24,
-        -85.456_817_206_643_8,
-        60.244_641_352_702_01,
-        -26.426_253_275_854_72,
-        7.903_206_911_569_678,
-        -1.699_034_394_066_063_6
-    ]
+    const {
+        quarter(
+            [
+                core::f64::consts::TAU,
+                -41.341_702_240_399_636,
+                81.605_249_275_948_04,
+                -76.705_859_704_274_55,
+                42.058_685_020_160_894,
+                -15.093_804_209_987_114,
+                3.780_868_959_302_295_5,
+            ],
+            1,
+        )
+    },
+    const {
+        quarter(
+            [
+                -19.739_208_802_178_717,
+                64.939_394_022_668_24,
+                -85.456_817_206_643_8,
+                60.244_641_352_702_01,
+                -26.426_253_275_854_72,
+                7.903_206_911_569_678,
+                -1.699_034_394_066_063_6,
+            ],
+            2,
+        )
+    }
 );

@@ -19,12 +19,11 @@ pub struct Angle<T> {
 }
 
 impl<T: Scalar> Angle<T> {
-    /// The angle that many turns from `self`. `|delta|` below 2³⁰ turns.
+    /// The angle that many turns from `self`. `|delta|` below 2²² turns.
     #[inline(always)]
     pub fn plus(self, delta: T) -> Self {
-        let sum = self.part + delta;
-        let whole = sum.nearest();
-        Self { turns: self.turns.wrapping_add(whole), part: sum - T::from_i32(whole) }
+        let (whole, part) = (self.part + delta).split();
+        Self { turns: self.turns.wrapping_add(whole), part }
     }
 
     /// Turns, as one number: exact to 2e-16 of itself.
@@ -45,7 +44,7 @@ impl<T: Scalar> Angle<T> {
 }
 
 impl Angle<f64> {
-    /// From radians; `|radians|` below 2³⁰ turns.
+    /// From radians; `|radians|` below 2²² turns.
     pub fn from_radians(radians: f64) -> Self {
         Self { turns: 0, part: 0.0 }.plus(radians / TAU)
     }

@@ -24,8 +24,9 @@ pub struct Newmark<T, const N: usize, const W: usize> {
     tick: f64,
     terms: Terms,
     half: T,
-    quarter: T,
-    /// `M + ½h(αM + βK) + ¼h²K`, and its factors for ticks on which nothing is added to it.
+    /// `4/h²`.
+    per_quarter: T,
+    /// `4/h² M + 2/h (αM + βK) + K`, and its factors for ticks on which nothing is added to it.
     effective: Band<T, N, W>,
     factors: Ldl<T, N, W>,
     stiffness: Band<T, N, W>,
@@ -35,23 +36,27 @@ pub struct Newmark<T, const N: usize, const W: usize> {
     tension: Band<T, N, W>,
     /// `S`.
     shortening: Band<T, N, W>,
-    /// `αM`.
-    drag: Band<T, N, W>,
+    /// `C = αM + βK`.
+    damping: Band<T, N, W>,
     alpha: T,
-    beta: T,
     /// `b = M⁻¹F`.
     turn: [T; N],
+    /// `βKb`.
+    turn_damping: [T; N],
     /// `F`.
     coupling: [T; N],
     /// `g f_g`.
     weight: [T; N],
     /// `g S`, S the first moment.
     moment: T,
-    hub_inertia: T,
-    /// `J_r − Fᵀb`: the part of the rigid inertia that `F` and `v̇` do not carry.
-    residual_inertia: T,
+    /// `J_h + J_r − Fᵀb`: `J_r − Fᵀb` is the part of the rigid inertia that `F` and `v̇` do not
+    /// carry.
+    inertia: T,
+    /// `α(J_r − Fᵀb)`.
+    drag: T,
     reach: T,
-    tip: usize,
+    /// The tip's deflection is the last degree of freedom, not the last but one.
+    tip_last: bool,
 }
 
 /// Terms that the scene needs; the others cost nothing but a branch that never changes.
@@ -59,8 +64,7 @@ pub struct Newmark<T, const N: usize, const W: usize> {
 struct Terms {
     spin: bool,
     gravity: bool,
-    alpha: bool,
-    beta: bool,
+    damping: bool,
 }
 
 /// The arm's state.
@@ -80,41 +84,39 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         let tick = super::check_tick(tick)?;
         let scene = model.scene();
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
-        let (half, quarter) = (0.5 * tick, 0.25 * tick * tick);
-        let effective = model
-            .mass()
-            .map(|m| (1.0 + half * alpha) * m)
-            .plus(half * beta + quarter, model.stiffness());
+        let (half, per_quarter) = (0.5 * tick, 4.0 / (tick * tick));
+        let damping = model.mass().scaled(alpha).plus(beta, model.stiffness());
+        let effective =
+            model.stiffness().plus(1.0 / half, &damping).plus(per_quarter, model.mass());
         let turn = model.mass().factor().solve(model.coupling());
-        let carried = dot(model.coupling(), &turn);
+        let residual = scene.rigid_inertia() - dot(model.coupling(), &turn);
         let band = |a: &Band<f64, N, W>| a.map(T::from_f64);
         Ok(Self {
             tick,
             terms: Terms {
                 spin: true,
                 gravity: gravity != 0.0,
-                alpha: alpha != 0.0,
-                beta: beta != 0.0,
+                damping: alpha != 0.0 || beta != 0.0,
             },
             half: T::from_f64(half),
-            quarter: T::from_f64(quarter),
+            per_quarter: T::from_f64(per_quarter),
             factors: effective.factor().map(T::from_f64),
             effective: band(&effective),
             stiffness: band(model.stiffness()),
             spin: band(model.spin()),
-            tension: band(&model.tension().map(|k| gravity * k)),
+            tension: band(&model.tension().scaled(gravity)),
             shortening: band(model.shortening()),
-            drag: band(&model.mass().map(|m| alpha * m)),
+            damping: band(&damping),
             alpha: T::from_f64(alpha),
-            beta: T::from_f64(beta),
             turn: cast(&turn),
+            turn_damping: cast(&model.stiffness().times(&turn).map(|f| beta * f)),
             coupling: cast(model.coupling()),
             weight: cast(&model.weight().map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
-            hub_inertia: T::from_f64(scene.hub.inertia),
-            residual_inertia: T::from_f64(scene.rigid_inertia() - carried),
+            inertia: T::from_f64(scene.hub.inertia + residual),
+            drag: T::from_f64(alpha * residual),
             reach: T::from_f64(scene.reach()),
-            tip: model.tip(),
+            tip_last: model.tip() + 1 == N,
         })
     }
 
@@ -135,53 +137,43 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         q_dot
     }
 
-    /// `−αM v − K(q + βq̇) − θ̇²G q + g sinθ K_P q − g cosθ f_g`: what `M v̇` equals.
+    /// `w(L)`.
     #[inline(always)]
-    fn load(&self, q: &[T; N], v: &[T; N], hub: &Hub<T>) -> [T; N] {
-        let mut strain = *q;
-        if self.terms.beta {
-            for i in 0..N {
-                strain[i] += self.beta * (v[i] - self.turn[i] * hub.rate);
-            }
-        }
-        let mut load = self.stiffness.times(&strain).map(|f| -f);
-        if self.terms.alpha {
-            let drag = self.drag.times(v);
-            for i in 0..N {
-                load[i] -= drag[i];
-            }
-        }
-        if self.terms.spin {
-            let spin = self.spin.times(q);
-            let rate2 = hub.rate * hub.rate;
-            for i in 0..N {
-                load[i] -= rate2 * spin[i];
-            }
-        }
-        if self.terms.gravity {
-            let tension = self.tension.times(q);
-            for i in 0..N {
-                load[i] += hub.sin * tension[i] - hub.cos * self.weight[i];
-            }
-        }
-        load
+    fn tip_deflection(&self, q: &[T; N]) -> T {
+        // Both indices are constants: no bounds check, and `q` may stay in registers.
+        if self.tip_last { q[N - 1] } else { q[N.saturating_sub(2)] }
     }
 
-    /// Solves `[M + ½hC + ¼h²K_t] v̇ = load`; the factors of set-up serve while `K_t` is `K`.
+    /// `−¼h² v̇` from `[4/h² M + 2/h C + K_t] ¼h² v̇ = −K_t q − Cv + θ̇βKb − g cosθ f_g`, with
+    /// `K_t = K + θ̇²G − g sinθ K_P`; the factors of set-up serve while `K_t` is `K`.
     #[inline(always)]
-    fn solve(&self, load: &[T; N], hub: &Hub<T>) -> [T; N] {
-        let turns = self.terms.spin && hub.rate != T::ZERO;
-        if !turns && !self.terms.gravity {
-            return self.factors.solve(load);
-        }
-        let mut effective = self.effective;
-        if self.terms.spin {
-            effective = effective.plus(self.quarter * hub.rate * hub.rate, &self.spin);
+    fn solve(&self, q: &[T; N], v: &[T; N], hub: &Hub<T>) -> [T; N] {
+        let mut force = self.stiffness.times(q);
+        if self.terms.damping {
+            let damping = self.damping.times(v);
+            for i in 0..N {
+                force[i] += damping[i] - self.turn_damping[i] * hub.rate;
+            }
         }
         if self.terms.gravity {
-            effective = effective.plus(-(self.quarter * hub.sin), &self.tension);
+            for i in 0..N {
+                force[i] += self.weight[i] * hub.cos;
+            }
         }
-        effective.factor().solve(load)
+        let turns = self.terms.spin && hub.rate != T::ZERO;
+        if !turns && !self.terms.gravity {
+            return self.factors.solve(&force);
+        }
+        let change = match (turns, self.terms.gravity) {
+            (true, false) => self.spin.scaled(hub.rate * hub.rate),
+            (false, _) => self.tension.scaled(-hub.sin),
+            (true, true) => self.spin.scaled(hub.rate * hub.rate).plus(-hub.sin, &self.tension),
+        };
+        let changed = change.times(q);
+        for i in 0..N {
+            force[i] += changed[i];
+        }
+        self.effective.plus(T::ONE, &change).factor().solve(&force)
     }
 }
 
@@ -206,15 +198,17 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
         let turned = self.half * (before.rate + after.rate);
         let mut q = state.deflection;
         let mut v = state.velocity;
+        let mut a = state.acceleration;
         for i in 0..N {
-            let (v0, a0) = (v[i], state.acceleration[i]);
-            v[i] += self.half * a0;
+            let v0 = v[i];
+            v[i] += self.half * a[i];
             q[i] += self.half * (v0 + v[i]) - self.turn[i] * turned;
         }
-        let a = self.solve(&self.load(&q, &v, after), after);
+        let back = self.solve(&q, &v, after);
         for i in 0..N {
+            q[i] -= back[i];
+            a[i] = -(self.per_quarter * back[i]);
             v[i] += self.half * a[i];
-            q[i] += self.quarter * a[i];
         }
         *state = Vibration { deflection: q, velocity: v, acceleration: a };
     }
@@ -226,24 +220,25 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
     fn response(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
         let q = &state.deflection;
         let mut forced = hub.acceleration;
-        let mut torque =
-            self.hub_inertia * hub.acceleration + dot(&self.coupling, &state.acceleration);
-        if self.terms.alpha {
+        let mut torque = self.inertia * hub.acceleration + dot(&self.coupling, &state.acceleration);
+        if self.terms.damping {
             forced += self.alpha * hub.rate;
-            torque += self.alpha * dot(&self.coupling, &state.velocity);
+            torque += self.drag * hub.rate + self.alpha * dot(&self.coupling, &state.velocity);
         }
-        torque += self.residual_inertia * forced;
         if self.terms.spin {
             let q_dot = self.deflection_rate(state, hub.rate);
-            let spin = self.spin.times(q);
-            torque -= forced * dot(&spin, q) + T::TWO * hub.rate * dot(&spin, &q_dot);
+            let twice = T::TWO * hub.rate;
+            let mut arm = *q;
+            for i in 0..N {
+                arm[i] = forced * q[i] + twice * q_dot[i];
+            }
+            torque -= dot(&self.spin.times(q), &arm);
         }
         if self.terms.gravity {
-            let bent = dot(&self.tension.times(q), q);
-            torque += hub.cos * (self.moment - T::HALF * bent) - hub.sin * dot(&self.weight, q);
+            let bent = self.tension.half_form(q);
+            torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, q);
         }
-        let shortened = T::HALF * dot(&self.shortening.times(q), q);
-        let deflection = q.get(self.tip).copied().unwrap_or(T::ZERO);
-        Response { torque, tip: [self.reach - shortened, deflection] }
+        let tip = [self.reach - self.shortening.half_form(q), self.tip_deflection(q)];
+        Response { torque, tip }
     }
 }

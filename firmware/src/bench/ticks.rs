@@ -1,0 +1,163 @@
+//! Every method through two moves and a rest, with all terms and with the terms left out that a
+//! scene need not have.
+
+use core::fmt::Write;
+use core::hint::black_box;
+
+use stillbeam::{Damping, Error, Generator, Hub, Link, Move, Payload, Profile, Scene, Setpoint};
+use stillbeam::{Stepper, motion::Plan};
+use stillbeam_firmware::counter::{Counter, Stopwatch};
+use stillbeam_golden::methods::{Method, Visitor, visit_all};
+
+const TICK: f64 = 0.010;
+
+/// Member B with everything a scene can have.
+const FULL: Scene = Scene {
+    link: Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 },
+    hub: Hub { radius: 0.04, inertia: 1e-4 },
+    payload: Payload { mass: 0.03, inertia: 0.0 },
+    damping: Damping { alpha: 0.15, beta: 0.002 },
+    gravity: 0.5,
+};
+const NONE: Damping = Damping { alpha: 0.0, beta: 0.0 };
+
+/// Scenes by what they lack. Hub radius, hub inertia and payload change no operation.
+const SCENES: [(&str, Scene); 4] = [
+    ("", FULL),
+    ("no-gravity", Scene { gravity: 0.0, ..FULL }),
+    ("no-damping", Scene { damping: NONE, ..FULL }),
+    ("no-damping no-gravity", Scene { damping: NONE, gravity: 0.0, ..FULL }),
+];
+
+const fn to(profile: Profile, duration: f64, to: f64) -> Move {
+    Move::To { profile, duration, to }
+}
+
+/// The table's run: an S-curve, which is seven cubics, a cubic, and a rest. Both cross quarters of
+/// a turn.
+const MOVES: [Move; 2] = [to(Profile::SCurve, 1.0, 3.0), to(Profile::Cubic, 0.7, -1.4)];
+
+/// The other motions, which cost the same with every method: counted with the cheapest. A
+/// trapezoid is three cubics.
+const MOTIONS: [(&str, &[Move]); 3] = [
+    ("quintic", &[to(Profile::Quintic, 1.0, 3.0), to(Profile::Quintic, 0.7, -1.4)]),
+    ("cycloid", &[to(Profile::Cycloid, 1.0, 3.0), to(Profile::Cycloid, 0.7, -1.4)]),
+    ("spin-up", &[Move::SpinUp { duration: 1.0, rate: 3.0 }]),
+];
+
+/// Prints the table's lines.
+pub fn print<C: Counter>(watch: &Stopwatch<C>, output: &mut impl Write) {
+    let mut bench = Bench { watch, output };
+    visit_all(&mut bench);
+}
+
+struct Bench<'a, C, W> {
+    watch: &'a Stopwatch<C>,
+    output: &'a mut W,
+}
+
+impl<C: Counter, W: Write> Visitor for Bench<'_, C, W> {
+    fn visit<M: Method>(&mut self) {
+        for (name, scene) in SCENES.iter().filter(|(_, scene)| M::fits(scene)) {
+            self.rows::<M>(M::QUALITY, &[M::SKIP, name], scene, &MOVES);
+        }
+        if M::METHOD == "rigid" {
+            let (name, scene) = &SCENES[3];
+            for (motion, moves) in &MOTIONS {
+                self.rows::<M>(motion, &[name], scene, moves);
+            }
+        }
+    }
+}
+
+impl<C: Counter, W: Write> Bench<'_, C, W> {
+    #[inline(never)]
+    fn rows<M: Method>(&mut self, quality: &str, skip: &[&str], scene: &Scene, moves: &[Move]) {
+        let (arm, setup) = self.watch.count(|| set_up::<M>(black_box(scene)));
+        let mut arm = arm.expect("the bench's scenes are accepted");
+        let (first, planning) = self.watch.count(|| arm.push(&moves[0]));
+        let mut run = Run::default();
+        run.add(&first.expect("the bench's moves are accepted"));
+        for motion in &moves[1..] {
+            run.add(&arm.push(motion).expect("the bench's moves are accepted"));
+        }
+        let mut counts = [Extremes::NONE; PATHS.len()];
+        for k in 0..=run.ticks + 50 {
+            let (setpoint, count) = self.watch.count(|| tick(black_box(&mut arm)));
+            counts[run.path(k, setpoint.rate == 0.0)].take(count);
+        }
+        for (path, count) in PATHS.iter().zip(counts).filter(|(_, count)| *count != Extremes::NONE)
+        {
+            write!(self.output, "tick,{},{},{},{quality},", M::ID, M::METHOD, M::SIZE)
+                .expect("the host takes the lines");
+            let words = skip.iter().chain([path]).filter(|word| !word.is_empty());
+            for (i, word) in words.enumerate() {
+                let gap = if i == 0 { "" } else { " " };
+                write!(self.output, "{gap}{word}").expect("the host takes the lines");
+            }
+            writeln!(self.output, ",{},{},{}", count.least, count.worst, setup + planning)
+                .expect("the host takes the lines");
+        }
+    }
+}
+
+#[inline(never)]
+fn set_up<M: Method>(scene: &Scene) -> Result<Generator<M::Stepper, 16>, Error> {
+    Generator::new(M::stepper(scene, TICK)?, -0.3)
+}
+
+/// The call as firmware makes it, with the setpoint written to memory.
+#[inline(never)]
+fn tick<S: Stepper<Scalar = f32>>(arm: &mut Generator<S, 16>) -> Setpoint<f32> {
+    arm.tick()
+}
+
+/// Words for the paths of a tick: inside a move; taking up the next segment of a move, the hub
+/// turning or `still`; taking up the hold after the last, likewise; holding a rate; at rest.
+const PATHS: [&str; 7] =
+    ["", "next-segment", "next-segment still", "landing", "landing still", "cruise", "at-rest"];
+
+/// At which ticks a segment ends.
+#[derive(Default)]
+struct Run {
+    ends: [u32; 16],
+    segments: usize,
+    ticks: u32,
+}
+
+impl Run {
+    fn add(&mut self, plan: &Plan) {
+        for segment in &plan.segments {
+            self.ticks += segment.count();
+            self.ends[self.segments] = self.ticks;
+            self.segments += 1;
+        }
+    }
+
+    /// Index in [`PATHS`] of tick `k`.
+    fn path(&self, k: u32, still: bool) -> usize {
+        let still = usize::from(still);
+        match k {
+            _ if k > self.ticks => 5 + still,
+            _ if k == self.ticks => 3 + still,
+            _ if k == 0 || self.ends[..self.segments].contains(&k) => 1 + still,
+            _ => 0,
+        }
+    }
+}
+
+/// Least and worst count.
+#[derive(Clone, Copy, PartialEq)]
+struct Extremes {
+    least: u32,
+    worst: u32,
+}
+
+impl Extremes {
+    const NONE: Self = Self { least: u32::MAX, worst: 0 };
+
+    fn take(&mut self, count: u32) {
+        self.least = self.least.min(count);
+        self.worst = self.worst.max(count);
+    }
+}

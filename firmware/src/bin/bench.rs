@@ -1,0 +1,30 @@
+//! Counts set-up and every tick of every method, and prints the least and the worst of each path:
+//! lines `tick,id,method,size,quality,skip,least,worst,setup` and
+//! `function,name,least,worst,error`.
+#![no_std]
+#![no_main]
+
+use core::fmt::Write;
+
+use cortex_m_rt::entry;
+use semihosting::process::ExitCode;
+use stillbeam_firmware::counter::{Chosen, Counter, Stopwatch};
+use stillbeam_firmware::output::Output;
+
+#[path = "../bench/functions.rs"]
+mod functions;
+#[path = "../bench/ticks.rs"]
+mod ticks;
+
+stillbeam_firmware::exit_on_panic!();
+
+#[entry]
+fn main() -> ! {
+    let mut output = Output::open().expect("standard output by semihosting");
+    let watch = Stopwatch::<Chosen>::start();
+    writeln!(output, "unit,{}", Chosen::UNIT).expect("the host takes the lines");
+    ticks::print(&watch, &mut output);
+    functions::print(&watch, &mut output);
+    output.flush().expect("the host takes the lines");
+    ExitCode::SUCCESS.exit_process()
+}

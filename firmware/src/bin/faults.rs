@@ -1,0 +1,20 @@
+//! Goes wrong in the way that the environment variable `STILLBEAM_FAULT` names when this is built:
+//! what the harness makes of it is tested with it.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+use stillbeam_firmware as _;
+
+stillbeam_firmware::exit_on_panic!();
+
+#[entry]
+fn main() -> ! {
+    match option_env!("STILLBEAM_FAULT") {
+        Some("hang") => loop {
+            cortex_m::asm::nop();
+        },
+        Some("fault") => cortex_m::asm::udf(),
+        _ => panic!("STILLBEAM_FAULT is hang, fault or panic"),
+    }
+}

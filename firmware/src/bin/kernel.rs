@@ -1,0 +1,40 @@
+//! The tick path of every method and nothing else: links only if no panic is reachable from it.
+//!
+//! Not for running. The generators are memory that the compiler knows nothing about, so that
+//! set-up, which may check its arguments with panics, is not linked. Built with the environment
+//! variable `STILLBEAM_FAULT`, it has a panic and must not link.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use panic_never as _;
+use stillbeam::Generator;
+// The fault handler.
+use stillbeam_firmware as _;
+use stillbeam_golden::methods::{Method, Visitor, visit_all};
+
+struct Ticks(*mut u8);
+
+impl Visitor for Ticks {
+    #[inline(never)]
+    fn visit<M: Method>(&mut self) {
+        let arm = self.0.cast::<Generator<M::Stepper, 8>>();
+        // SAFETY: this program is linked, never run.
+        let arm = unsafe { &mut *arm };
+        black_box(arm.tick());
+        black_box(arm.setpoint());
+        black_box(arm.setpoint_before());
+    }
+}
+
+#[entry]
+fn main() -> ! {
+    if option_env!("STILLBEAM_FAULT").is_some() {
+        // The proof can fail: this index may be out of range.
+        black_box([0; 4][black_box(0)]);
+    }
+    visit_all(&mut Ticks(black_box(0x2000_0000 as *mut u8)));
+    loop {}
+}

@@ -1,0 +1,74 @@
+//! The least that a user needs: set-up, one move, the ticks of it. Its sections are the flash and
+//! RAM of the tables; it prints the worst stack as four bytes.
+//!
+//! Which method is linked is chosen when this is built, by the environment variable
+//! `STILLBEAM_METHOD` (a name in the list of methods).
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use semihosting::io::{self, Write};
+use semihosting::process;
+use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
+use stillbeam_firmware::{exit, stack};
+use stillbeam_golden::methods::{Method, Visitor, visit_all};
+
+const CHOSEN: &str = match option_env!("STILLBEAM_METHOD") {
+    Some(name) => name,
+    None => "Newmark1",
+};
+
+/// Of `stillbeam_firmware::exit_on_panic`'s two lines, the one that needs no formatting.
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    process::exit(exit::PANICKED)
+}
+
+struct Chosen(Result<(), Error>);
+
+impl Visitor for Chosen {
+    #[inline(always)]
+    fn visit<M: Method>(&mut self) {
+        if const { same(M::ID, CHOSEN) } {
+            self.0 = one_move::<M>();
+        }
+    }
+}
+
+/// Set-up, and the paper's move of member B. A board would write each setpoint to its drive.
+#[inline(never)]
+fn one_move<M: Method>() -> Result<(), Error> {
+    let mut scene =
+        black_box(Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 }));
+    scene.payload.mass = 0.030;
+    let mut arm = Generator::<_, 2>::new(M::stepper(&scene, 0.010)?, 0.0)?;
+    let motion = Move::To { profile: Profile::Cubic, duration: 2.0, to: core::f64::consts::PI };
+    arm.push(&black_box(motion))?;
+    for _ in 0..=400 {
+        black_box(arm.tick());
+    }
+    Ok(())
+}
+
+/// `a == b`, for use in constants: the methods that were not chosen are not even generated.
+const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}
+
+#[entry]
+fn main() -> ! {
+    stack::paint();
+    // An unknown method leaves an error.
+    let mut chosen = Chosen(Err(Error::QueueFull { needed: 0, free: 0 }));
+    visit_all(&mut chosen);
+    let stack = stack::deepest() as u32;
+    let sent = io::stdout().and_then(|mut out| out.write_all(&stack.to_le_bytes()));
+    process::exit(if chosen.0.is_ok() && sent.is_ok() { 0 } else { 1 })
+}

@@ -1,0 +1,8 @@
+#![no_std]
+//! What the programs on the target share: counter, stack paint, the way out. No arithmetic of its
+//! own.
+
+pub mod counter;
+pub mod exit;
+pub mod output;
+pub mod stack;

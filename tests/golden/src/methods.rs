@@ -1,0 +1,110 @@
+//! Every method, once.
+
+use stillbeam::beam::{EightElements, FourElements, Model, OneElement, TwoElements};
+use stillbeam::stepper::{Newmark, Rigid};
+use stillbeam::{Error, Scene, Stepper};
+
+/// A stepper with its name in the tables.
+pub trait Method {
+    /// The type's name, unique.
+    const ID: &'static str;
+    /// Family: `rigid`, `newmark`, …
+    const METHOD: &'static str;
+    /// Elements or modes; 0 where there are none.
+    const SIZE: u32;
+    /// What tells methods of one family and size apart: `consistent` or `lumped` mass, …
+    const QUALITY: &'static str;
+    /// Terms that the method itself leaves out: `no-spin` or nothing.
+    const SKIP: &'static str;
+    /// Degrees of freedom that the scene needs to have for this method to be the right one:
+    /// whether the payload has rotary inertia, where it matters.
+    const PAYLOAD_INERTIA: Option<bool>;
+    /// The stepper, in the tick's precision on the target.
+    type Stepper: Stepper<Scalar = f32>;
+
+    /// Builds the stepper. Set-up.
+    fn stepper(scene: &Scene, tick: f64) -> Result<Self::Stepper, Error>;
+
+    /// Whether this method is meant for the scene.
+    fn fits(scene: &Scene) -> bool {
+        Self::PAYLOAD_INERTIA.is_none_or(|needed| needed == (scene.payload.inertia > 0.0))
+    }
+}
+
+/// Takes the methods one by one, each as a type.
+pub trait Visitor {
+    /// One method.
+    fn visit<M: Method>(&mut self);
+}
+
+/// The list: `Type: family, size, quality, skip, payload inertia, stepper type, how it is built`.
+macro_rules! methods {
+    ($($type:ident: $method:literal, $size:literal, $quality:literal, $skip:literal, $inertia:expr,
+       $stepper:ty, $build:expr;)*) => {
+        $(
+            #[doc = concat!("`", $method, "`, size ", $size, ", ", $quality, " ", $skip, ".")]
+            #[derive(Debug)]
+            pub enum $type {}
+
+            impl Method for $type {
+                const ID: &'static str = stringify!($type);
+                const METHOD: &'static str = $method;
+                const SIZE: u32 = $size;
+                const QUALITY: &'static str = $quality;
+                const SKIP: &'static str = $skip;
+                const PAYLOAD_INERTIA: Option<bool> = $inertia;
+                type Stepper = $stepper;
+
+                fn stepper(scene: &Scene, tick: f64) -> Result<Self::Stepper, Error> {
+                    let build: fn(&Scene, f64) -> Result<$stepper, Error> = $build;
+                    build(scene, tick)
+                }
+            }
+        )*
+
+        /// Shows the visitor every method, in the order of the list.
+        pub fn visit_all(visitor: &mut impl Visitor) {
+            $(visitor.visit::<$type>();)*
+        }
+    };
+}
+
+type Consistent<const N: usize, const W: usize> = Newmark<f32, N, W>;
+type Lumped<const N: usize> = Newmark<f32, N, N>;
+
+methods! {
+    RigidArm: "rigid", 0, "", "", None, Rigid<f32>, Rigid::new;
+    Newmark1: "newmark", 1, "consistent", "", None, Consistent<2, 2>,
+        |s, h| Newmark::new(&OneElement::consistent(s)?, h);
+    Newmark2: "newmark", 2, "consistent", "", None, Consistent<4, 4>,
+        |s, h| Newmark::new(&TwoElements::consistent(s)?, h);
+    Newmark4: "newmark", 4, "consistent", "", None, Consistent<8, 4>,
+        |s, h| Newmark::new(&FourElements::consistent(s)?, h);
+    Newmark8: "newmark", 8, "consistent", "", None, Consistent<16, 4>,
+        |s, h| Newmark::new(&EightElements::consistent(s)?, h);
+    Newmark1NoSpin: "newmark", 1, "consistent", "no-spin", None, Consistent<2, 2>,
+        |s, h| Ok(Newmark::new(&OneElement::consistent(s)?, h)?.without_spin());
+    Newmark2NoSpin: "newmark", 2, "consistent", "no-spin", None, Consistent<4, 4>,
+        |s, h| Ok(Newmark::new(&TwoElements::consistent(s)?, h)?.without_spin());
+    Newmark4NoSpin: "newmark", 4, "consistent", "no-spin", None, Consistent<8, 4>,
+        |s, h| Ok(Newmark::new(&FourElements::consistent(s)?, h)?.without_spin());
+    Newmark8NoSpin: "newmark", 8, "consistent", "no-spin", None, Consistent<16, 4>,
+        |s, h| Ok(Newmark::new(&EightElements::consistent(s)?, h)?.without_spin());
+    Lumped1: "newmark", 1, "lumped", "", Some(false), Lumped<1>,
+        |s, h| Newmark::new(&Model::lumped::<2>(s)?, h);
+    Lumped2: "newmark", 2, "lumped", "", Some(false), Lumped<2>,
+        |s, h| Newmark::new(&Model::lumped::<4>(s)?, h);
+    Lumped4: "newmark", 4, "lumped", "", Some(false), Lumped<4>,
+        |s, h| Newmark::new(&Model::lumped::<8>(s)?, h);
+    Lumped8: "newmark", 8, "lumped", "", Some(false), Lumped<8>,
+        |s, h| Newmark::new(&Model::lumped::<16>(s)?, h);
+    // The payload's rotary inertia keeps one more degree of freedom, the tip's rotation.
+    Lumped1Tip: "newmark", 1, "lumped", "", Some(true), Lumped<2>,
+        |s, h| Newmark::new(&Model::lumped::<2>(s)?, h);
+    Lumped2Tip: "newmark", 2, "lumped", "", Some(true), Lumped<3>,
+        |s, h| Newmark::new(&Model::lumped::<4>(s)?, h);
+    Lumped4Tip: "newmark", 4, "lumped", "", Some(true), Lumped<5>,
+        |s, h| Newmark::new(&Model::lumped::<8>(s)?, h);
+    Lumped8Tip: "newmark", 8, "lumped", "", Some(true), Lumped<9>,
+        |s, h| Newmark::new(&Model::lumped::<16>(s)?, h);
+}

@@ -1,0 +1,77 @@
+//! Runs every scene with every method, the same way on host and target.
+
+use stillbeam::{Error, Generator, Setpoint};
+
+use crate::methods::{Method, Visitor, visit_all};
+use crate::scenes::{Run, SCENES};
+
+/// Segments of the longest scene, at least.
+const QUEUE: usize = 32;
+
+/// One scene with one method.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Position in the run, from 0.
+    pub index: u32,
+    /// The scene's name.
+    pub scene: &'static str,
+    /// [`Method::METHOD`].
+    pub method: &'static str,
+    /// [`Method::SIZE`].
+    pub size: u32,
+    /// [`Method::QUALITY`].
+    pub quality: &'static str,
+    /// [`Method::SKIP`].
+    pub skip: &'static str,
+}
+
+/// Steps every case through its moves and the time after them, and hands every setpoint to `sink`
+/// with its tick, from 0. Returns the cases that ran.
+///
+/// # Errors
+/// The first scene or move that the core refuses; none of the embedded ones is.
+pub fn run<F>(sink: &mut F) -> Result<u32, Error>
+where
+    F: FnMut(&Case, u32, &Setpoint<f32>),
+{
+    let mut runner = Runner { sink, cases: 0, result: Ok(()) };
+    visit_all(&mut runner);
+    runner.result.map(|()| runner.cases)
+}
+
+struct Runner<'a, F> {
+    sink: &'a mut F,
+    cases: u32,
+    result: Result<(), Error>,
+}
+
+impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Visitor for Runner<'_, F> {
+    fn visit<M: Method>(&mut self) {
+        for scene in SCENES.iter().filter(|run| M::fits(&run.scene)) {
+            let case = Case {
+                index: self.cases,
+                scene: scene.name,
+                method: M::METHOD,
+                size: M::SIZE,
+                quality: M::QUALITY,
+                skip: M::SKIP,
+            };
+            self.cases += 1;
+            let result = one::<M>(scene, &mut |k, setpoint| (self.sink)(&case, k, setpoint));
+            self.result = self.result.and(result);
+        }
+    }
+}
+
+fn one<M: Method>(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Result<(), Error> {
+    let stepper = M::stepper(&run.scene, run.tick)?;
+    let mut arm = Generator::<_, QUEUE>::new(stepper, run.from)?;
+    let mut ticks = 0;
+    for motion in run.moves {
+        ticks += arm.push(motion)?.ticks;
+    }
+    for k in 0..=ticks {
+        sink(k, &arm.tick());
+    }
+    Ok(())
+}

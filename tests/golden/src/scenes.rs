@@ -1,0 +1,27 @@
+//! The embedded scenes, from `host-sim/scenes/*.toml` by way of `build.rs`.
+
+use stillbeam::{Move, Scene};
+
+/// A scene with what happens in it.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// The scene's name.
+    pub name: &'static str,
+    /// The arm.
+    pub scene: Scene,
+    /// Hub angle at the beginning, rad.
+    pub from: f64,
+    /// The moves, from rest, with the time to settle after each.
+    pub moves: &'static [Move],
+    /// h, s.
+    pub tick: f64,
+}
+
+/// Every embedded scene.
+pub const SCENES: &[Run] = {
+    // The names that the generated text uses without a path.
+    use stillbeam::Move::{Dwell, SpinUp, To};
+    use stillbeam::Profile::{Cubic, Cycloid, Quintic, SCurve, Trapezoid};
+    use stillbeam::{Damping, Hub, Link, Payload};
+    include!(concat!(env!("OUT_DIR"), "/scenes.rs"))
+};

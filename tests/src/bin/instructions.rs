@@ -1,0 +1,47 @@
+//! Counts instructions on the emulated target and writes `docs/instructions.csv` and the tables of
+//! `docs/instructions.md`. With `--check`, fails instead if a tick has grown by more than 2 %.
+
+use std::collections::BTreeMap;
+use std::process::ExitCode;
+use std::{env, fs};
+
+use stillbeam_tests::{instructions, page, root};
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let done = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => write(),
+        ["--check"] => check(),
+        _ => Err("usage: instructions [--check]".into()),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn write() -> Result<(), String> {
+    let bench = instructions::count()?;
+    let mut minimal = BTreeMap::new();
+    for count in &bench.counts {
+        if !minimal.contains_key(&count.id) {
+            minimal.insert(count.id.clone(), instructions::minimal(&count.id)?);
+        }
+    }
+    let path = root().join("docs/instructions.csv");
+    fs::write(&path, instructions::csv(&bench, &minimal)).map_err(|e| format!("{path:?}: {e}"))?;
+    let path = root().join("docs/instructions.md");
+    let text = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
+    let text = page::replace(&text, &page::tables(&bench, &minimal))?;
+    fs::write(&path, text).map_err(|e| format!("{path:?}: {e}"))
+}
+
+fn check() -> Result<(), String> {
+    let path = root().join("docs/instructions.csv");
+    let csv = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
+    let found = instructions::regressions(&instructions::count()?, &csv, 2)?;
+    if found.is_empty() { Ok(()) } else { Err(found.join("\n")) }
+}

@@ -1,0 +1,78 @@
+//! Runs images in QEMU, under a time limit.
+
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use wait_timeout::ChildExt;
+
+/// How time passes in the emulator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clock {
+    /// As on the host: fastest.
+    Host,
+    /// 1,024 ns an instruction, so that the target can count its instructions.
+    Instructions,
+}
+
+/// Time limit of a run. The longest takes a few seconds on an idle machine.
+pub const LIMIT: Duration = Duration::from_secs(120);
+
+/// Runs `image` and returns what it printed.
+///
+/// # Errors
+/// QEMU is missing, the image fails (with its exit code and messages), or the time is over.
+pub fn run(image: &Path, clock: Clock, limit: Duration) -> Result<Vec<u8>, String> {
+    let mut qemu = Command::new("qemu-system-arm");
+    qemu.args(["-M", "mps2-an386", "-nographic", "-monitor", "none", "-serial", "none"])
+        .args(["-semihosting-config", "enable=on,target=native"])
+        .args(match clock {
+            Clock::Host => &[][..],
+            Clock::Instructions => &["-icount", "shift=10,sleep=off"],
+        })
+        .arg("-kernel")
+        .arg(image)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let mut child = qemu.spawn().map_err(|error| match error.kind() {
+        ErrorKind::NotFound => "qemu-system-arm is missing: run \
+             `apt-get install --no-install-recommends qemu-system-arm`"
+            .to_owned(),
+        _ => format!("qemu-system-arm: {error}"),
+    })?;
+    let printed = collect(child.stdout.take());
+    let said = collect(child.stderr.take());
+    let waited = child.wait_timeout(limit).map_err(|error| format!("qemu-system-arm: {error}"))?;
+    if waited.is_none() {
+        // Closes the pipes too, so that the collectors end.
+        let _ = child.kill();
+        let _ = child.wait();
+    }
+    let (printed, said) = (printed.join().unwrap_or_default(), said.join().unwrap_or_default());
+    let said = String::from_utf8_lossy(&said);
+    match waited {
+        Some(status) if status.success() => Ok(printed),
+        Some(status) => Err(format!("{} in QEMU: {status}\n{said}", image.display())),
+        None => Err(format!(
+            "{} in QEMU: no end after {} s, stopped; it had printed {} bytes\n{said}",
+            image.display(),
+            limit.as_secs(),
+            printed.len()
+        )),
+    }
+}
+
+/// Reads a pipe to its end beside the run: a full pipe would stop the emulator.
+fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u8>> {
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        if let Some(mut pipe) = pipe {
+            // A broken pipe shows as missing bytes.
+            let _ = pipe.read_to_end(&mut bytes);
+        }
+        bytes
+    })
+}

@@ -1,0 +1,96 @@
+//! Builds the images for the target.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Mutex;
+use std::{env, fs};
+
+use crate::root;
+
+/// The target that the images are built for.
+pub const TARGET: &str = "thumbv7em-none-eabihf";
+
+/// Images with the same file name are built one after the other.
+static BUILDING: Mutex<()> = Mutex::new(());
+
+/// Builds the program `bin` and returns its image.
+///
+/// # Errors
+/// What cargo said, or which target to install.
+pub fn build(bin: &str) -> Result<PathBuf, String> {
+    build_variant(bin, None)
+}
+
+/// Builds `bin` with one environment variable, on which the program's source depends.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, String> {
+    build_variant(bin, Some((variable, value)))
+}
+
+fn build_variant(bin: &str, variable: Option<(&str, &str)>) -> Result<PathBuf, String> {
+    require_target(TARGET)?;
+    let _one = BUILDING.lock();
+    // A folder of its own: the cargo that runs the tests may hold the lock of the usual one.
+    let folder = root().join("target/firmware");
+    run(cargo()
+        .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", bin])
+        .args(["--profile", "firmware", "--target", TARGET, "--target-dir"])
+        .arg(&folder)
+        .env_remove("STILLBEAM_METHOD")
+        .env_remove("STILLBEAM_FAULT")
+        .envs(variable))?;
+    // Variants share a file name: each is kept under one of its own.
+    let built = folder.join(TARGET).join("firmware").join(bin);
+    let name = variable.map_or(bin.to_owned(), |(_, value)| format!("{bin}-{value}"));
+    let kept = folder.join("images").join(name);
+    fs::create_dir_all(folder.join("images"))
+        .and_then(|()| fs::copy(&built, &kept))
+        .map_err(|error| format!("{}: {error}", kept.display()))?;
+    Ok(kept)
+}
+
+/// Cargo in the workspace's root, free of what the cargo that runs the tests has set: flags from
+/// the environment would replace those of `.cargo/config.toml`.
+pub fn cargo() -> Command {
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(root());
+    for name in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET", "CARGO_TARGET_DIR"] {
+        cargo.env_remove(name);
+    }
+    cargo
+}
+
+/// Runs a command to its end.
+///
+/// # Errors
+/// The command and what it printed, if it failed.
+pub fn run(command: &mut Command) -> Result<String, String> {
+    let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
+    if output.status.success() {
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+    } else {
+        let said = String::from_utf8_lossy(&output.stderr);
+        Err(format!("{command:?}: {}\n{said}", output.status))
+    }
+}
+
+/// Whether the compiler has the target's core library.
+///
+/// # Errors
+/// How to install it.
+pub fn require_target(target: &str) -> Result<(), String> {
+    let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let folder = run(Command::new(rustc).current_dir(root()).args([
+        "--print",
+        "target-libdir",
+        "--target",
+        target,
+    ]))?;
+    if Path::new(folder.trim()).is_dir() {
+        Ok(())
+    } else {
+        Err(format!("Rust target {target} is missing: run `rustup target add {target}`"))
+    }
+}

@@ -1,0 +1,180 @@
+//! The instruction table: what the bench counted, as CSV and as the page in `docs/`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use crate::emulator::{self, Clock, LIMIT};
+use crate::{firmware, image};
+
+/// Columns of the CSV.
+pub const HEADER: &str =
+    "method,size,quality,skip,tick_min,tick_max,setup,flash_bytes,ram_bytes,stack_bytes";
+
+/// What makes a row: method, size, quality, skip.
+pub type Key = [String; 4];
+
+/// Instructions of one path of one method.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// Method, size, quality, skip.
+    pub key: Key,
+    /// The method's name in the list of methods.
+    pub id: String,
+    /// Least of any tick.
+    pub least: u32,
+    /// Worst of any tick.
+    pub worst: u32,
+    /// Set-up: stepper, generator and the first move's plan.
+    pub setup: u32,
+}
+
+/// One way to a sine and cosine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// Whose.
+    pub name: String,
+    /// Least instructions for both.
+    pub least: u32,
+    /// Worst instructions for both.
+    pub worst: u32,
+    /// Largest absolute error.
+    pub error: String,
+}
+
+/// What the bench printed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bench {
+    /// Ticks.
+    pub counts: Vec<Count>,
+    /// Sines and cosines.
+    pub functions: Vec<Function>,
+}
+
+/// Flash, RAM without stack and worst stack of a minimal image, bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Minimal {
+    /// Loaded bytes.
+    pub flash: u64,
+    /// Statics.
+    pub ram: u64,
+    /// Deepest stack of set-up, one move and its ticks.
+    pub stack: u32,
+}
+
+/// Builds and runs the bench.
+///
+/// # Errors
+/// What is missing, or what the build, the emulator or the bench said.
+pub fn count() -> Result<Bench, String> {
+    let image = firmware::build("bench")?;
+    parse(&String::from_utf8_lossy(&emulator::run(&image, Clock::Instructions, LIMIT)?))
+}
+
+/// Builds and runs the minimal image of one method, by its name in the list of methods.
+///
+/// # Errors
+/// As [`count`].
+pub fn minimal(id: &str) -> Result<Minimal, String> {
+    let image = firmware::build_with("minimal", "STILLBEAM_METHOD", id)?;
+    let footprint = image::footprint(&image)?;
+    let printed = emulator::run(&image, Clock::Host, LIMIT)?;
+    let stack = printed.try_into().map_err(|_| format!("{}: four bytes", image.display()))?;
+    Ok(Minimal { flash: footprint.flash, ram: footprint.ram, stack: u32::from_le_bytes(stack) })
+}
+
+/// Reads the bench's lines.
+///
+/// # Errors
+/// The first line that is not one.
+pub fn parse(lines: &str) -> Result<Bench, String> {
+    let mut bench = Bench::default();
+    for line in lines.lines() {
+        let fields: Vec<&str> = line.split(',').collect();
+        let number = |i: usize| fields[i].parse().map_err(|_| format!("the bench printed {line}"));
+        match fields[..] {
+            ["unit", "instructions"] => {}
+            ["tick", id, method, size, quality, skip, ..] if fields.len() == 9 => {
+                bench.counts.push(Count {
+                    key: [method, size, quality, skip].map(str::to_owned),
+                    id: id.to_owned(),
+                    least: number(6)?,
+                    worst: number(7)?,
+                    setup: number(8)?,
+                });
+            }
+            ["function", name, _, _, error] => bench.functions.push(Function {
+                name: name.to_owned(),
+                least: number(2)?,
+                worst: number(3)?,
+                error: error.to_owned(),
+            }),
+            _ => return Err(format!("the bench printed {line}")),
+        }
+    }
+    if bench.counts.is_empty() { Err("the bench printed nothing".into()) } else { Ok(bench) }
+}
+
+/// The CSV.
+pub fn csv(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
+    let mut csv = format!("{HEADER}\n");
+    for count in &bench.counts {
+        let Minimal { flash, ram, stack } = minimal[&count.id];
+        let Count { least, worst, setup, .. } = count;
+        let key = count.key.join(",");
+        writeln!(csv, "{key},{least},{worst},{setup},{flash},{ram},{stack}").expect("a string");
+    }
+    csv
+}
+
+/// The CSV with zeros in the columns of the minimal images, which [`ticks`] does not read.
+pub fn csv_of_ticks(bench: &Bench) -> String {
+    let none = Minimal { flash: 0, ram: 0, stack: 0 };
+    csv(bench, &bench.counts.iter().map(|count| (count.id.clone(), none)).collect())
+}
+
+/// `tick_min` and `tick_max` of each row of a CSV.
+///
+/// # Errors
+/// The header or the first line that is not as expected.
+pub fn ticks(csv: &str) -> Result<BTreeMap<Key, (u32, u32)>, String> {
+    let mut lines = csv.lines();
+    if lines.next() != Some(HEADER) {
+        return Err(format!("the columns are to be {HEADER}"));
+    }
+    lines
+        .map(|line| {
+            let fields: Vec<&str> = line.split(',').collect();
+            let [method, size, quality, skip, least, worst, _, _, _, _] = fields[..] else {
+                return Err(format!("not ten columns: {line}"));
+            };
+            let number = |text: &str| text.parse().map_err(|_| format!("not a number: {line}"));
+            let key = [method, size, quality, skip].map(str::to_owned);
+            Ok((key, (number(least)?, number(worst)?)))
+        })
+        .collect()
+}
+
+/// Ticks that grew by more than `percent` against the CSV, and rows that only one of them has.
+///
+/// # Errors
+/// The CSV is not one.
+pub fn regressions(bench: &Bench, csv: &str, percent: u32) -> Result<Vec<String>, String> {
+    let mut before = ticks(csv)?;
+    let mut found = Vec::new();
+    for count in &bench.counts {
+        let name = count.key.join(",");
+        let Some((least, worst)) = before.remove(&count.key) else {
+            found.push(format!("{name}: not in docs/instructions.csv"));
+            continue;
+        };
+        for (column, was, is) in
+            [("tick_min", least, count.least), ("tick_max", worst, count.worst)]
+        {
+            if u64::from(is) * 100 > u64::from(was) * u64::from(100 + percent) {
+                found.push(format!("{name}: {column} grew from {was} to {is}"));
+            }
+        }
+    }
+    found.extend(before.keys().map(|key| format!("{}: no longer counted", key.join(","))));
+    Ok(found)
+}

@@ -1,0 +1,116 @@
+//! The tables in `docs/instructions.md`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use crate::instructions::{Bench, Count, Minimal};
+
+/// The tables stand between these lines; what is around them is written by hand.
+const BEGIN: &str = "<!-- instructions: begin (written by `cargo run --release -p stillbeam-tests \
+                     --bin instructions`) -->";
+const END: &str = "<!-- instructions: end -->";
+
+/// Columns of the large table: heading, and the words that are skipped.
+const COLUMNS: [(&str, &[&str]); 7] = [
+    ("all terms", &[]),
+    ("no gravity", &["no-gravity"]),
+    ("no damping", &["no-damping"]),
+    ("neither", &["no-damping", "no-gravity"]),
+    ("neither, at rest", &["no-damping", "no-gravity", "at-rest"]),
+    ("neither, next segment", &["no-damping", "no-gravity", "next-segment"]),
+    ("neither, landing", &["no-damping", "no-gravity", "landing"]),
+];
+
+/// The page with its tables replaced.
+///
+/// # Errors
+/// The markers are missing.
+pub fn replace(page: &str, tables: &str) -> Result<String, String> {
+    let missing = || format!("docs/instructions.md needs the lines\n{BEGIN}\n{END}");
+    let (before, rest) = page.split_once(BEGIN).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(END).ok_or_else(missing)?;
+    Ok(format!("{before}{BEGIN}\n{tables}\n{END}{after}"))
+}
+
+/// The three tables.
+pub fn tables(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
+    let sections = [methods(bench, minimal), motions(bench), functions(bench)];
+    format!("\n{}", sections.join("\n"))
+}
+
+fn methods(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
+    let mut text = "### A tick, worst, in instructions (not cycles)\n\n\
+                    | method | elements |"
+        .to_owned();
+    for (heading, _) in COLUMNS {
+        write!(text, " {heading} |").expect("a string");
+    }
+    text += " set-up | flash | RAM | stack |\n|---|---|";
+    text += &"---|".repeat(COLUMNS.len() + 4);
+    text.push('\n');
+    let mut seen = Vec::new();
+    for count in &bench.counts {
+        let [method, size, quality, _] = &count.key;
+        let own: &[&str] = if skips(count).contains(&"no-spin") { &["no-spin"] } else { &[] };
+        if seen.contains(&(&count.id, quality)) || motion(count) {
+            continue;
+        }
+        seen.push((&count.id, quality));
+        write!(
+            text,
+            "| {} | {size} |",
+            [&[method.as_str(), quality], own].concat().join(" ").trim()
+        )
+        .expect("a string");
+        for (_, words) in COLUMNS {
+            let worst = bench
+                .counts
+                .iter()
+                .find(|other| {
+                    other.key[..3] == count.key[..3] && skips(other) == [own, words].concat()
+                })
+                .map_or("".to_owned(), |other| other.worst.to_string());
+            write!(text, " {worst} |").expect("a string");
+        }
+        let Minimal { flash, ram, stack } = minimal[&count.id];
+        writeln!(text, " {} | {flash} | {ram} | {stack} |", count.setup).expect("a string");
+    }
+    text
+}
+
+/// What a rigid arm's tick costs with each motion: the difference is the motion's.
+fn motions(bench: &Bench) -> String {
+    let mut text = "### The motion's share: a rigid arm, no damping, no gravity\n\n\
+                    | motion | path | least | worst |\n|---|---|---|---|\n"
+        .to_owned();
+    for count in &bench.counts {
+        let Some(path) = count.key[3].strip_prefix("no-damping no-gravity") else { continue };
+        if count.key[0] == "rigid" {
+            let profile = if motion(count) { &count.key[2] } else { "cubic" };
+            let path = if path.is_empty() { "turning" } else { path.trim() };
+            writeln!(text, "| {profile} | {path} | {} | {} |", count.least, count.worst)
+                .expect("a string");
+        }
+    }
+    text
+}
+
+fn functions(bench: &Bench) -> String {
+    let mut text = "### Sine and cosine of one angle, call included\n\n\
+                    | whose | least | worst | largest error |\n|---|---|---|---|\n"
+        .to_owned();
+    for f in &bench.functions {
+        writeln!(text, "| {} | {} | {} | {} |", f.name, f.least, f.worst, f.error)
+            .expect("a string");
+    }
+    text
+}
+
+fn skips(count: &Count) -> Vec<&str> {
+    count.key[3].split_whitespace().collect()
+}
+
+/// A rigid arm's rows name the motion where it is not the cubic.
+fn motion(count: &Count) -> bool {
+    count.key[0] == "rigid" && !count.key[2].is_empty()
+}

@@ -1,0 +1,132 @@
+//! Compares the stream of setpoints from the target with the same run on the host, bit by bit.
+
+use std::fmt;
+
+use stillbeam_golden::record::{self, BYTES, FIELDS};
+use stillbeam_golden::{Case, run};
+
+/// Where host and target part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Mismatch {
+    /// A field differs.
+    Field {
+        /// `scene, method`.
+        case: String,
+        /// Tick, from 0.
+        tick: u32,
+        /// The field's name.
+        field: &'static str,
+        /// Bits on the host.
+        host: u32,
+        /// Bits on the target.
+        target: u32,
+    },
+    /// The record belongs to another case or tick.
+    OutOfStep {
+        /// `scene, method`.
+        case: String,
+        /// Tick, from 0.
+        tick: u32,
+    },
+    /// The streams have different lengths.
+    Length {
+        /// Bytes of the host's.
+        host: usize,
+        /// Bytes of the target's.
+        target: usize,
+    },
+}
+
+impl fmt::Display for Mismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Field { case, tick, field, host, target } => write!(
+                f,
+                "{case}, tick {tick}, {field}: host {host:#010x} ({}), target {target:#010x} ({})",
+                f32::from_bits(*host),
+                f32::from_bits(*target)
+            ),
+            Self::OutOfStep { case, tick } => {
+                write!(f, "{case}, tick {tick}: the target's record is of another case or tick")
+            }
+            Self::Length { host, target } => {
+                write!(f, "the host has {host} bytes of setpoints, the target sent {target}")
+            }
+        }
+    }
+}
+
+/// What was compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Agreement {
+    /// Scenes with a method each.
+    pub cases: u32,
+    /// Setpoints of all of them.
+    pub setpoints: usize,
+}
+
+/// The host's own stream.
+///
+/// # Panics
+/// If the core refuses an embedded scene.
+pub fn host() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    run(&mut |case, tick, setpoint| {
+        bytes.extend(record::encode(record::stamp(case.index, tick), setpoint));
+    })
+    .expect("every embedded scene is accepted");
+    bytes
+}
+
+/// Steps every case on the host and compares it with what the target sent. The sign of a NaN,
+/// which differs between processors, is left out; every other bit of every field counts.
+///
+/// # Errors
+/// The first difference.
+pub fn compare(target: &[u8]) -> Result<Agreement, Mismatch> {
+    let mut records = target.chunks_exact(BYTES);
+    let mut setpoints = 0;
+    let mut mismatch = None;
+    let cases = run(&mut |case, tick, setpoint| {
+        setpoints += 1;
+        let Some(record) = records.next() else { return };
+        if mismatch.is_some() {
+            return;
+        }
+        let words: Vec<u32> = record
+            .chunks_exact(4)
+            .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+            .collect();
+        if words[0] != record::stamp(case.index, tick) {
+            mismatch = Some(Mismatch::OutOfStep { case: name(case), tick });
+            return;
+        }
+        let host = record::bits(setpoint);
+        mismatch = (0..FIELDS.len()).find(|&i| !same(FIELDS[i], host[i], words[i + 1])).map(|i| {
+            let (field, host, target) = (FIELDS[i], host[i], words[i + 1]);
+            Mismatch::Field { case: name(case), tick, field, host, target }
+        });
+    })
+    .expect("every embedded scene is accepted");
+    match mismatch {
+        Some(mismatch) => Err(mismatch),
+        None if target.len() != setpoints * BYTES => {
+            Err(Mismatch::Length { host: setpoints * BYTES, target: target.len() })
+        }
+        None => Ok(Agreement { cases, setpoints }),
+    }
+}
+
+fn same(field: &str, a: u32, b: u32) -> bool {
+    // The turns are a whole number, which has no NaN.
+    let nan = |bits: u32| field != "angle.turns" && f32::from_bits(bits).is_nan();
+    let unsigned = |bits: u32| if nan(bits) { bits & 0x7fff_ffff } else { bits };
+    unsigned(a) == unsigned(b)
+}
+
+fn name(case: &Case) -> String {
+    let Case { scene, method, size, quality, skip, .. } = case;
+    let words = [method.to_string(), size.to_string(), quality.to_string(), skip.to_string()];
+    let words: Vec<_> = words.into_iter().filter(|word| !word.is_empty()).collect();
+    format!("{scene}, {}", words.join(" "))
+}
