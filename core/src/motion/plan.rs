@@ -99,13 +99,13 @@ const MAX_ANGLE: f64 = 1e6;
 
 fn rest_to_rest(profile: Profile, d: f64) -> Shapes {
     match profile {
-        Profile::Cubic => Vec::from_iter([(1.0, Shape::Cubic([0.0, 3.0 * d, -2.0 * d]))]),
+        Profile::Cubic => Vec::from_iter([(1.0, Shape::Cubic([0.75 * d, 0.0, -0.25 * d]))]),
         Profile::Quintic => {
-            let c = [0.0, 0.0, 10.0 * d, -15.0 * d, 6.0 * d];
+            let c = [15.0, 0.0, -10.0, 0.0, 3.0].map(|c| c * d / 16.0);
             Vec::from_iter([(1.0, Shape::Quintic(c))])
         }
         Profile::Cycloid => {
-            let shape = Shape::Harmonic { c: [d, 0.0], a: -d / TAU, b: 0.0 };
+            let shape = Shape::Harmonic { c: [0.5 * d, 0.0], a: d / TAU, b: 0.0 };
             Vec::from_iter([(1.0, shape)])
         }
         Profile::Trapezoid => {
@@ -135,7 +135,9 @@ fn integrate(stretches: &[(f64, f64, f64)]) -> Shapes {
     stretches
         .iter()
         .map(|&(f, a, j)| {
-            let c = [rate * f, a * f * f / 2.0, j * f * f * f / 6.0];
+            // c₁s + c₂s² + c₃s³ about s = ½.
+            let (c1, c2, c3) = (rate * f, a * f * f / 2.0, j * f * f * f / 6.0);
+            let c = [(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0];
             rate += (a + j * f / 2.0) * f;
             (f, Shape::Cubic(c))
         })
@@ -143,9 +145,10 @@ fn integrate(stretches: &[(f64, f64, f64)]) -> Shapes {
 }
 
 /// `v` turns at the old rate, and half of `dv` more by the end:
-/// `Δ = v s + dv [s²/2 + (cos 2πs − 1)/4π²]`.
+/// `Δ = v s + dv [s²/2 + (cos 2πs − 1)/4π²]`, about `s = ½`.
 fn spin_up(v: f64, dv: f64) -> Shapes {
-    let shape = Shape::Harmonic { c: [v, dv / 2.0], a: 0.0, b: dv / (TAU * TAU) };
+    let c = [v / 2.0 + dv / 4.0, dv / 8.0];
+    let shape = Shape::Harmonic { c, a: 0.0, b: -dv / (TAU * TAU) };
     Vec::from_iter([(1.0, shape)])
 }
 

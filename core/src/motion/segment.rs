@@ -1,6 +1,6 @@
 //! A piece of the commanded motion in the form that the tick evaluates.
 
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 use super::Angle;
 use crate::math::Scalar;
@@ -21,46 +21,48 @@ pub struct Hub<T> {
     pub acceleration: T,
 }
 
-/// A stretch of the motion with one formula, `s = 0..1` over its length.
+/// A stretch of the motion with one formula, `u = −1..1` over its length. About the middle the
+/// coefficients are small and nothing cancels: rounding is an eighth of that in `0..1`.
 ///
 /// The first tick that belongs to a segment may lie a fraction of a tick after its beginning: the
 /// thirds of a trapezoid need not be whole ticks.
 ///
-/// Error in f32: angle 6e-7 of the segment's own turn (a cruise: 3e-8 turn, however long), rate and
-/// acceleration 1e-6 of their peaks.
+/// Error in f32: angle 1e-7 of the segment's own turn (a cruise: 3e-8 turn, however long), rate
+/// and acceleration 3e-7 of their peaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment<T> {
-    start: Angle<T>,
+    /// Angle at `u = 0`; of a cruise, at its first tick.
+    origin: Angle<T>,
     /// Ticks that belong to the segment.
     count: u32,
-    /// `s` at the first of them.
+    /// `u` at the first of them.
     offset: T,
-    /// `s` a tick.
+    /// `u` a tick.
     advance: T,
-    /// `2π / D`, turns per `s` to rad/s, `D` the length in seconds.
+    /// `4π / D`, turns per `u` to rad/s, `D` the length in seconds.
     rate_scale: T,
-    /// `2π / D²`.
+    /// `8π / D²`.
     acceleration_scale: T,
-    /// θ̈ at `s = 1`, from the left.
+    /// θ̈ at `u = 1`, from the left.
     landing: T,
     shape: Shape<T>,
 }
 
-/// Turns from the segment's start, as a function of `s`.
+/// Turns from the segment's middle, as a function of `u`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Shape<T> {
-    /// `c₁s + c₂s² + c₃s³`.
+    /// `c₁u + c₂u² + c₃u³`.
     Cubic([T; 3]),
-    /// `c₁s + … + c₅s⁵`.
+    /// `c₁u + … + c₅u⁵`.
     Quintic([T; 5]),
-    /// `c₁s + c₂s² + a sin 2πs + b (cos 2πs − 1)`.
+    /// `c₁u + c₂u² + a sin πu + b (cos πu − 1)`.
     Harmonic { c: [T; 2], a: T, b: T },
     /// Constant rate (rad/s). `step / 2⁶⁴` turns a tick, multiplied out in integers: after 10⁹
     /// ticks the angle is within 3e-11 turn.
     Cruise { rate: T, step: i64 },
 }
 
-/// `(Δ, dΔ/ds, d²Δ/ds²)` of a shape in turns.
+/// `(Δ, dΔ/du, d²Δ/du²)` of a shape in turns.
 type Derivatives<T> = (T, T, T);
 
 impl<T: Scalar> Segment<T> {
@@ -68,11 +70,11 @@ impl<T: Scalar> Segment<T> {
     #[inline(always)]
     pub fn hub(&self, k: u32) -> Hub<T> {
         let (angle, rate, acceleration) = match self.shape {
-            Shape::Cruise { rate, step } => (self.start.cruise(step, k), rate, T::ZERO),
+            Shape::Cruise { rate, step } => (self.origin.cruise(step, k), rate, T::ZERO),
             _ => {
-                let s = self.offset + T::from_u32(k) * self.advance;
-                let (delta, first, second) = self.derivatives(s);
-                (self.start.plus(delta), first * self.rate_scale, second * self.acceleration_scale)
+                let u = self.offset + T::from_u32(k) * self.advance;
+                let (delta, first, second) = self.derivatives(u);
+                (self.origin.plus(delta), first * self.rate_scale, second * self.acceleration_scale)
             }
         };
         let (sin, cos) = angle.sin_cos();
@@ -80,30 +82,30 @@ impl<T: Scalar> Segment<T> {
     }
 
     #[inline(always)]
-    fn derivatives(&self, s: T) -> Derivatives<T> {
+    fn derivatives(&self, u: T) -> Derivatives<T> {
         match self.shape {
             Shape::Cubic([c1, c2, c3]) => {
                 let (c2_2, c3_3) = (T::TWO * c2, (T::TWO + T::ONE) * c3);
-                (((c3 * s + c2) * s + c1) * s, (c3_3 * s + c2_2) * s + c1, T::TWO * c3_3 * s + c2_2)
+                (((c3 * u + c2) * u + c1) * u, (c3_3 * u + c2_2) * u + c1, T::TWO * c3_3 * u + c2_2)
             }
             Shape::Quintic([c1, c2, c3, c4, c5]) => {
                 let three = T::TWO + T::ONE;
                 let (d2, d3) = (T::TWO * c2, three * c3);
                 let (d4, d5) = ((three + T::ONE) * c4, (three + T::TWO) * c5);
                 (
-                    ((((c5 * s + c4) * s + c3) * s + c2) * s + c1) * s,
-                    (((d5 * s + d4) * s + d3) * s + d2) * s + c1,
-                    (((three + T::ONE) * d5 * s + three * d4) * s + T::TWO * d3) * s + d2,
+                    ((((c5 * u + c4) * u + c3) * u + c2) * u + c1) * u,
+                    (((d5 * u + d4) * u + d3) * u + d2) * u + c1,
+                    (((three + T::ONE) * d5 * u + three * d4) * u + T::TWO * d3) * u + d2,
                 )
             }
             Shape::Harmonic { c: [c1, c2], a, b } => {
-                let (sin, cos) = s.sin_cos_turns();
-                let tau = T::from_f64(TAU);
+                let (sin, cos) = (T::HALF * u).sin_cos_turns();
+                let pi = T::from_f64(PI);
                 let c2_2 = T::TWO * c2;
                 (
-                    (c2 * s + c1) * s + a * sin + b * (cos - T::ONE),
-                    c2_2 * s + c1 + tau * (a * cos - b * sin),
-                    c2_2 - tau * tau * (a * sin + b * cos),
+                    (c2 * u + c1) * u + a * sin + b * (cos - T::ONE),
+                    c2_2 * u + c1 + pi * (a * cos - b * sin),
+                    c2_2 - pi * pi * (a * sin + b * cos),
                 )
             }
             Shape::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
@@ -113,11 +115,6 @@ impl<T: Scalar> Segment<T> {
     /// Ticks that belong to the segment.
     pub fn count(&self) -> u32 {
         self.count
-    }
-
-    /// Angle at the segment's beginning.
-    pub fn start(&self) -> Angle<T> {
-        self.start
     }
 
     /// θ̈ at the segment's end, from the left.
@@ -130,9 +127,9 @@ impl<T: Scalar> Segment<T> {
         Self { count, ..self }
     }
 
-    /// The same segment, beginning at another angle.
-    pub(crate) fn moved(self, start: Angle<T>) -> Self {
-        Self { start, ..self }
+    /// The same cruise, beginning at another angle.
+    pub(crate) fn moved(self, origin: Angle<T>) -> Self {
+        Self { origin, ..self }
     }
 }
 
@@ -162,17 +159,18 @@ impl Segment<f64> {
         count: u32,
         tick: f64,
     ) -> Self {
-        let duration = length * tick;
+        let half = 0.5 * length * tick;
         let mut segment = Self {
-            start,
+            origin: start,
             count,
-            offset: before / length,
-            advance: 1.0 / length,
-            rate_scale: TAU / duration,
-            acceleration_scale: TAU / (duration * duration),
+            offset: 2.0 * before / length - 1.0,
+            advance: 2.0 / length,
+            rate_scale: TAU / half,
+            acceleration_scale: TAU / (half * half),
             landing: 0.0,
             shape,
         };
+        segment.origin = start.plus(-segment.derivatives(-1.0).0);
         segment.landing = segment.derivatives(1.0).2 * segment.acceleration_scale;
         segment
     }
@@ -182,7 +180,7 @@ impl Segment<f64> {
         // At most ½ turn a tick by the rate check of `Plan`, so the product fits an i64.
         let step = libm::round(rate * tick / TAU * 18_446_744_073_709_551_616.0) as i64;
         Self {
-            start,
+            origin: start,
             count,
             offset: 0.0,
             advance: 0.0,
@@ -199,33 +197,33 @@ impl Segment<f64> {
         let (angle, rate, acceleration) = match self.shape {
             Shape::Cruise { rate, step } => {
                 let turns = step as f64 / 18_446_744_073_709_551_616.0 * ticks;
-                (self.start.plus(turns), rate, 0.0)
+                (self.origin.plus(turns), rate, 0.0)
             }
             _ => {
-                let s = self.offset + ticks * self.advance;
-                let (delta, first, second) = self.derivatives(s);
-                (self.start.plus(delta), first * self.rate_scale, second * self.acceleration_scale)
+                let u = self.offset + ticks * self.advance;
+                let (delta, first, second) = self.derivatives(u);
+                (self.origin.plus(delta), first * self.rate_scale, second * self.acceleration_scale)
             }
         };
         let (sin, cos) = angle.sin_cos();
         Hub { angle, sin, cos, rate, acceleration }
     }
 
-    /// The angle at `s = 1`.
+    /// The angle at `u = 1`.
     pub(crate) fn end(&self) -> Angle<f64> {
-        self.start.plus(self.derivatives(1.0).0)
+        self.origin.plus(self.derivatives(1.0).0)
     }
 
     /// Ticks from the segment's true beginning to its first tick, 0 to 1.
     pub fn ticks_before(&self) -> f64 {
-        if self.advance == 0.0 { 0.0 } else { self.offset / self.advance }
+        if self.advance == 0.0 { 0.0 } else { (self.offset + 1.0) / self.advance }
     }
 
     /// Rounds to the scalar of the tick.
     pub fn cast<T: Scalar>(&self) -> Segment<T> {
         let f = T::from_f64;
         Segment {
-            start: self.start.cast(),
+            origin: self.origin.cast(),
             count: self.count,
             offset: f(self.offset),
             advance: f(self.advance),
