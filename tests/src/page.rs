@@ -18,7 +18,7 @@ const COLUMNS: [(&str, &[&str]); 7] = [
     ("neither", &["no-damping", "no-gravity"]),
     ("neither, at rest", &["no-damping", "no-gravity", "at-rest"]),
     ("neither, next segment", &["no-damping", "no-gravity", "next-segment"]),
-    ("neither, landing", &["no-damping", "no-gravity", "landing"]),
+    ("neither, landing", &["no-damping", "no-gravity", "landing", "still"]),
 ];
 
 /// The page with its tables replaced.
