@@ -1,4 +1,5 @@
 #![forbid(unsafe_code)]
 //! The desktop side of stillbeam.
 
+pub mod reference;
 pub mod trajectory;
