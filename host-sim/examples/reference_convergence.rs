@@ -22,10 +22,14 @@ fn main() -> Result<(), ReferenceError> {
         println!("# {name}");
         against_truth(&truth)?;
         let reference = orders(&truth)?;
-        let base = if name == "d-fast" { 2e-4 } else { 8e-4 };
-        let base = if name == "spin-up" { 8e-3 } else { base };
-        steps(&truth, &reference, base)?;
-        elements(&truth, &reference, base / 16.0)?;
+        // Halvings of the step, and the step at which elements are compared, s.
+        let (longest, halvings, fixed) = match name {
+            "d-fast" => (2e-4, 5, 1.25e-5),
+            "spin-up" => (1e-3, 3, 2.5e-4),
+            _ => (1e-3, 5, 5e-5),
+        };
+        steps(&truth, &reference, longest, halvings)?;
+        elements(&truth, &reference, fixed)?;
         println!();
     }
     Ok(())
@@ -61,10 +65,10 @@ fn orders(truth: &Truth) -> Result<Vec<Sample>, ReferenceError> {
     Ok(best)
 }
 
-fn steps(truth: &Truth, rod: &[Sample], base: f64) -> Result<(), ReferenceError> {
+fn steps(truth: &Truth, rod: &[Sample], longest: f64, halvings: u32) -> Result<(), ReferenceError> {
     let mut before = None;
-    for k in 0..6 {
-        let step = base / f64::from(1 << k);
+    for k in 0..=halvings {
+        let step = longest / f64::from(1 << k);
         before = Some(compare(truth, rod, 32, step, before)?);
     }
     Ok(())
