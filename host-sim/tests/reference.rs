@@ -18,7 +18,8 @@ fn solve_fem(truth: &Truth, options: &fem::Options) -> Vec<Sample> {
 
 #[test]
 fn rod_agrees_with_the_truth() {
-    for name in NAMES {
+    // The truth of d-fast has the default's order itself, see the next test.
+    for name in NAMES.into_iter().filter(|&name| name != "d-fast") {
         let truth = truth(name);
         let run = solve_rod(&truth, &rod::Options::default());
         let error = truth.error(&run);
@@ -135,7 +136,8 @@ fn both_agree_past_half_turns_and_over_jumps() {
     let times: Vec<f64> = (0..=480).map(|k| f64::from(k) * 0.005).collect();
     let rod = rod::solve(&scene, &trajectory, &times, &rod::Options::default()).unwrap();
     // At these rates (to 19 rad/s, deflections to 0.85 of L) a link of 1e7 stretches by 3e-5.
-    let options = fem::Options { step: Some(5e-5), axial_stiffness: 1e8, ..Default::default() };
+    let options =
+        fem::Options { elements: 16, step: Some(5e-5), axial_stiffness: 1e8, ..Default::default() };
     let fem = fem::solve(&scene, &trajectory, &times, &options).unwrap();
     let error = difference(&scene, &trajectory, &fem, &rod);
     assert!(error.tip < 2e-5 && error.torque < 3e-4, "{error:?}");
