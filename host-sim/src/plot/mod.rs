@@ -10,6 +10,7 @@
 //! ```
 
 mod axis;
+mod clip;
 mod draw;
 mod palette;
 
