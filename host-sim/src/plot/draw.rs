@@ -166,7 +166,8 @@ fn curve(
     let place = |&(x, y): &(f64, f64)| chart.x.place(x).zip(chart.y.place(y));
     let points: Vec<(f64, f64)> = styled.series.points.iter().filter_map(place).collect();
     if styled.series.dash.is_some() {
-        for piece in bounds.clip(&points) {
+        let line = if styled.series.stairs { staircase(&points) } else { points.clone() };
+        for piece in bounds.clip(&line) {
             plot.draw_series(std::iter::once(stroke(styled, piece)))?;
         }
     }
@@ -178,7 +179,13 @@ fn curve(
     Ok(())
 }
 
-/// Marked places and ticks as the axis has them, nothing left to plotters.
+/// Along x first, then along y, from point to point.
+fn staircase(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let stairs = points.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]);
+    stairs.chain(points.last().copied()).collect()
+}
+
+/// Range and ticks as the axis has them, nothing left to plotters.
 impl Ranged for Ruler {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;

@@ -40,8 +40,10 @@ pub(super) fn head(study: &Study) -> Markup {
         div.scroll {
             p.caption {
                 "What was run: stillbeam-sim " (env!("CARGO_PKG_VERSION")) ". Every move is a \
-                 cubic over \u{3c0} rad in a horizontal plane, hub radius 0. All curves are \
-                 computed; none is measured."
+                 cubic over \u{3c0} rad in a horizontal plane, but for those that the profiles \
+                 are compared by. Hub radius 0: the paper\u{2019}s rig clamps its links at some \
+                 distance from the motor\u{2019}s axis, which its text does not give. All curves \
+                 are computed; none is measured."
             }
             table.words {
                 thead { tr { th { "Part" } th { "Scene" } th { "Solver" } } }
