@@ -1,5 +1,7 @@
 //! Axes: ranges, ticks and the words at them.
 
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+
 /// One axis.
 #[derive(Clone, Debug)]
 pub struct Axis {
@@ -96,6 +98,31 @@ impl Ruler {
             if self.log { power(position) } else { format!("{:.*}", self.decimals, position) };
         let zero = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
         if zero { text.trim_start_matches('-').into() } else { text.replace('-', "\u{2212}") }
+    }
+}
+
+/// Range and ticks as the axis has them, nothing left to plotters.
+impl Ranged for Ruler {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let share = (value - self.low) / (self.high - self.low);
+        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> std::ops::Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Ruler {
+    fn format_ext(&self, value: &f64) -> String {
+        self.words(*value)
     }
 }
 
