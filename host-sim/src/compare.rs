@@ -3,6 +3,7 @@
 use stillbeam::Move;
 
 use crate::error::Error;
+use crate::reference::rod;
 use crate::scene_file::SceneFile;
 use crate::table::Row;
 use crate::trajectory::{Side, Trajectory};
@@ -73,7 +74,7 @@ pub fn residual(rows: &[Row], scene: &SceneFile) -> Result<Option<f64>, Error> {
         return Ok(None);
     }
     let end = last_move_end(scene, &trajectory);
-    let still = crate::statics::deflection(&scene.arm, trajectory.at(end, Side::Right).angle)?;
+    let still = rod::rest_deflection(&scene.arm, trajectory.at(end, Side::Right).angle)?;
     let length = scene.arm.link.length;
     let largest = rows
         .iter()

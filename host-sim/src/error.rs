@@ -43,3 +43,9 @@ impl From<stillbeam::Error> for Error {
         Self::new(error)
     }
 }
+
+impl From<crate::reference::ReferenceError> for Error {
+    fn from(error: crate::reference::ReferenceError) -> Self {
+        Self::new(error)
+    }
+}

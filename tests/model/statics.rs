@@ -101,7 +101,7 @@ fn equilibrium_of_the_model_and_of_the_rod_agree_for_small_sag() {
     scene.gravity = 9.81;
     scene.payload.mass = 0.001;
     let angle = stillbeam::Angle::from_radians(0.3);
-    let rod = stillbeam_sim::statics::deflection(&scene, angle).expect("equilibrium");
+    let rod = stillbeam_sim::reference::rod::rest_deflection(&scene, angle).expect("equilibrium");
     let (sin, cos) = angle.sin_cos();
     let model = Model::<16, 4>::consistent(&scene).expect("model");
     let linear = model.equilibrium(sin, cos)[model.tip()];

@@ -109,7 +109,8 @@ fn truth_starts_in_static_equilibrium() {
     for name in stillbeam_tests::TRUTH_SCENES {
         let (scene, rows) = truth(name);
         let angle = stillbeam::Angle::from_radians(scene.from);
-        let still = stillbeam_sim::statics::deflection(&scene.arm, angle).expect("equilibrium");
+        let still =
+            stillbeam_sim::reference::rod::rest_deflection(&scene.arm, angle).expect("equilibrium");
         let error = (rows[0].deflection_m - still).abs() / scene.arm.link.length;
         assert!(error < 3e-6, "{name}: {error:e}");
     }

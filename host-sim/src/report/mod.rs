@@ -1,0 +1,67 @@
+//! The study as one HTML page that needs nothing but itself.
+
+mod fig1;
+mod fig2;
+mod fig5;
+mod fig6;
+mod findings;
+pub mod parts;
+mod profiles;
+mod setpoints;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::error::Error;
+use crate::study::Study;
+
+/// Words that several figures share.
+const TIME: &str = "time, s";
+const TIP_X: &str = "tip X, m";
+/// Over the line that ends a move.
+const STOP: &str = "hub stops";
+
+/// A chapter of the page.
+struct Section {
+    id: &'static str,
+    title: &'static str,
+    body: Markup,
+}
+
+/// The whole page. The same study gives the same text, byte for byte.
+pub fn render(study: &Study) -> Result<String, Error> {
+    let sections = [
+        findings::link_mass(study),
+        fig1::section(study)?,
+        fig2::section(study)?,
+        fig5::section(study)?,
+        fig6::section(study)?,
+        profiles::section(study)?,
+        setpoints::section(study)?,
+    ];
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { "Stillbeam: the paper's study" }
+                style { (PreEscaped(include_str!("style.css"))) }
+            }
+            body {
+                header { (findings::head(study)) (findings::in_short(study)) }
+                nav aria-label="Contents" {
+                    h2 { "Contents" }
+                    ol { @for section in &sections {
+                        li { a href={ "#" (section.id) } { (section.title) } }
+                    } }
+                }
+                main {
+                    @for section in &sections {
+                        section id=(section.id) { h2 { (section.title) } (section.body) }
+                    }
+                }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
