@@ -56,18 +56,20 @@ impl<const D: usize> Assembly<D> {
         let tip_force = scene.payload.mass * scene.reach();
         for e in 0..elements {
             let x1 = e as f64 * l;
-            // Axial force per θ̇², and per g along the link.
-            let centrifugal = |xi: f64| {
-                let x = x1 + xi * l;
-                rho_a * (radius * (length - x) + 0.5 * (length * length - x * x)) + tip_force
-            };
-            let hanging = |xi: f64| rho_a * (length - x1 - xi * l) + scene.payload.mass;
+            // Axial force per θ̇², and per g along the link, in ξ = (x − x₁)/ℓ.
+            let outboard = length - x1;
+            let centrifugal = [
+                rho_a * (radius * outboard + 0.5 * outboard * (length + x1)) + tip_force,
+                -rho_a * l * (radius + x1),
+                -0.5 * rho_a * l * l,
+            ];
+            let hanging = [rho_a * outboard + scene.payload.mass, -rho_a * l, 0.0];
             scatter(&mut chain.stiffness, e, &element::stiffness(scene.link.bending_stiffness, l));
             scatter(&mut chain.mass, e, &m_e);
             scatter(&mut chain.spin, e, &element::axial(l, centrifugal));
             scatter(&mut chain.spin, e, &m_e.map(|row| row.map(|value| -value)));
             scatter(&mut chain.tension, e, &element::axial(l, hanging));
-            scatter(&mut chain.shortening, e, &element::axial(l, |_| 1.0));
+            scatter(&mut chain.shortening, e, &element::axial(l, [1.0, 0.0, 0.0]));
             let x = radius + x1;
             scatter_product(&mut chain.coupling, e, &m_e, [x, 1.0, x + l, 1.0]);
             scatter_product(&mut chain.weight, e, &m_e, [1.0, 0.0, 1.0, 0.0]);
@@ -91,6 +93,7 @@ impl<const D: usize> Assembly<D> {
 }
 
 /// Adds element `e` to the assembled matrix, leaving out the clamped node.
+#[inline(never)]
 fn scatter<const D: usize>(sum: &mut Band<f64, D, CHAIN>, e: usize, matrix: &Matrix) {
     for i in 0..4 {
         for j in 0..=i {

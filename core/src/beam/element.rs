@@ -24,11 +24,12 @@ pub(crate) fn lumped_mass(rho_a: f64, l: f64) -> Matrix {
     [[half, 0.0, 0.0, 0.0], [0.0; 4], [0.0, 0.0, half, 0.0], [0.0; 4]]
 }
 
-/// `∫ P(ξ) N'N'ᵀ dx` over an element of length `l`, for an axial force `p` of at most third degree
-/// in `ξ = x/ℓ ∈ 0..1`; unit axial force gives the foreshortening matrix.
+/// `∫ P(ξ) N'N'ᵀ dx` over an element of length `l`, for an axial force `p₀ + p₁ξ + p₂ξ²` with
+/// `ξ = x/ℓ ∈ 0..1`; unit axial force gives the foreshortening matrix.
 ///
 /// Four Gauss points: exact to degree 7, and `N'N'ᵀ` has degree 4.
-pub(crate) fn axial(l: f64, p: impl Fn(f64) -> f64) -> Matrix {
+#[inline(never)]
+pub(crate) fn axial(l: f64, p: [f64; 3]) -> Matrix {
     const POINTS: [(f64, f64); 4] = [
         (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
         (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
@@ -37,13 +38,10 @@ pub(crate) fn axial(l: f64, p: impl Fn(f64) -> f64) -> Matrix {
     ];
     let mut sum = [[0.0; 4]; 4];
     for (xi, weight) in POINTS {
-        let slope = [
-            6.0 * xi * (xi - 1.0) / l,
-            1.0 + xi * (3.0 * xi - 4.0),
-            6.0 * xi * (1.0 - xi) / l,
-            xi * (3.0 * xi - 2.0),
-        ];
-        let c = weight * l * p(xi);
+        let bend = 6.0 * xi * (xi - 1.0) / l;
+        let slope =
+            [bend, 1.0 + xi * (3.0 * xi - 4.0), -bend, xi * (3.0 * xi - 2.0)];
+        let c = weight * l * (p[0] + xi * (p[1] + xi * p[2]));
         for i in 0..4 {
             for j in 0..4 {
                 sum[i][j] += c * slope[i] * slope[j];
