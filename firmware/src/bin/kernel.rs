@@ -36,5 +36,7 @@ fn main() -> ! {
         black_box([0; 4][black_box(0)]);
     }
     visit_all(&mut Ticks(black_box(0x2000_0000 as *mut u8)));
-    loop {}
+    loop {
+        cortex_m::asm::wfi();
+    }
 }

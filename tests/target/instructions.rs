@@ -1,0 +1,93 @@
+//! What ticks cost on the target: against the table, within a path, from path to path.
+
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+
+use stillbeam_tests::instructions::{self, Bench, Count};
+use stillbeam_tests::{page, root};
+
+fn bench() -> &'static Bench {
+    static BENCH: OnceLock<Bench> = OnceLock::new();
+    BENCH.get_or_init(|| instructions::count().unwrap_or_else(|error| panic!("{error}")))
+}
+
+fn csv() -> String {
+    std::fs::read_to_string(root().join("docs/instructions.csv")).expect("docs/instructions.csv")
+}
+
+/// No tick is more than 2 % above `docs/instructions.csv`, and the rows are the same.
+#[test]
+fn no_tick_has_grown() {
+    let found =
+        instructions::regressions(bench(), &csv(), 2).unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        found.is_empty(),
+        "{}\nif this is meant: cargo run --release -p stillbeam-tests --bin instructions",
+        found.join("\n")
+    );
+}
+
+/// The check above can fail: a tick 3 % above the table, a row more, a row less.
+#[test]
+fn growth_is_found() {
+    let mut grown = bench().clone();
+    let slow = &mut grown.counts[7];
+    slow.worst += slow.worst * 3 / 100 + 1;
+    let slow = slow.key.join(",");
+    grown.counts[9].key[1] = "99".into();
+    let mut found =
+        instructions::regressions(&grown, &instructions::csv_of_ticks(bench()), 2).unwrap();
+    found.sort();
+    assert_eq!(found.len(), 3, "{found:?}");
+    assert!(found.iter().any(|line| line.starts_with(&slow) && line.contains("tick_max grew")));
+    assert!(found.iter().any(|line| line.contains(",99,") && line.contains("not in")));
+    assert!(found.iter().any(|line| line.contains("no longer counted")));
+}
+
+/// Among ticks on the same path, the worst is at most 5 % above the least.
+#[test]
+fn ticks_on_one_path_cost_the_same() {
+    for Count { key, least, worst, .. } in &bench().counts {
+        let most = u64::from(*least) * 105;
+        assert!(u64::from(*worst) * 100 <= most, "{}: {least} to {worst}", key.join(","));
+    }
+}
+
+/// Whatever is skipped, the worst tick does not rise.
+#[test]
+fn no_skip_raises_the_worst_tick() {
+    let mut compared = 0;
+    for more in &bench().counts {
+        for less in &bench().counts {
+            let ((path, words), (other, fewer)) = (split(more), split(less));
+            let comparable = more.key[..3] == less.key[..3] && path == other;
+            if comparable && fewer.is_subset(&words) && fewer != words {
+                compared += 1;
+                assert!(
+                    more.worst <= less.worst,
+                    "{} costs {}, {} only {}",
+                    more.key.join(","),
+                    more.worst,
+                    less.key.join(","),
+                    less.worst
+                );
+            }
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}
+
+/// The path of a row that takes up a segment besides, and the words for what is skipped.
+fn split(count: &Count) -> (Option<&str>, BTreeSet<&str>) {
+    let path = |word: &&str| ["next-segment", "landing"].contains(word);
+    let words = count.key[3].split_whitespace();
+    (words.clone().find(path), words.filter(|word| !path(word)).collect())
+}
+
+/// The page says that these are not cycles, and has a place for the tables.
+#[test]
+fn the_page_is_honest_about_its_unit() {
+    let page = std::fs::read_to_string(root().join("docs/instructions.md")).unwrap();
+    assert!(page.lines().take(6).any(|line| line.contains("instructions, not cycles")));
+    page::replace(&page, "").unwrap();
+}

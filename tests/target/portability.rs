@@ -1,0 +1,55 @@
+//! The core compiles for other processors, each feature alone; the firmware with a board's counter.
+
+use std::fs;
+
+use stillbeam_tests::firmware::{self, require_target, run};
+use stillbeam_tests::root;
+
+/// Without floating-point unit; Armv8-M with one; RISC-V.
+const TARGETS: [&str; 3] =
+    ["thumbv6m-none-eabi", "thumbv8m.main-none-eabihf", "riscv32imac-unknown-none-elf"];
+
+/// Names in the `[features]` table of a manifest.
+fn features(manifest: &str) -> Vec<&str> {
+    manifest
+        .lines()
+        .skip_while(|line| *line != "[features]")
+        .skip(1)
+        .take_while(|line| !line.starts_with('['))
+        .filter(|line| !line.starts_with('#'))
+        .filter_map(|line| line.split_once('='))
+        .map(|(name, _)| name.trim())
+        .filter(|name| *name != "default")
+        .collect()
+}
+
+fn check(arguments: &[&str]) {
+    let done = run(firmware::cargo()
+        .args(["check", "--quiet", "--target-dir", "target/portability"])
+        .args(arguments));
+    if let Err(error) = done {
+        panic!("{error}");
+    }
+}
+
+#[test]
+fn the_core_compiles_everywhere_with_every_feature_alone() {
+    let manifest = fs::read_to_string(root().join("core/Cargo.toml")).expect("core/Cargo.toml");
+    let features = features(&manifest);
+    assert!(features.contains(&"defmt"), "{features:?}");
+    for target in TARGETS {
+        require_target(target).unwrap_or_else(|error| panic!("{error}"));
+        let bare = ["--package", "stillbeam", "--no-default-features", "--target", target];
+        check(&bare);
+        for feature in &features {
+            check(&[&bare[..], &["--features", feature]].concat());
+        }
+    }
+}
+
+#[test]
+fn the_bench_compiles_for_a_board() {
+    require_target(firmware::TARGET).unwrap_or_else(|error| panic!("{error}"));
+    let image = ["--package", "stillbeam-firmware", "--bin", "bench", "--features", "dwt"];
+    check(&[&image[..], &["--target", firmware::TARGET]].concat());
+}
