@@ -39,8 +39,7 @@ pub(crate) fn axial(l: f64, p: [f64; 3]) -> Matrix {
     let mut sum = [[0.0; 4]; 4];
     for (xi, weight) in POINTS {
         let bend = 6.0 * xi * (xi - 1.0) / l;
-        let slope =
-            [bend, 1.0 + xi * (3.0 * xi - 4.0), -bend, xi * (3.0 * xi - 2.0)];
+        let slope = [bend, 1.0 + xi * (3.0 * xi - 4.0), -bend, xi * (3.0 * xi - 2.0)];
         let c = weight * l * (p[0] + xi * (p[1] + xi * p[2]));
         for i in 0..4 {
             for j in 0..4 {
