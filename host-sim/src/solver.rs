@@ -1,12 +1,12 @@
 //! Which solver a run uses: command line over scene file over defaults.
 
 use clap::ValueEnum;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
 /// How the arm is stepped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// The arm does not bend.
@@ -16,7 +16,7 @@ pub enum Method {
 }
 
 /// How the elements' mass is spread.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mass {
     /// By the element's shape functions.
@@ -26,7 +26,7 @@ pub enum Mass {
 }
 
 /// Precision of the tick; set-up is always f64.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scalar {
     /// As on the target.
@@ -37,7 +37,7 @@ pub enum Scalar {
 
 /// The `[solver]` table, and the same keys on the command line. What is absent is left to the
 /// next in line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, clap::Args)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, clap::Args)]
 #[serde(deny_unknown_fields)]
 pub struct SolverKeys {
     /// Stepper [default: newmark]
@@ -90,7 +90,33 @@ impl Default for Solver {
     }
 }
 
+impl From<Solver> for SolverKeys {
+    fn from(solver: Solver) -> Self {
+        Self {
+            method: Some(solver.method),
+            elements: Some(solver.elements as i64),
+            mass: Some(solver.mass),
+            tick: Some(solver.tick),
+            scalar: Some(solver.scalar),
+            spin: Some(solver.spin),
+        }
+    }
+}
+
 impl SolverKeys {
+    /// Names of the keys, in the order of the fields; a sweep's columns.
+    pub const NAMES: [&'static str; 6] = ["method", "elements", "mass", "tick_s", "scalar", "spin"];
+
+    /// Every key that the method reads, absent ones at their defaults; none that it does not, so
+    /// that equal solvers have equal keys.
+    pub fn relevant(self) -> Self {
+        let keys = self.or(Solver::default().into());
+        match keys.method {
+            Some(Method::Rigid) => Self { elements: None, mass: None, spin: None, ..keys },
+            Some(Method::Newmark) | None => keys,
+        }
+    }
+
     /// These keys, and `other`'s where they are absent.
     pub fn or(self, other: Self) -> Self {
         Self {
