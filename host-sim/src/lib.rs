@@ -9,6 +9,7 @@ pub mod compare;
 pub mod error;
 pub mod model_choice;
 pub mod output;
+pub mod reference;
 pub mod run;
 pub mod scene_file;
 pub mod scenes;

@@ -1,0 +1,100 @@
+//! Reference solutions to judge the core by: two solvers that share no method with it, nor with
+//! each other. Only the scene and the commanded motion are common.
+//!
+//! | | [`rod`] | [`fem`] |
+//! |---|---|---|
+//! | link | inextensible, geometrically exact | stretches a little, corotational elements |
+//! | unknowns | relative angle, a few polynomials | nodal displacements in the global frame |
+//! | in time | Runge-Kutta of order 8 or 5, error-controlled | Newmark with equilibrium iterations |
+//! | torque | moment of the inertia forces about the axis | reaction at the clamp carried to the axis |
+
+use std::fmt;
+
+pub mod rod;
+mod schedule;
+
+/// The arm at one time of a reference solution.
+///
+/// Where the commanded acceleration jumps, `acceleration` and `torque` are the right-hand values,
+/// except at the end of a move, where they are the left-hand ones: the values that the move itself
+/// commands last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// s.
+    pub t: f64,
+    /// θ with its whole turns, rad.
+    pub angle: f64,
+    /// θ̇, rad/s.
+    pub rate: f64,
+    /// θ̈, rad/s².
+    pub acceleration: f64,
+    /// The tip in the global frame, origin at the motor axis, m.
+    pub tip: [f64; 2],
+    /// The tip's Y in the hub frame, m.
+    pub deflection: f64,
+    /// τ at the hub, J_h θ̈ included, N m; positive drives θ forward.
+    pub torque: f64,
+}
+
+/// Why there is no reference solution.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ReferenceError {
+    /// The scene itself is not accepted.
+    Scene(stillbeam::Error),
+    /// A time is not finite, not in ascending order or outside the run.
+    Time {
+        /// What was given, s.
+        time: f64,
+        /// Length of the run, s.
+        duration: f64,
+    },
+    /// A solver's option is out of range.
+    Options {
+        /// Field and value.
+        given: String,
+        /// What is accepted.
+        accepted: &'static str,
+    },
+    /// No stable equilibrium under gravity at the first angle: the link buckles.
+    NoEquilibrium {
+        /// The first angle, rad.
+        angle: f64,
+    },
+    /// The integrator cannot go on.
+    Integration {
+        /// Where, s.
+        time: f64,
+        /// Its reason.
+        reason: String,
+    },
+}
+
+impl fmt::Display for ReferenceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(error) => error.fmt(f),
+            Self::Time { time, duration } => write!(
+                f,
+                "times: {time} s; accepted are ascending times from 0 to {duration} s, the run's \
+                 length"
+            ),
+            Self::Options { given, accepted } => write!(f, "{given}: accepted is {accepted}"),
+            Self::NoEquilibrium { angle } => write!(
+                f,
+                "move.from = {angle} rad: the link has no stable equilibrium under gravity there; \
+                 accepted is less gravity, a stiffer link or a lighter payload"
+            ),
+            Self::Integration { time, reason } => {
+                write!(f, "the reference solver stopped at t = {time} s: {reason}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for ReferenceError {}
+
+impl From<stillbeam::Error> for ReferenceError {
+    fn from(error: stillbeam::Error) -> Self {
+        Self::Scene(error)
+    }
+}

@@ -1,0 +1,80 @@
+//! Where the rod rests, and how fast it can vibrate.
+
+use nalgebra::{Cholesky, DMatrix, SMatrix, SVector};
+
+use super::equations::Rod;
+
+/// Load steps on the way to the full weight: Newton's method then follows the branch that starts
+/// at the straight link.
+const LOAD_STEPS: u32 = 16;
+
+impl<const N: usize> Rod<N> {
+    /// The static shape under gravity at the hub angle given by its sine and cosine, rad; `None`
+    /// if it is not stable.
+    ///
+    /// Minimises `½ Σ kₖ aₖ² + g ∫ M(x) sin(θ + φ) dx`, `M(x) = ρA(L − x) + m_p` the mass outboard.
+    pub fn equilibrium(&self, sin: f64, cos: f64) -> Option<SVector<f64, N>> {
+        let mut a = SVector::zeros();
+        if self.scene.gravity == 0.0 {
+            return Some(a);
+        }
+        for step in 1..=LOAD_STEPS {
+            let gravity = self.scene.gravity * f64::from(step) / f64::from(LOAD_STEPS);
+            let mut change = f64::INFINITY;
+            for _ in 0..50 {
+                let (gradient, hessian) = self.potential(gravity, sin, cos, &a);
+                // Positive definite: the equilibrium is stable, and so is the way to it.
+                let delta = Cholesky::new(hessian)?.solve(&gradient);
+                a -= delta;
+                change = delta.amax();
+                if change < 1e-13 * (1.0 + a.amax()) {
+                    break;
+                }
+            }
+            if change > 1e-9 {
+                return None;
+            }
+        }
+        Some(a)
+    }
+
+    fn potential(
+        &self,
+        gravity: f64,
+        sin: f64,
+        cos: f64,
+        a: &SVector<f64, N>,
+    ) -> (SVector<f64, N>, SMatrix<f64, N, N>) {
+        let basis = &self.basis;
+        let (link, payload) = (&self.scene.link, &self.scene.payload);
+        let mut gradient = SVector::from_fn(|k, _| self.stiffness[k] * a[k]);
+        let mut hessian = SMatrix::from_diagonal(&SVector::from(self.stiffness));
+        for (p, shapes) in basis.shapes.iter().enumerate() {
+            let shapes = SVector::from(*shapes);
+            let (s, c) = shapes.dot(a).sin_cos();
+            let outboard = link.mass * (1.0 - basis.points[p]) + payload.mass;
+            let weight = gravity * outboard * link.length * basis.weights[p];
+            gradient += shapes * (weight * (cos * c - sin * s));
+            hessian -= shapes * shapes.transpose() * (weight * (sin * c + cos * s));
+        }
+        (gradient, hessian)
+    }
+
+    /// Angular frequencies of the straight clamped rod, rad/s, ascending. The upper ones are those
+    /// of the polynomials, far above the link's own.
+    pub fn frequencies(&self) -> SVector<f64, N> {
+        let rest = SVector::zeros();
+        let mass = self.mass_matrix(&self.configuration(&rest, &rest));
+        // K is diagonal: ω⁻² are the eigenvalues of K^-½ M K^-½.
+        let scaled = DMatrix::from_fn(N, N, |i, j| {
+            mass[(i, j)] / (self.stiffness[i] * self.stiffness[j]).sqrt()
+        });
+        let mut omega: Vec<f64> = scaled
+            .symmetric_eigenvalues()
+            .iter()
+            .map(|inverse| 1.0 / inverse.max(f64::MIN_POSITIVE).sqrt())
+            .collect();
+        omega.sort_by(f64::total_cmp);
+        SVector::from_vec(omega)
+    }
+}
