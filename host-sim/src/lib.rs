@@ -3,17 +3,21 @@
 //!
 //! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
 //! motion ([`trajectory`]), the core's run ([`run`], [`model_choice`]), its table ([`table`],
-//! [`output`]), and how far two tables are apart ([`compare`], [`statics`]).
+//! [`output`]), and how far two tables are apart ([`compare`], [`statics`]). The paper's figures are
+//! computed in [`study`] and shown by [`report`] and [`plot`].
 
 pub mod compare;
 pub mod error;
 pub mod model_choice;
 pub mod output;
+pub mod plot;
 pub mod reference;
+pub mod report;
 pub mod run;
 pub mod scene_file;
 pub mod scenes;
 pub mod solver;
 pub mod statics;
+pub mod study;
 pub mod table;
 pub mod trajectory;

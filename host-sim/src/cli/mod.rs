@@ -2,6 +2,7 @@
 
 mod compare;
 mod run;
+mod study;
 
 use std::process::ExitCode;
 
@@ -21,6 +22,8 @@ pub struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Run the paper's study: tables and a report (also without a command)
+    Study(study::StudyArgs),
     /// Run the core on a scene and write its setpoints
     Run(run::RunArgs),
     /// How far two runs of a scene are apart
@@ -33,7 +36,8 @@ impl Cli {
     /// Carries out the command.
     pub fn execute(self) -> Result<ExitCode, Error> {
         match self.command {
-            None => Err(Error::new("a command is needed")),
+            None => study::StudyArgs::default().execute(),
+            Some(Command::Study(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Scenes) => {

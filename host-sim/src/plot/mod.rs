@@ -1,0 +1,164 @@
+//! Line charts and scatter pictures as SVG text.
+//!
+//! ```
+//! use stillbeam_sim::plot::{Axis, Chart, Series};
+//!
+//! let chart = Chart::new("Error over cost", Axis::log("cost, instructions"), Axis::log("error"))
+//!     .with(Series::scatter("tried", [(100.0, 1e-2), (200.0, 1e-2), (300.0, 1e-3)]))
+//!     .with(Series::front("best", [(100.0, 1e-2), (300.0, 1e-3)]));
+//! assert!(chart.svg().unwrap().starts_with("<svg"));
+//! ```
+
+mod axis;
+mod draw;
+mod palette;
+
+pub use axis::Axis;
+pub use palette::Colour;
+
+use crate::error::Error;
+
+/// A chart with one pair of axes.
+///
+/// The legend stands above the plotting area, never on it. A single series has none.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    title: String,
+    x: Axis,
+    y: Axis,
+    size: (u32, u32),
+    series: Vec<Series>,
+    marks: Vec<(f64, String)>,
+    equal: bool,
+}
+
+/// Points that belong together.
+#[derive(Clone, Debug)]
+pub struct Series {
+    label: String,
+    points: Vec<(f64, f64)>,
+    colour: Option<Colour>,
+    dash: Option<Dash>,
+    width: u32,
+    marker: Option<Marker>,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dash {
+    /// Without gaps.
+    Solid,
+    /// Long strokes.
+    Dashed,
+    /// Short strokes.
+    Dotted,
+}
+
+/// How a point is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marker {
+    /// Small and filled.
+    Dot,
+    /// An open circle.
+    Ring,
+    /// Large and filled.
+    Disc,
+    /// ×.
+    Cross,
+}
+
+impl Chart {
+    /// An empty chart, 520 × 340 units: half the width of a page.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
+        let (series, marks) = (Vec::new(), Vec::new());
+        Self { title: title.into(), x, y, size: (520, 340), series, marks, equal: false }
+    }
+
+    /// Another size, units of which text is 13 to 15 high.
+    pub fn sized(mut self, width: u32, height: u32) -> Self {
+        self.size = (width, height);
+        self
+    }
+
+    /// One more series. Those without a colour of their own take the palette's next.
+    pub fn with(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// More series.
+    pub fn with_all(self, series: impl IntoIterator<Item = Series>) -> Self {
+        series.into_iter().fold(self, Self::with)
+    }
+
+    /// A vertical line at `x` with a few words above it.
+    pub fn mark(mut self, x: f64, label: impl Into<String>) -> Self {
+        self.marks.push((x, label.into()));
+        self
+    }
+
+    /// One unit of `y` as long as one of `x`: for paths in the plane, linear axes.
+    pub fn equal_scales(mut self) -> Self {
+        self.equal = true;
+        self
+    }
+
+    /// The picture: one `<svg>` element that takes the width it is given.
+    pub fn svg(&self) -> Result<String, Error> {
+        draw::svg(self).map_err(|error| Error::new(format_args!("{}: {error}", self.title)))
+    }
+}
+
+impl Series {
+    fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let points = points.into_iter().collect();
+        Self { label: label.into(), points, colour: None, dash: None, width: 2, marker: None }
+    }
+
+    /// A curve.
+    pub fn line(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self { dash: Some(Dash::Solid), ..Self::new(label, points) }
+    }
+
+    /// Points that are not joined.
+    pub fn scatter(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self { marker: Some(Marker::Dot), ..Self::new(label, points) }
+    }
+
+    /// The points of a front where less is better on both axes, joined by a staircase over what
+    /// they dominate.
+    pub fn front(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        let mut corners: Vec<(f64, f64)> = points.into_iter().collect();
+        corners.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let stairs = corners.iter().enumerate().flat_map(|(i, &(x, y))| {
+            let step = (i > 0).then(|| (x, corners[i - 1].1));
+            step.into_iter().chain([(x, y)])
+        });
+        let line = Self::line(label, stairs).colour(Colour::Vermilion);
+        Self { marker: Some(Marker::Disc), ..line }
+    }
+
+    /// That colour.
+    pub fn colour(mut self, colour: Colour) -> Self {
+        self.colour = Some(colour);
+        self
+    }
+
+    /// A line of that style.
+    pub fn dash(mut self, dash: Dash) -> Self {
+        self.dash = Some(dash);
+        self
+    }
+
+    /// A line of that width, units; 2 unless told.
+    pub fn width(mut self, width: u32) -> Self {
+        self.width = width;
+        self
+    }
+
+    /// A marker on every point.
+    pub fn marker(mut self, marker: Marker) -> Self {
+        self.marker = Some(marker);
+        self
+    }
+}

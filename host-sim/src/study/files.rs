@@ -1,0 +1,180 @@
+//! What the study leaves behind: CSVs and the report.
+
+use std::path::{Path, PathBuf};
+
+use super::Study;
+use crate::error::Error;
+use crate::{output, report, table};
+
+/// Name of the report.
+pub const REPORT: &str = "report.html";
+
+/// Columns of numbers and where they go.
+struct Columns {
+    file: &'static str,
+    header: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Columns {
+    fn new(file: &'static str, header: &[&str], rows: Vec<Vec<f64>>) -> Self {
+        Self { file, header: header.iter().map(|&name| name.to_owned()).collect(), rows }
+    }
+}
+
+impl Study {
+    /// Refuses a folder that cannot be one.
+    pub fn check_folder(folder: &Path) -> Result<(), Error> {
+        let file = folder.ancestors().find(|path| path.is_file());
+        match file {
+            Some(path) => Err(Error::new(format_args!(
+                "--out = {}: {} is a file; accepted is a folder, made if it does not exist",
+                folder.display(),
+                path.display()
+            ))),
+            None if folder.as_os_str().is_empty() => {
+                Err(Error::new("--out = \"\": accepted is a folder, made if it does not exist"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the CSVs and, last, the report, each whole or not at all; gives back their paths,
+    /// the report first.
+    pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+        Self::check_folder(folder)?;
+        let page = report::render(self)?;
+        let report = folder.join(REPORT);
+        let mut paths = vec![report.clone()];
+        for columns in self.columns() {
+            let path = folder.join(columns.file);
+            let header: Vec<&str> = columns.header.iter().map(String::as_str).collect();
+            table::write_columns(&path, &header, &columns.rows)?;
+            paths.push(path);
+        }
+        let path = folder.join("setpoints.csv");
+        table::write(&path, &self.setpoints.flexible.rows)?;
+        paths.push(path);
+        output::write_whole(&report, |file| file.write_all(page.as_bytes()))?;
+        Ok(paths)
+    }
+
+    fn columns(&self) -> Vec<Columns> {
+        vec![
+            self.tip_path_columns(),
+            self.element_columns(),
+            self.period_columns(),
+            self.step_columns(),
+            self.step_error_columns(),
+            self.member_columns(),
+            self.member_summary(),
+            self.profile_columns(),
+        ]
+    }
+
+    fn tip_path_columns(&self) -> Columns {
+        let pairs = self.tip_path.rigid.rows.iter().zip(&self.tip_path.flexible.rows);
+        let rows = pairs.map(|(rigid, flexible)| {
+            vec![rigid.t_s, rigid.tip_x_m, rigid.tip_y_m, flexible.tip_x_m, flexible.tip_y_m]
+        });
+        let header = ["t_s", "rigid_x_m", "rigid_y_m", "flexible_x_m", "flexible_y_m"];
+        Columns::new("fig1-tip-path.csv", &header, rows.collect())
+    }
+
+    fn element_columns(&self) -> Columns {
+        let meshes = &self.elements.meshes;
+        let name = |mass: &str, n: usize| format!("tip_x_{mass}_{n}_m");
+        let header = std::iter::once("t_s".to_owned())
+            .chain(meshes.iter().map(|mesh| name("lumped", mesh.elements)))
+            .chain(meshes.iter().map(|mesh| name("consistent", mesh.elements)));
+        let runs = meshes.iter().map(|mesh| &mesh.lumped.run);
+        let runs = runs.chain(meshes.iter().map(|mesh| &mesh.consistent.run));
+        side_by_side("fig2-elements.csv", header.collect(), &runs.collect::<Vec<_>>())
+    }
+
+    fn period_columns(&self) -> Columns {
+        let row = |mesh: &super::elements::Mesh| {
+            vec![mesh.elements as f64, mesh.lumped.period, mesh.consistent.period]
+        };
+        let header = ["elements", "lumped_period_s", "consistent_period_s"];
+        let rows = self.elements.meshes.iter().map(row).collect();
+        Columns::new("fig2-periods.csv", &header, rows)
+    }
+
+    fn step_columns(&self) -> Columns {
+        let table = |tick: f64, points: Vec<(f64, f64)>| {
+            points.into_iter().map(move |(t, x)| vec![tick, t, x])
+        };
+        let finest = table(self.steps.finest.solver.tick, self.steps.finest_tip_x());
+        let steps = self.steps.steps.iter().map(|step| &step.run);
+        let rows = finest.chain(steps.flat_map(|run| table(run.solver.tick, run.tip_x())));
+        Columns::new("fig5-steps.csv", &["step_s", "t_s", "tip_x_m"], rows.collect())
+    }
+
+    fn step_error_columns(&self) -> Columns {
+        let row = |step: &super::steps::Step| {
+            vec![step.run.solver.tick, step.tip_max, step.tip_rms, step.residual]
+        };
+        let header = ["step_s", "tip_error_max_l", "tip_error_rms_l", "residual_l"];
+        Columns::new("fig5-errors.csv", &header, self.steps.steps.iter().map(row).collect())
+    }
+
+    fn member_columns(&self) -> Columns {
+        let members = &self.members.members;
+        let header = std::iter::once("t_s".to_owned()).chain(members.iter().flat_map(|member| {
+            ["undamped", "damped"].map(|kind| format!("tip_x_{}_{kind}_m", member.name))
+        }));
+        let runs: Vec<_> = members.iter().flat_map(|m| [&m.undamped.run, &m.damped.run]).collect();
+        side_by_side("fig6-members.csv", header.collect(), &runs)
+    }
+
+    fn member_summary(&self) -> Columns {
+        let row = |member: &super::members::Member| {
+            let link = member.undamped.run.scene.arm.link;
+            vec![
+                link.mass,
+                link.bending_stiffness,
+                member.period,
+                member.undamped.peak,
+                member.undamped.residual,
+                member.damped.peak,
+                member.damped.residual,
+            ]
+        };
+        let header = [
+            "link_mass_kg",
+            "bending_stiffness_nm2",
+            "first_period_s",
+            "undamped_peak_l",
+            "undamped_residual_l",
+            "damped_peak_l",
+            "damped_residual_l",
+        ];
+        Columns::new("fig6-summary.csv", &header, self.members.members.iter().map(row).collect())
+    }
+
+    fn profile_columns(&self) -> Columns {
+        let curves = &self.profiles.curves;
+        let header = std::iter::once("duration_periods".to_owned())
+            .chain(curves.iter().map(|curve| format!("residual_{}_l", curve.profile.name())));
+        let count = curves.first().map_or(0, |curve| curve.points.len());
+        let row = |k: usize| {
+            std::iter::once(curves[0].points[k].0)
+                .chain(curves.iter().map(|curve| curve.points[k].1))
+                .collect()
+        };
+        let rows = (0..count).map(row).collect();
+        Columns { file: "profiles.csv", header: header.collect(), rows }
+    }
+}
+
+/// Tip X of runs with the same ticks, a column each.
+fn side_by_side(file: &'static str, header: Vec<String>, runs: &[&super::Run]) -> Columns {
+    let count = runs.first().map_or(0, |run| run.rows.len());
+    let row = |k: usize| {
+        std::iter::once(runs[0].rows[k].t_s)
+            .chain(runs.iter().map(|run| run.rows[k].tip_x_m))
+            .collect()
+    };
+    Columns { file, header, rows: (0..count).map(row).collect() }
+}

@@ -1,0 +1,133 @@
+//! The paper's study on the embedded scenes: one module a figure, numbers only.
+//!
+//! The paper: A. Kato and D. Isobe, "Calculating Trajectories for Flexible Manipulators by Using
+//! Finite Element Method" (in Japanese). [`crate::report`] shows what is computed here.
+
+pub mod elements;
+mod files;
+mod findings;
+pub mod link_mass;
+pub mod members;
+pub mod profiles;
+pub mod setpoints;
+pub mod steps;
+pub mod tip_path;
+
+pub use files::REPORT;
+
+use stillbeam::Move;
+
+use crate::compare;
+use crate::error::Error;
+use crate::scene_file::SceneFile;
+use crate::solver::{Solver, SolverKeys};
+use crate::table::Row;
+use crate::{run, scenes};
+
+/// Everything the report shows.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// What mass the link of the paper's section 3 has.
+    pub link_mass: link_mass::LinkMass,
+    /// Fig. 1.
+    pub tip_path: tip_path::TipPath,
+    /// Fig. 2.
+    pub elements: elements::Elements,
+    /// Fig. 5.
+    pub steps: steps::Steps,
+    /// Fig. 6.
+    pub members: members::Members,
+    /// Why the profile is taken to be the cubic.
+    pub profiles: profiles::Profiles,
+    /// Setpoints of one move.
+    pub setpoints: setpoints::Setpoints,
+}
+
+impl Study {
+    /// Parts of [`Study::compute`]: how often it calls `progress`.
+    pub const PARTS: u64 = 7;
+
+    /// Runs everything; tells `progress` what comes next. Writes nothing.
+    pub fn compute(mut progress: impl FnMut(&'static str)) -> Result<Self, Error> {
+        let mut part = |name| progress(name);
+        part("link mass");
+        let link_mass = link_mass::LinkMass::compute()?;
+        part("tip path (Fig. 1)");
+        let tip_path = tip_path::TipPath::compute()?;
+        part("elements (Fig. 2)");
+        let elements = elements::Elements::compute()?;
+        part("time step (Fig. 5)");
+        let steps = steps::Steps::compute()?;
+        part("members (Fig. 6)");
+        let members = members::Members::compute()?;
+        part("profiles");
+        let profiles = profiles::Profiles::compute()?;
+        part("setpoints");
+        let setpoints = setpoints::Setpoints::compute()?;
+        Ok(Self { link_mass, tip_path, elements, steps, members, profiles, setpoints })
+    }
+}
+
+/// A scene, its solver, and what came out.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The scene, with the solver in it.
+    pub scene: SceneFile,
+    /// The solver.
+    pub solver: Solver,
+    /// A row every tick.
+    pub rows: Vec<Row>,
+}
+
+impl Run {
+    /// Runs a scene by its own solver.
+    pub fn of(scene: SceneFile) -> Result<Self, Error> {
+        let solver = scene.solver.resolve()?;
+        let rows = run::run(&scene, &solver)?;
+        Ok(Self { scene, solver, rows })
+    }
+
+    /// Runs an embedded scene; `keys` go over its own solver.
+    pub fn embedded(name: &str, keys: SolverKeys) -> Result<Self, Error> {
+        Self::of(scene(name, keys)?)
+    }
+
+    /// Tip X over time, (s, m).
+    pub fn tip_x(&self) -> Vec<(f64, f64)> {
+        self.rows.iter().map(|row| (row.t_s, row.tip_x_m)).collect()
+    }
+
+    /// Largest |deflection| of the run, fraction of L.
+    pub fn peak(&self) -> f64 {
+        let largest = self.rows.iter().map(|row| row.deflection_m.abs()).fold(0.0, f64::max);
+        largest / self.scene.arm.link.length
+    }
+
+    /// [`compare::residual`] of a run that ends at rest, fraction of L.
+    pub fn residual(&self) -> Result<f64, Error> {
+        compare::residual(&self.rows, &self.scene)?
+            .ok_or_else(|| Error::new(format_args!("{}: does not end at rest", self.scene.name)))
+    }
+
+    /// Duration of the first move, s.
+    pub fn move_time(&self) -> f64 {
+        self.scene.moves.first().map_or(0.0, |step| step.motion.duration())
+    }
+}
+
+/// An embedded scene; `keys` go over its own solver.
+fn scene(name: &str, keys: SolverKeys) -> Result<SceneFile, Error> {
+    let scene = scenes::open(name)?;
+    Ok(SceneFile { solver: keys.or(scene.solver), ..scene })
+}
+
+/// The same scene with another profile and duration in its first move.
+fn reshaped(scene: &SceneFile, profile: stillbeam::Profile, duration: f64) -> SceneFile {
+    let mut scene = scene.clone();
+    if let Some(step) = scene.moves.first_mut()
+        && let Move::To { to, .. } = step.motion
+    {
+        step.motion = Move::To { profile, duration, to };
+    }
+    scene
+}
