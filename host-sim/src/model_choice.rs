@@ -65,7 +65,7 @@ pub trait StepperVisitor {
     type Output;
 
     /// Receives the stepper.
-    fn visit<S: Stepper>(self, stepper: S) -> Result<Self::Output, Error>;
+    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Self::Output, Error>;
 }
 
 /// Builds the stepper that `solver` asks for, model included, and hands it to the visitor. A new

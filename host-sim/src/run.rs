@@ -29,7 +29,7 @@ struct Rows<'a> {
 impl StepperVisitor for Rows<'_> {
     type Output = Vec<Row>;
 
-    fn visit<S: Stepper>(self, stepper: S) -> Result<Vec<Row>, Error> {
+    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Vec<Row>, Error> {
         drive(stepper, self.scene)
     }
 }

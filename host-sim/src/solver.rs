@@ -77,6 +77,36 @@ pub struct Solver {
     pub spin: bool,
 }
 
+impl Method {
+    /// As it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::Newmark => "newmark",
+        }
+    }
+}
+
+impl Mass {
+    /// As it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Consistent => "consistent",
+            Self::Lumped => "lumped",
+        }
+    }
+}
+
+impl Scalar {
+    /// As it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F32 => "f32",
+            Self::F64 => "f64",
+        }
+    }
+}
+
 impl Default for Solver {
     fn default() -> Self {
         Self {
@@ -162,21 +192,15 @@ impl Solver {
     /// In a few words, e.g. `newmark, 4 consistent elements, 10 ms, f32`.
     pub fn describe(&self) -> String {
         let tick = self.tick * 1e3;
-        let scalar = match self.scalar {
-            Scalar::F32 => "f32",
-            Scalar::F64 => "f64",
-        };
+        let (method, scalar) = (self.method.name(), self.scalar.name());
         match self.method {
-            Method::Rigid => format!("rigid, {tick} ms, {scalar}"),
+            Method::Rigid => format!("{method}, {tick} ms, {scalar}"),
             Method::Newmark => {
-                let mass = match self.mass {
-                    Mass::Consistent => "consistent",
-                    Mass::Lumped => "lumped",
-                };
+                let mass = self.mass.name();
                 let plural = if self.elements == 1 { "" } else { "s" };
                 let spin = if self.spin { "" } else { ", no spin terms" };
                 format!(
-                    "newmark, {} {mass} element{plural}, {tick} ms, {scalar}{spin}",
+                    "{method}, {} {mass} element{plural}, {tick} ms, {scalar}{spin}",
                     self.elements
                 )
             }
