@@ -60,7 +60,7 @@ fn spin_up_deflects_as_simo_and_vu_quoc_found() {
 #[test]
 fn explicit_and_implicit_integration_agree() {
     let mut truth = truth("b-tip30-damped-hub");
-    // Ten times the damping of the file: the highest polynomial decays within 1e-6 s.
+    // Ten times the damping of the file: the highest polynomial decays within microseconds.
     truth.scene.damping.beta = 0.02;
     let times: Vec<f64> = (0..=40).map(|k| f64::from(k) * 0.01).collect();
     let run = |integrator| {

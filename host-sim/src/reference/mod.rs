@@ -10,6 +10,7 @@
 
 use std::fmt;
 
+pub mod fem;
 pub mod rod;
 mod schedule;
 

@@ -1,0 +1,159 @@
+//! The arm as a chain of nodes in the global frame.
+
+use nalgebra::{Matrix3, Vector3};
+use stillbeam::Scene;
+use stillbeam::motion::Hub;
+
+use super::block::Chain;
+use super::element::Element;
+use super::inertia::{Inertia, payload};
+use super::{HubModel, Options};
+
+/// Displacement, velocity and acceleration of a node: global x, y (m) and rotation (rad), u_m and
+/// u_d together.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Node {
+    /// Position x, y and rotation.
+    pub q: Vector3<f64>,
+    pub v: Vector3<f64>,
+    pub a: Vector3<f64>,
+    /// u_d alone.
+    pub deformation: Vector3<f64>,
+}
+
+/// How much of a change of the unknowns reaches displacements, velocities and accelerations.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Change {
+    pub displacement: f64,
+    /// 1/s.
+    pub rate: f64,
+    /// 1/s².
+    pub acceleration: f64,
+}
+
+/// u_d of every node with its time derivatives.
+#[derive(Clone, Debug)]
+pub(super) struct Deformation {
+    pub u: Vec<Vector3<f64>>,
+    pub v: Vec<Vector3<f64>>,
+    pub a: Vec<Vector3<f64>>,
+}
+
+/// Elements, and the residual of the equations of motion.
+pub(super) struct Model {
+    pub scene: Scene,
+    /// Gravity that acts now, m/s².
+    pub gravity: f64,
+    /// Distance of every node from the axis, undeformed, m. The first node moves with the hub.
+    reach: Vec<f64>,
+    elements: Vec<Element>,
+    /// Of an element of the link; the hub's element has no mass.
+    inertia: Inertia,
+    /// Elements of the hub, 0 or 1.
+    hub_elements: usize,
+}
+
+impl Model {
+    pub fn new(scene: &Scene, options: &Options) -> Self {
+        let (link, damping) = (&scene.link, &scene.damping);
+        let count = options.elements;
+        let length = link.length / count as f64;
+        let bending = link.bending_stiffness;
+        let axial = options.axial_stiffness * bending / (link.length * link.length);
+        let beta = damping.beta;
+        let mut reach = Vec::new();
+        let mut elements = Vec::new();
+        if let (HubModel::Element { stiffness }, true) = (options.hub, scene.hub.radius > 0.0) {
+            reach.push(0.0);
+            elements.push(Element {
+                length: scene.hub.radius,
+                axial: stiffness * axial,
+                bending: stiffness * bending,
+                beta,
+            });
+        }
+        let hub_elements = elements.len();
+        reach.extend((0..=count).map(|i| scene.hub.radius + i as f64 * length));
+        elements.extend((0..count).map(|_| Element { length, axial, bending, beta }));
+        let inertia = Inertia::new(link.mass / count as f64, length, damping.alpha);
+        Self { scene: *scene, gravity: scene.gravity, reach, elements, inertia, hub_elements }
+    }
+
+    pub fn nodes(&self) -> usize {
+        self.reach.len()
+    }
+
+    /// u_m + u_d: the rigid motion with the hub, exact in time, and the deformation.
+    pub fn place(&self, hub: &Hub<f64>, deformation: &Deformation, nodes: &mut [Node]) {
+        let angle = hub.angle.radians();
+        let (sin, cos) = (hub.sin, hub.cos);
+        for (i, &x) in self.reach.iter().enumerate() {
+            let (along, across) =
+                (Vector3::new(x * cos, x * sin, 0.0), Vector3::new(-x * sin, x * cos, 1.0));
+            nodes[i] = Node {
+                q: along + Vector3::new(0.0, 0.0, angle) + deformation.u[i],
+                v: hub.rate * across + deformation.v[i],
+                a: hub.acceleration * across - hub.rate * hub.rate * along + deformation.a[i],
+                deformation: deformation.u[i],
+            };
+        }
+    }
+
+    /// The force (N, N, N m) that each node lacks for the equations of motion to hold, and its
+    /// derivative. That of the first node is the reaction of the hub.
+    pub fn residual(
+        &self,
+        nodes: &[Node],
+        change: &Change,
+        residual: &mut [Vector3<f64>],
+        tangent: &mut Chain,
+    ) {
+        residual.fill(Vector3::zeros());
+        tangent.clear();
+        for (i, element) in self.elements.iter().enumerate() {
+            let (a, b) = (&nodes[i], &nodes[i + 1]);
+            let (mut force, mut stiffness) = element.force(a, b, change);
+            if i >= self.hub_elements {
+                let (inertia, mass) = self.inertia.force(a, b, self.gravity, change);
+                force += inertia;
+                stiffness += mass;
+            }
+            residual[i] += force.fixed_rows::<3>(0);
+            residual[i + 1] += force.fixed_rows::<3>(3);
+            tangent.diagonal[i] += stiffness.fixed_view::<3, 3>(0, 0);
+            tangent.upper[i] += stiffness.fixed_view::<3, 3>(0, 3);
+            tangent.lower[i + 1] += stiffness.fixed_view::<3, 3>(3, 0);
+            tangent.diagonal[i + 1] += stiffness.fixed_view::<3, 3>(3, 3);
+        }
+        let tip = self.nodes() - 1;
+        let (force, mass) = payload(&self.scene, &nodes[tip], self.gravity, change);
+        residual[tip] += force;
+        tangent.diagonal[tip] += Matrix3::from_diagonal(&mass);
+    }
+
+    /// Hub torque, N m: the first node's reaction, moment and force carried to the axis, and
+    /// `J_h θ̈`.
+    pub fn torque(&self, reaction: &Vector3<f64>, clamp: &Node, hub: &Hub<f64>) -> f64 {
+        reaction.z + clamp.q.x * reaction.y - clamp.q.y * reaction.x
+            + self.scene.hub.inertia * hub.acceleration
+    }
+
+    /// Size of a residual against `EI/L²`, moments taken at the arm L.
+    pub fn relative(&self, residual: &[Vector3<f64>]) -> f64 {
+        let link = &self.scene.link;
+        let scale = link.length * link.length / link.bending_stiffness;
+        let largest = residual.iter().skip(1).fold(0.0, |largest: f64, r| {
+            // f64::max would drop a NaN.
+            let size = r.x.abs().max(r.y.abs()).max(r.z.abs() / link.length) + 0.0 * r.sum();
+            if size.is_nan() { f64::INFINITY } else { largest.max(size) }
+        });
+        scale * largest
+    }
+}
+
+impl Deformation {
+    pub fn zeros(nodes: usize) -> Self {
+        let zeros = vec![Vector3::zeros(); nodes];
+        Self { u: zeros.clone(), v: zeros.clone(), a: zeros }
+    }
+}

@@ -1,0 +1,130 @@
+//! Newmark's rule with equilibrium iterations.
+
+use nalgebra::Vector3;
+use stillbeam::motion::Hub;
+
+use super::block::Chain;
+use super::model::{Change, Deformation, Model, Node};
+use crate::reference::{ReferenceError, Sample};
+
+/// Newton steps that an equilibrium may take.
+const ITERATIONS: usize = 25;
+/// Load steps on the way to the static equilibrium.
+const LOAD_STEPS: u32 = 16;
+
+/// The arm at one time, and room to work.
+pub(super) struct March {
+    model: Model,
+    /// Of a residual, relative to EI/L².
+    tolerance: f64,
+    state: Deformation,
+    next: Deformation,
+    nodes: Vec<Node>,
+    residual: Vec<Vector3<f64>>,
+    tangent: Chain,
+}
+
+impl March {
+    /// At rest, undeformed.
+    pub fn new(model: Model, tolerance: f64) -> Self {
+        let n = model.nodes();
+        Self {
+            tolerance,
+            state: Deformation::zeros(n),
+            next: Deformation::zeros(n),
+            nodes: vec![Node::default(); n],
+            residual: vec![Vector3::zeros(); n],
+            tangent: Chain::new(n),
+            model,
+        }
+    }
+
+    /// Moves to the static equilibrium at the hub's angle.
+    pub fn settle(&mut self, hub: &Hub<f64>) -> Result<(), ReferenceError> {
+        let gravity = self.model.gravity;
+        let still = Hub { rate: 0.0, acceleration: 0.0, ..*hub };
+        let change = Change { displacement: 1.0, rate: 0.0, acceleration: 0.0 };
+        let unstable = ReferenceError::NoEquilibrium { angle: hub.angle.radians() };
+        for step in 1..=LOAD_STEPS {
+            self.model.gravity = gravity * f64::from(step) / f64::from(LOAD_STEPS);
+            self.next.clone_from(&self.state);
+            if self.equilibrate(&still, &change, 0.0).is_err() {
+                return Err(unstable);
+            }
+            if !self.tangent.is_positive_definite(1) {
+                return Err(unstable);
+            }
+            std::mem::swap(&mut self.state, &mut self.next);
+        }
+        Ok(())
+    }
+
+    /// Accelerations anew from displacements and velocities, where the commanded acceleration
+    /// jumps to that of `hub`. Carrying the old ones across would cost the rule its second order.
+    pub fn restart(&mut self, hub: &Hub<f64>, time: f64) -> Result<(), ReferenceError> {
+        self.next.clone_from(&self.state);
+        let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
+        self.equilibrate(hub, &change, time)?;
+        std::mem::swap(&mut self.state, &mut self.next);
+        Ok(())
+    }
+
+    /// A step of h s to the time at which the hub is as given: `u⁺ = u + h u̇ + ¼h²(ü + ü⁺)`,
+    /// `u̇⁺ = u̇ + ½h(ü + ü⁺)` (δ = 1/2, β = 1/4) of the deformation u_d, iterated to equilibrium.
+    pub fn step(&mut self, hub: &Hub<f64>, time: f64, h: f64) -> Result<(), ReferenceError> {
+        for i in 1..self.nodes.len() {
+            let (u, v, a) = (self.state.u[i], self.state.v[i], self.state.a[i]);
+            self.next.u[i] = u + h * v + 0.5 * h * h * a;
+            self.next.v[i] = v + h * a;
+            self.next.a[i] = a;
+        }
+        let change = Change { displacement: 1.0, rate: 2.0 / h, acceleration: 4.0 / (h * h) };
+        self.equilibrate(hub, &change, time)?;
+        std::mem::swap(&mut self.state, &mut self.next);
+        Ok(())
+    }
+
+    /// Newton's method on `next`, moved along `change`.
+    fn equilibrate(
+        &mut self,
+        hub: &Hub<f64>,
+        change: &Change,
+        time: f64,
+    ) -> Result<(), ReferenceError> {
+        for _ in 0..ITERATIONS {
+            self.model.place(hub, &self.next, &mut self.nodes);
+            self.model.residual(&self.nodes, change, &mut self.residual, &mut self.tangent);
+            if self.model.relative(&self.residual) <= self.tolerance {
+                return Ok(());
+            }
+            if self.tangent.solve(1, &mut self.residual).is_none() {
+                break;
+            }
+            for i in 1..self.nodes.len() {
+                let delta = self.residual[i];
+                self.next.u[i] -= change.displacement * delta;
+                self.next.v[i] -= change.rate * delta;
+                self.next.a[i] -= change.acceleration * delta;
+            }
+        }
+        let reason = "no equilibrium within the tolerance; accepted is a smaller step".to_owned();
+        Err(ReferenceError::Integration { time, reason })
+    }
+
+    /// The arm as it is now, its hub as given.
+    pub fn sample(&mut self, t: f64, hub: &Hub<f64>) -> Sample {
+        let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
+        self.model.place(hub, &self.state, &mut self.nodes);
+        self.model.residual(&self.nodes, &change, &mut self.residual, &mut self.tangent);
+        let tip = self.nodes[self.nodes.len() - 1].q;
+        Sample {
+            t,
+            angle: hub.angle.radians(),
+            rate: hub.rate,
+            acceleration: hub.acceleration,
+            tip: [tip.x, tip.y],
+            deflection: tip.y * hub.cos - tip.x * hub.sin,
+            torque: self.model.torque(&self.residual[0], &self.nodes[0], hub),
+        }
+    }
+}
