@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 
 use crate::error::Error;
-use crate::reference::{Sample, rod};
+use crate::reference::{Sample, fem, rod};
 use crate::scene_file::SceneFile;
 use crate::table::Row;
 use crate::trajectory::Trajectory;
@@ -13,6 +13,8 @@ use crate::trajectory::Trajectory;
 pub enum Reference {
     /// The inextensible rod with exact kinematics.
     Rod,
+    /// The paper's formulation done in full: corotational elements in the global frame.
+    Fem,
 }
 
 impl Reference {
@@ -20,6 +22,7 @@ impl Reference {
     pub fn describe(self) -> &'static str {
         match self {
             Self::Rod => "inextensible rod, exact kinematics",
+            Self::Fem => "corotational elements, global frame",
         }
     }
 }
@@ -38,6 +41,9 @@ pub fn solve(
     let samples = match reference {
         Reference::Rod => {
             rod::solve_with(&scene.arm, trajectory, times, &rod::Options::default(), progress)
+        }
+        Reference::Fem => {
+            fem::solve_with(&scene.arm, trajectory, times, &fem::Options::default(), progress)
         }
     };
     Ok(samples.map_err(Error::new)?.iter().map(row).collect())

@@ -44,6 +44,7 @@ impl ParetoArgs {
         for picture in &pictures {
             print!("{}", page::text(picture));
         }
+        print!("{}", page::summary(&pictures));
         println!("{}", files.display());
         Ok(ExitCode::SUCCESS)
     }

@@ -36,7 +36,7 @@ pub const QUESTIONS: [Question; 5] = [
     },
     Question {
         text: "without spin terms against with them",
-        names: ["without spin terms", "with spin terms"],
+        names: ["no spin terms", "spin terms"],
         set: [|keys| keys.spin = Some(false), |keys| keys.spin = Some(true)],
     },
 ];
@@ -105,7 +105,7 @@ fn compare(a: &str, b: &str, x: f64, y: f64) -> String {
     let ratio = x.max(y) / x.min(y);
     let larger = if x > y { a } else { b };
     if ratio < 1.01 {
-        "no difference".into()
+        "the same to 1 %".into()
     } else if ratio < 2.0 {
         format!("{:.0} % more with {larger}", 100.0 * (ratio - 1.0))
     } else {

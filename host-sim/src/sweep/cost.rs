@@ -27,18 +27,18 @@ const RUNS: std::ops::RangeInclusive<usize> = 7..=50;
 /// the slowest tick is one that computes more, not one that the machine interrupted.
 pub fn cost(scene: &SceneFile, keys: SolverKeys) -> Result<Cost, Error> {
     let solver = keys.resolve()?;
+    let mut sizes = (0, 0);
     let mut setups = Vec::with_capacity(SETUPS);
     for _ in 0..SETUPS {
         let start = Instant::now();
-        with_stepper(&scene.arm, &solver, Build)?;
+        sizes = with_stepper(&scene.arm, &solver, Build)?;
         setups.push(start.elapsed().as_secs_f64());
     }
-    let (state_bytes, stepper_bytes) = with_stepper(&scene.arm, &solver, Sizes)?;
     let mut ticks = with_stepper(&scene.arm, &solver, Ticks { scene })?;
     Ok(Cost {
         setup_us: significant(1e6 * median(&mut setups), 3),
-        state_bytes: state_bytes as u64,
-        stepper_bytes: stepper_bytes as u64,
+        state_bytes: sizes.0 as u64,
+        stepper_bytes: sizes.1 as u64,
         worst_ns: significant(1e9 * ticks.iter().copied().fold(0.0, f64::max), 3),
         tick_ns: significant(1e9 * median(&mut ticks), 3),
     })
@@ -47,20 +47,11 @@ pub fn cost(scene: &SceneFile, keys: SolverKeys) -> Result<Cost, Error> {
 struct Build;
 
 impl StepperVisitor for Build {
-    type Output = ();
-
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<(), Error> {
-        black_box(stepper);
-        Ok(())
-    }
-}
-
-struct Sizes;
-
-impl StepperVisitor for Sizes {
+    /// Bytes of the state and of the stepper.
     type Output = (usize, usize);
 
-    fn visit<S: Stepper + Clone>(self, _: S) -> Result<(usize, usize), Error> {
+    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<(usize, usize), Error> {
+        black_box(stepper);
         Ok((size_of::<S::State>(), size_of::<S>()))
     }
 }

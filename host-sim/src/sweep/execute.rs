@@ -34,14 +34,14 @@ pub fn execute(plan: &Plan, shard: Shard, out: &Path, resume: bool) -> Result<Do
         return Err(Error::file(out, "is a folder; accepted is a file's path"));
     }
     let cases = plan.shard(shard);
+    let earlier = resume && out.exists();
+    let mut known = Earlier::open(plan, earlier.then_some(out))?;
+    let have = known.indices()?;
     let errors_path = Part::path_of(out, ".errors.part");
     let mut errors = Part::open(&errors_path, plan, &cases, resume)?;
     let mut whole = Part::open(&Part::path_of(out, ".part"), plan, &cases, resume)?;
-    let earlier = resume && out.exists();
-    let mut known = Earlier::open(plan, earlier.then_some(out))?;
 
     let to_do = &cases[errors.rows()..];
-    let have = known.indices()?;
     let missing: Vec<usize> =
         to_do.iter().copied().filter(|index| have.binary_search(index).is_err()).collect();
     solve_references(plan, &missing)?;

@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::picture::{Picture, describe, ends};
+use super::answers::bases;
+use super::picture::{Picture, describe, ends, overview};
 use super::row::header;
 use crate::error::Error;
 use crate::output;
 use crate::report::parts::{Table, figure};
+use crate::scenes;
 
 /// Writes `index.html`, and a picture and the rows of each scene beside it, into a folder. Returns
 /// the page's path.
@@ -67,11 +69,20 @@ fn render(pictures: &[Picture<'_>]) -> Result<String, Error> {
                     }
                 }
                 nav aria-label="Contents" {
-                    ol { @for picture in pictures {
-                        li { a href={ "#" (file_name(&picture.scene)) } { (picture.scene) } }
-                    } }
+                    ol {
+                        li { a href="#overview" { "What a choice costs" } }
+                        @for picture in pictures {
+                            li { a href={ "#" (file_name(&picture.scene)) } { (picture.scene) } }
+                        }
+                    }
                 }
-                main { @for section in &sections { (section) } }
+                main {
+                    section id="overview" {
+                        h2 { "What a choice costs" }
+                        @for table in overviews(pictures) { (table.markup()) }
+                    }
+                    @for section in &sections { (section) }
+                }
             }
         }
     };
@@ -87,6 +98,9 @@ fn section(picture: &Picture<'_>) -> Result<Markup, Error> {
     Ok(html! {
         section id=(name) {
             h2 { (picture.scene) }
+            @if let Some((_, about)) = scenes::list().find(|(name, _)| *name == picture.scene) {
+                p { (about) }
+            }
             (figure(&[picture.chart()], &caption, &format!("{name}.csv"))?)
             @for (base, answers) in &picture.answers {
                 @if !answers.is_empty() {
@@ -123,11 +137,25 @@ pub fn text(picture: &Picture<'_>) -> String {
     text + "\n"
 }
 
+/// The overviews of all scenes.
+pub fn overviews(pictures: &[Picture<'_>]) -> Vec<Table> {
+    (0..bases().len()).filter_map(|base| overview(pictures, base)).collect()
+}
+
+/// The overviews for a terminal.
+pub fn summary(pictures: &[Picture<'_>]) -> String {
+    let block = |table: &Table| format!("{}\n{}\n", table.caption, plain(table));
+    overviews(pictures).iter().map(block).collect()
+}
+
 /// Columns of even width, a long header over two lines.
 fn plain(table: &Table) -> String {
     let split = |name: &str| -> [String; 2] {
-        let (quantity, unit) = name.split_once(", ").unwrap_or((name, ""));
-        [quantity.to_owned(), unit.to_owned()]
+        match (name.split_once(", "), name.split_once(" against ")) {
+            (Some((quantity, unit)), _) => [quantity.to_owned(), unit.to_owned()],
+            (None, Some((a, b))) => [a.to_owned(), format!("against {b}")],
+            (None, None) => [name.to_owned(), String::new()],
+        }
     };
     let heads: Vec<[String; 2]> = table.header.iter().map(|name| split(name)).collect();
     let lines = (0..2)

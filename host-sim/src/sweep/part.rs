@@ -27,12 +27,6 @@ impl Part {
     /// Opens a part of the rows of `cases`, which it must hold from the first on. Without `resume`
     /// there must be none yet.
     pub fn open(path: &Path, plan: &Plan, cases: &[usize], resume: bool) -> Result<Self, Error> {
-        if path.exists() && !resume {
-            return Err(Error::file(
-                path,
-                "left by an interrupted sweep; accepted is --resume, or no such file",
-            ));
-        }
         let refuse = |cause: std::io::Error| {
             Error::file(path, format_args!("{cause}; accepted is a path that can be written"))
         };
@@ -42,7 +36,17 @@ impl Part {
         let mut options = OpenOptions::new();
         let options = options.read(true).write(true).create(true).truncate(false);
         let mut file = options.open(path).map_err(refuse)?;
-        let whole_lines = length_of_whole_lines(&mut file).map_err(refuse)?;
+        let mut whole_lines = length_of_whole_lines(&mut file).map_err(refuse)?;
+        if !resume {
+            // A header alone is nothing lost.
+            if whole_lines > header().join(",").len() as u64 + 1 {
+                return Err(Error::file(
+                    path,
+                    "left by an interrupted sweep; accepted is --resume, or no such file",
+                ));
+            }
+            whole_lines = 0;
+        }
         // An interruption may have cut the last line.
         file.set_len(whole_lines).map_err(refuse)?;
         let mut rows = 0;

@@ -3,9 +3,10 @@
 use super::answers::{Answer, QUESTIONS, answers, bases, percent, short};
 use super::pareto::front;
 use super::row::Row;
-use crate::plot::{Axis, Chart, Series};
+use crate::plot::{Axis, Chart, Colour, Series};
 use crate::report::parts::Table;
 use crate::solver::SolverKeys;
+use crate::table::significant;
 
 /// What a sweep says of one scene.
 pub struct Picture<'a> {
@@ -46,6 +47,8 @@ impl<'a> Picture<'a> {
 
     /// Error against time, one mark a case, the front joined.
     pub fn chart(&self) -> Chart {
+        // The front's vermilion is left out.
+        let colours = [Colour::Blue, Colour::Sky, Colour::Green, Colour::Orange, Colour::Purple];
         let mut groups: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
         for row in &self.rows {
             let label = group(row);
@@ -56,9 +59,12 @@ impl<'a> Picture<'a> {
         }
         let x = Axis::log("processor time for a second of motion on this machine, \u{b5}s");
         let y = Axis::log("largest tip error, fraction of L");
-        Chart::new(self.scene.as_str(), x, y)
+        let scatter = |((label, points), &colour): ((String, Vec<_>), &Colour)| {
+            Series::scatter(label, points).colour(colour)
+        };
+        Chart::new(format!("Error against time, {}", self.scene), x, y)
             .sized(760, 460)
-            .with_all(groups.into_iter().map(|(label, points)| Series::scatter(label, points)))
+            .with_all(groups.into_iter().zip(colours.iter().cycle()).map(scatter))
             .with(Series::front("front", self.front.iter().map(|row| point(row))))
     }
 
@@ -112,9 +118,40 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// Time and error of a row.
+/// Time and error of a row, the error to the three digits that are shown: what differs less is no
+/// reason to be on the front.
 fn point(row: &Row) -> (f64, f64) {
-    (row.cost.map_or(f64::NAN, |cost| cost.load_us(row.tick_s())), row.errors.tip_max)
+    let time = row.cost.map_or(f64::NAN, |cost| cost.load_us(row.tick_s()));
+    (time, significant(row.errors.tip_max, 3))
+}
+
+/// Largest tip errors of all scenes around one base: what each choice costs on each scene, in %
+/// of L, cheap side / dear side.
+pub fn overview(pictures: &[Picture<'_>], base: usize) -> Option<Table> {
+    let cell = |answers: &[Answer<'_>], text: &str| {
+        let answer = answers.iter().find(|answer| answer.question.text == text);
+        answer.map_or_else(
+            || "\u{2013}".to_owned(),
+            |answer| {
+                let [a, b] = answer.rows.map(|row| short(100.0 * row.errors.tip_max));
+                format!("{a} / {b}")
+            },
+        )
+    };
+    let row = |picture: &Picture<'_>| {
+        let answers = &picture.answers.get(base)?.1;
+        let cells = QUESTIONS.iter().map(|question| cell(answers, question.text));
+        (!answers.is_empty()).then(|| [picture.scene.clone()].into_iter().chain(cells).collect())
+    };
+    let rows: Vec<Vec<String>> = pictures.iter().filter_map(row).collect();
+    let keys = pictures.first()?.answers.get(base)?.0;
+    let header = ["scene"].into_iter().chain(QUESTIONS.iter().map(|question| question.text));
+    (!rows.is_empty()).then(|| Table {
+        caption: format!("Largest tip error in % of L around {}.", describe(keys)),
+        header: header.collect(),
+        rows,
+        key: None,
+    })
 }
 
 /// What shares a colour: a method, without and with spin terms.

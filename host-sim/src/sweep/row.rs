@@ -168,7 +168,9 @@ impl Rows {
     }
 
     fn read(&mut self) -> Result<Option<Row>, Error> {
-        if !self.csv.read_record(&mut self.record).map_err(|e| Error::file(&self.path, e))? {
+        if !self.csv.read_record(&mut self.record).map_err(|error| {
+            Error::file(&self.path, format_args!("{error}; accepted is a CSV of sweep or merge"))
+        })? {
             return Ok(None);
         }
         let line = self.record.position().map_or(0, csv::Position::line);
@@ -189,8 +191,10 @@ impl Rows {
         let name = field.and_then(|field| header().get(field).copied());
         let value = field.and_then(|field| self.record.get(field));
         match (name, value) {
-            (Some(name), Some(value)) => format!("{name} = \"{value}\": {}", err.kind()),
-            _ => err.kind().to_string(),
+            (Some(name), Some(value)) => {
+                format!("{name} = \"{value}\": {}; accepted is what sweep writes", err.kind())
+            }
+            _ => format!("{}; accepted is what sweep writes", err.kind()),
         }
     }
 }
