@@ -36,6 +36,11 @@ impl SweepArgs {
         if self.resume {
             println!("  {} run, {} timed; the others were there", done.run, done.timed);
         }
+        if shard == Shard::WHOLE {
+            println!("  `stillbeam-sim pareto {} --out DIR` draws them", self.csv.display());
+        } else {
+            println!("  `stillbeam-sim merge OUT.csv SHARD.csv...` joins the shards");
+        }
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -35,9 +35,12 @@ pub struct Case {
 /// One commanded motion of a scene. Ticks that divide every duration share one; where a tick
 /// rounds a duration, the motion is another and so is its solution.
 struct Motion {
+    /// At the finest of the ticks.
     trajectory: Trajectory,
     scene: usize,
-    /// Setpoint times of all the ticks that share it, rising.
+    /// The ticks that share it, s.
+    ticks: Vec<f64>,
+    /// Their setpoint times, rising.
     times: Vec<f64>,
     solution: OnceLock<Result<Vec<crate::table::Row>, Error>>,
 }
@@ -88,26 +91,21 @@ impl Plan {
         let same = |motion: &Motion| {
             motion.scene == scene && same_durations(&motion.trajectory, &trajectory)
         };
-        let times = (0..=trajectory.ticks()).map(|k| k as f64 * tick);
-        match self.motions.iter().position(same) {
-            Some(index) => {
-                let motion = &mut self.motions[index];
-                // The same tick again adds nothing.
-                if tick < motion.trajectory.tick() {
-                    motion.times.extend(times);
-                    motion.trajectory = trajectory;
-                } else if tick > motion.trajectory.tick() {
-                    motion.times.extend(times);
-                }
-                Ok(index)
-            }
-            None => {
-                let times = times.collect();
-                let solution = OnceLock::new();
-                self.motions.push(Motion { trajectory, scene, times, solution });
-                Ok(self.motions.len() - 1)
+        let index = self.motions.iter().position(same).unwrap_or_else(|| {
+            let (ticks, times, solution) = (Vec::new(), Vec::new(), OnceLock::new());
+            let trajectory = trajectory.clone();
+            self.motions.push(Motion { trajectory, scene, ticks, times, solution });
+            self.motions.len() - 1
+        });
+        let motion = &mut self.motions[index];
+        if !motion.ticks.contains(&tick) {
+            motion.ticks.push(tick);
+            motion.times.extend((0..=trajectory.ticks()).map(|k| k as f64 * tick));
+            if tick < motion.trajectory.tick() {
+                motion.trajectory = trajectory;
             }
         }
+        Ok(index)
     }
 
     /// FNV-1a over what the rows depend on, 16 hexadecimal digits.
