@@ -5,6 +5,7 @@
 //! does in f64 with consistent mass: the ratio of the two is what preparing once saves.
 
 use std::hint::black_box;
+use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use stillbeam::motion::{Angle, Hub};
@@ -118,5 +119,15 @@ fn textbook(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, steppers, textbook);
+/// Sixty-odd benchmarks of nanoseconds: a second each is plenty.
+fn brief() -> Criterion {
+    let criterion = Criterion::default().without_plots();
+    criterion.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1))
+}
+
+criterion_group! {
+    name = benches;
+    config = brief();
+    targets = steppers, textbook
+}
 criterion_main!(benches);

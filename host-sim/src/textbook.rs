@@ -16,6 +16,8 @@ pub struct Textbook {
     scene: Scene,
     elements: usize,
     tick: f64,
+    /// As assembled at the latest step.
+    system: System,
     /// `b = M⁻¹F`.
     turn: DVector<f64>,
     q: DVector<f64>,
@@ -47,15 +49,15 @@ impl Textbook {
         let elements = elements.max(1);
         let zero = DVector::zeros(2 * elements);
         let system = System::assemble(scene, elements);
-        let turn = solve(system.mass, &system.coupling);
+        let turn = solve(system.mass.clone(), &system.coupling);
         let [q, v, a] = [zero.clone(), zero.clone(), zero];
-        Self { scene: *scene, elements, tick, turn, q, v, a }
+        Self { scene: *scene, elements, tick, system, turn, q, v, a }
     }
 
     /// Static equilibrium with the hub at rest.
     pub fn settle(&mut self, hub: &Hub<f64>) {
-        let system = System::assemble(&self.scene, self.elements);
-        self.q = solve(system.stiffness - system.tension * hub.sin, &(system.weight * -hub.cos));
+        let System { stiffness, tension, weight, .. } = &self.system;
+        self.q = solve(stiffness - tension * hub.sin, &(weight * -hub.cos));
         self.v.fill(0.0);
         self.a.fill(0.0);
     }
@@ -63,17 +65,17 @@ impl Textbook {
     /// Advances by one tick, from the hub at its beginning to the hub at its end.
     pub fn step(&mut self, before: &Hub<f64>, after: &Hub<f64>) {
         let h = self.tick;
-        let System { mass, stiffness, spin, tension, weight, .. } =
-            System::assemble(&self.scene, self.elements);
+        self.system = System::assemble(&self.scene, self.elements);
+        let System { mass, stiffness, spin, tension, weight, .. } = &self.system;
         let (alpha, beta) = (self.scene.damping.alpha, self.scene.damping.beta);
         let v = &self.v + 0.5 * h * &self.a;
         let q =
             &self.q + 0.5 * h * (&self.v + &v) - 0.5 * h * (before.rate + after.rate) * &self.turn;
         let rate2 = after.rate * after.rate;
-        let damping = alpha * &mass + beta * &stiffness;
-        let tangent = &stiffness + rate2 * spin - after.sin * tension;
-        let load = -alpha * &mass * &v
-            - beta * &stiffness * (&v - after.rate * &self.turn)
+        let damping = alpha * mass + beta * stiffness;
+        let tangent = stiffness + rate2 * spin - after.sin * tension;
+        let load = mass * &v * -alpha
+            - stiffness * (&v - after.rate * &self.turn) * beta
             - &tangent * &q
             - after.cos * weight;
         self.a = solve(mass + 0.5 * h * damping + 0.25 * h * h * tangent, &load);
@@ -84,13 +86,13 @@ impl Textbook {
     /// Hub torque and tip, to second order in the deflections.
     pub fn response(&self, hub: &Hub<f64>) -> Response<f64> {
         let scene = &self.scene;
-        let system = System::assemble(scene, self.elements);
+        let system = &self.system;
         let alpha = scene.damping.alpha;
         let forced = hub.acceleration + alpha * hub.rate;
         let q_dot = &self.v - hub.rate * &self.turn;
         let spin = &system.spin * &self.q;
         let carried = system.coupling.dot(&self.turn);
-        let bent = (system.tension * &self.q).dot(&self.q);
+        let bent = (&system.tension * &self.q).dot(&self.q);
         let torque = scene.hub.inertia * hub.acceleration
             + (scene.rigid_inertia() - carried) * forced
             + system.coupling.dot(&(&self.a + alpha * &self.v))
@@ -98,7 +100,7 @@ impl Textbook {
             - 2.0 * hub.rate * spin.dot(&q_dot)
             + hub.cos * (scene.gravity * scene.first_moment() - 0.5 * bent)
             - hub.sin * system.weight.dot(&self.q);
-        let shortened = 0.5 * (system.shortening * &self.q).dot(&self.q);
+        let shortened = 0.5 * (&system.shortening * &self.q).dot(&self.q);
         Response { torque, tip: [scene.reach() - shortened, self.q[2 * self.elements - 2]] }
     }
 }

@@ -104,7 +104,11 @@ impl Answer<'_> {
 fn compare(a: &str, b: &str, x: f64, y: f64) -> String {
     let ratio = x.max(y) / x.min(y);
     let larger = if x > y { a } else { b };
-    if ratio < 1.01 {
+    if x == y {
+        "the same".into()
+    } else if ratio.is_infinite() {
+        format!("nothing to compare with {larger}")
+    } else if ratio < 1.01 {
         "the same to 1 %".into()
     } else if ratio < 2.0 {
         format!("{:.0} % more with {larger}", 100.0 * (ratio - 1.0))
@@ -115,14 +119,16 @@ fn compare(a: &str, b: &str, x: f64, y: f64) -> String {
 
 /// A fraction as percent, three digits.
 pub fn percent(fraction: f64) -> String {
-    format!("{} %", short(100.0 * fraction))
+    let unit = if fraction.is_finite() { " %" } else { "" };
+    format!("{}{unit}", short(100.0 * fraction))
 }
 
-/// Three significant digits, plain where that is short.
+/// Three significant digits, plain where that is short; what is infinite has diverged.
 pub fn short(x: f64) -> String {
     let x = significant(x, 3);
     let digits = if x == 0.0 { 0 } else { 2 - x.abs().log10().floor() as i32 };
     match digits {
+        _ if x.is_infinite() => "diverges".into(),
         ..=0 => format!("{x:.0}"),
         1..=6 => format!("{x:.*}", digits as usize),
         _ => format!("{x:.2e}"),
@@ -142,7 +148,7 @@ mod tests {
             (0.001234, "0.00123"),
             (1234.0, "1230"),
             (1.234e-6, "1.23e-6"),
-            (f64::INFINITY, "inf"),
+            (f64::INFINITY, "diverges"),
         ];
         for (x, text) in cases {
             assert_eq!(short(x), text);

@@ -91,8 +91,11 @@ fn render(pictures: &[Picture<'_>]) -> Result<String, Error> {
 
 fn section(picture: &Picture<'_>) -> Result<Markup, Error> {
     let name = file_name(&picture.scene);
+    let diverged = picture.rows.iter().filter(|row| row.errors.tip_max.is_infinite()).count();
     let caption = html! {
-        (picture.rows.len()) " cases. The line joins those that no other beats in both. "
+        (picture.rows.len()) " cases"
+        @if diverged > 0 { ", " (diverged) " of which diverge and have no mark" }
+        ". The line joins those that no other beats in both. "
         (ends(picture))
     };
     Ok(html! {
