@@ -27,13 +27,17 @@ use crate::trajectory::Trajectory;
 pub struct Options {
     /// Elements over the link, 1 to 1000.
     pub elements: usize,
-    /// Longest step, s; `None` is a thousandth of `L²√(ρA/EI)`.
+    /// Longest step, s; `None` is a thousandth of `L²√(ρA/EI)`. The rule is not unconditionally
+    /// stable on this nonlinear problem: the spin-up of `tests/truth` needs a step below twice the
+    /// default, and stops with an error above.
     pub step: Option<f64>,
-    /// `EA L²/EI`, 1e2 to 1e10. The default is a strip whose length is 900 times its thickness.
+    /// `EA L²/EI`, 1e2 to 1e9; 12(L/t)² for a strip of thickness t. The tip differs from an
+    /// inextensible link's by up to 10/this of L in the runs of `tests/truth`.
     pub axial_stiffness: f64,
     /// What joins axis and clamp.
     pub hub: HubModel,
-    /// Largest residual of an equilibrium, as a fraction of `EI/L²` (moments: of `EI/L`).
+    /// Largest residual of an equilibrium, as a fraction of `EI/L²` (moments: of `EI/L`), 1e-12
+    /// to 1e-2. What rounding leaves is accepted too: some 1e-7 with the other defaults.
     pub tolerance: f64,
 }
 
@@ -44,7 +48,8 @@ pub enum HubModel {
     Rigid,
     /// One massless element, as in the paper.
     Element {
-        /// Its EI and EA as multiples of the link's.
+        /// Its EI and EA as multiples of the link's, 1 to 1e7. The tip differs from a rigid hub's
+        /// in inverse proportion: at 1e4 by some 2e-5 of L where r is a tenth of L.
         stiffness: f64,
     },
 }
@@ -72,12 +77,12 @@ impl Options {
         };
         check("elements", self.elements as f64, 1.0, 1000.0, "1 to 1000")?;
         check("step", self.step.unwrap_or(1e-3), 1e-9, 1.0, "1e-9 to 1 s")?;
-        check("axial_stiffness", self.axial_stiffness, 1e2, 1e10, "1e2 to 1e10")?;
+        check("axial_stiffness", self.axial_stiffness, 1e2, 1e9, "1e2 to 1e9")?;
         check("tolerance", self.tolerance, 1e-12, 1e-2, "1e-12 to 1e-2")?;
         match self.hub {
             HubModel::Rigid => Ok(()),
             HubModel::Element { stiffness } => {
-                check("hub.stiffness", stiffness, 1.0, 1e9, "1 to 1e9")
+                check("hub.stiffness", stiffness, 1.0, 1e7, "1 to 1e7")
             }
         }
     }

@@ -1,5 +1,7 @@
 //! The arm as a chain of nodes in the global frame.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Matrix3, Vector3};
 use stillbeam::Scene;
 use stillbeam::motion::Hub;
@@ -85,7 +87,8 @@ impl Model {
 
     /// u_m + u_d: the rigid motion with the hub, exact in time, and the deformation.
     pub fn place(&self, hub: &Hub<f64>, deformation: &Deformation, nodes: &mut [Node]) {
-        let angle = hub.angle.radians();
+        // Whole turns are left out: only directions are ever taken from it.
+        let angle = TAU * hub.angle.part;
         let (sin, cos) = (hub.sin, hub.cos);
         for (i, &x) in self.reach.iter().enumerate() {
             let (along, across) =
@@ -136,6 +139,16 @@ impl Model {
     pub fn torque(&self, reaction: &Vector3<f64>, clamp: &Node, hub: &Hub<f64>) -> f64 {
         reaction.z + clamp.q.x * reaction.y - clamp.q.y * reaction.x
             + self.scene.hub.inertia * hub.acceleration
+    }
+
+    /// What rounding of the displacements may leave of a residual, relative as in
+    /// [`Self::relative`]: that of the stretch, `ε |u|/l₀`, times EA, of the stiffest element.
+    pub fn rounding(&self) -> f64 {
+        let link = &self.scene.link;
+        let scale = link.length * link.length / link.bending_stiffness;
+        let stiffest =
+            self.elements.iter().map(|element| element.axial / element.length).fold(0.0, f64::max);
+        16.0 * f64::EPSILON * stiffest * self.scene.reach() * scale
     }
 
     /// Size of a residual against `EI/L²`, moments taken at the arm L.

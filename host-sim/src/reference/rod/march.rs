@@ -109,34 +109,42 @@ fn march<const N: usize>(
 ) -> Result<State<N>, ReferenceError> {
     let Stretch { begin, end, times } = motion.stretch;
     method.init(motion, begin, end, &start).map_err(|error| failure(begin, error))?;
-    let stops = times.iter().copied().filter(|&t| t < end).chain([end]);
-    for stop in stops {
-        // Rounding may leave a sliver before a stop; a step that small is none.
-        while stop - method.t() > 1e-13 * end.max(1.0) {
-            let proposed = method.h();
-            if !proposed.is_finite() {
-                let reason = "the state is not finite".to_owned();
-                return Err(ReferenceError::Integration { time: method.t(), reason });
-            }
-            let left = stop - method.t();
-            let cut = proposed >= left;
-            if cut {
-                method.set_h(left);
-            }
-            method.step(motion).map_err(|error| failure(begin, error))?;
-            if cut && !matches!(method.status(), Status::RejectedStep) {
-                method.set_h(proposed.max(method.h()));
-            }
-        }
-        if times.contains(&stop) {
-            visit(stop, method.y());
-        }
+    let (inside, at_end) = times.split_at(times.partition_point(|&t| t < end));
+    for &t in inside {
+        advance(&mut method, motion, t)?;
+        visit(t, method.y());
     }
-    // A time a rounding error past the end belongs to it.
-    for &t in times.iter().filter(|&&t| t > end) {
+    advance(&mut method, motion, end)?;
+    for &t in at_end {
         visit(t, method.y());
     }
     Ok(*method.y())
+}
+
+/// Steps to exactly `stop`, s.
+fn advance<const N: usize>(
+    method: &mut impl OrdinaryNumericalMethod<f64, State<N>>,
+    motion: &Motion<'_, N>,
+    stop: f64,
+) -> Result<(), ReferenceError> {
+    // Rounding may leave a sliver before a stop; a step that small is none.
+    while stop - method.t() > 1e-13 * stop.max(1.0) {
+        let proposed = method.h();
+        if !proposed.is_finite() {
+            let reason = "the state is not finite".to_owned();
+            return Err(ReferenceError::Integration { time: method.t(), reason });
+        }
+        let left = stop - method.t();
+        let cut = proposed >= left;
+        if cut {
+            method.set_h(left);
+        }
+        method.step(motion).map_err(|error| failure(motion.stretch.begin, error))?;
+        if cut && !matches!(method.status(), Status::RejectedStep) {
+            method.set_h(proposed.max(method.h()));
+        }
+    }
+    Ok(())
 }
 
 fn failure<const N: usize>(begin: f64, error: Error<f64, State<N>>) -> ReferenceError {
