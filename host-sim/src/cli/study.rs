@@ -24,7 +24,7 @@ impl Default for StudyArgs {
 impl StudyArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         Study::check_folder(&self.out)?;
-        let study = Study::compute(|_| ())?;
+        let study = Study::compute()?;
         let files = study.write(&self.out)?;
         print(&study);
         if let Some((report, tables)) = files.split_first() {
@@ -75,6 +75,20 @@ fn print(study: &Study) {
     }
     println!();
     for line in study.findings() {
-        println!("{line}");
+        println!("{}", wrapped(&line));
     }
+}
+
+/// A paragraph as a list item of lines that a terminal holds.
+fn wrapped(text: &str) -> String {
+    let (mut lines, mut line) = (Vec::new(), String::from("-"));
+    for word in text.split(' ') {
+        if line.chars().count() + word.chars().count() >= 88 {
+            lines.push(std::mem::replace(&mut line, String::from(" ")));
+        }
+        line.push(' ');
+        line.push_str(word);
+    }
+    lines.push(line);
+    lines.join("\n")
 }

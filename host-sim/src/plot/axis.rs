@@ -1,5 +1,7 @@
 //! Axes: ranges, ticks and the words at them.
 
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+
 /// One axis.
 #[derive(Clone, Debug)]
 pub struct Axis {
@@ -73,8 +75,13 @@ impl Ruler {
         if log {
             return Self { log, low, high, ticks: decades(low, high, count), decimals: 0 };
         }
-        let step = nice_step((high - low) / count as f64);
-        let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+        let ends = |step: f64| ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+        let mut step = nice_step((high - low) / count as f64);
+        // Fewer than three ticks say little of the scale.
+        while ends(step).1 - ends(step).0 < 2.0 {
+            step = nice_step(0.4 * step);
+        }
+        let (first, last) = ends(step);
         let ticks = (0..=(last - first) as usize).map(|k| (first + k as f64) * step).collect();
         let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
         Self { log, low, high, ticks, decimals }
@@ -91,6 +98,31 @@ impl Ruler {
             if self.log { power(position) } else { format!("{:.*}", self.decimals, position) };
         let zero = text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.'));
         if zero { text.trim_start_matches('-').into() } else { text.replace('-', "\u{2212}") }
+    }
+}
+
+/// Range and ticks as the axis has them, nothing left to plotters.
+impl Ranged for Ruler {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let share = (value - self.low) / (self.high - self.low);
+        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> std::ops::Range<f64> {
+        self.low..self.high
+    }
+}
+
+impl ValueFormatter<f64> for Ruler {
+    fn format_ext(&self, value: &f64) -> String {
+        self.words(*value)
     }
 }
 
@@ -137,6 +169,14 @@ mod tests {
         let ruler = Axis::tight("t").ruler([-2.0, 2.0].into_iter(), 4);
         let words: Vec<_> = ruler.ticks.iter().map(|&tick| ruler.words(tick)).collect();
         assert_eq!(words, ["\u{2212}2", "\u{2212}1", "0", "1", "2"]);
+    }
+
+    #[test]
+    fn three_ticks_at_least() {
+        for span in [1.0, 1.7, 2.4, 3.0, 4.9, 7.7, 9.3] {
+            let ruler = Axis::linear("y").ruler([-0.47 * span, 0.53 * span].into_iter(), 2);
+            assert!(ruler.ticks.len() >= 3, "{span}: {:?}", ruler.ticks);
+        }
     }
 
     #[test]

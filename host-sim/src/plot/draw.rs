@@ -3,12 +3,12 @@
 use std::error::Error as StdError;
 
 use plotters::coord::Shift;
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axis::Ruler;
+use super::clip::Bounds;
 use super::palette::GRID;
 use super::{Chart, Colour, Dash, Marker, Series};
 
@@ -87,19 +87,24 @@ fn picture(chart: &Chart, root: &Area<'_>) -> Result<(), Fault> {
 
     let values =
         |of: fn(&(f64, f64)) -> f64| chart.series.iter().flat_map(|series| &series.points).map(of);
-    let x = chart.x.ruler(values(|p| p.0), (width / 75) as usize);
+    let mut x = chart.x.ruler(values(|p| p.0), (width / 75) as usize);
     let mut y = chart.y.ruler(values(|p| p.1), ((chart.size.1 - top) / 45).max(2) as usize);
     let labels = |y: &Ruler| y.ticks.iter().map(|&t| y.words(t).chars().count()).max().unwrap_or(1);
     let left = 34 + 8 * labels(&y) as u32;
     let (right, bottom) = (18, 48);
     if chart.equal {
         let (across, up) = (width - left - right, chart.size.1 - top - bottom - 4);
-        let half = 0.5 * (x.high - x.low) * f64::from(up) / f64::from(across);
-        let middle = 0.5 * (y.low + y.high);
-        y = y.stretched(middle - half, middle + half, (up / 45) as usize);
+        let shape = f64::from(up) / f64::from(across);
+        let half = 0.5 * (x.high - x.low).max((y.high - y.low) / shape);
+        let about = |ruler: &Ruler, half: f64, count: u32| {
+            let middle = 0.5 * (ruler.low + ruler.high);
+            ruler.stretched(middle - half, middle + half, count as usize)
+        };
+        y = about(&y, half * shape, up / 45);
+        x = about(&x, half, width / 75);
     }
 
-    let ends = (y.low, y.high);
+    let bounds = Bounds { x: (x.low, x.high), y: (y.low, y.high) };
     let inner = root.margin(top * FINE, 4 * FINE, 0, right * FINE);
     let mut plot = ChartBuilder::on(&inner)
         .set_label_area_size(LabelAreaPosition::Left, left * FINE)
@@ -117,11 +122,11 @@ fn picture(chart: &Chart, root: &Area<'_>) -> Result<(), Fault> {
         .draw()?;
     for (value, label) in &chart.marks {
         if let Some(place) = chart.x.place(*value) {
-            mark(root, &mut plot, &Tick { place, label }, ends)?;
+            mark(root, &mut plot, &Tick { place, label }, bounds.y)?;
         }
     }
     for styled in &series {
-        curve(chart, &mut plot, styled)?;
+        curve(chart, &mut plot, styled, &bounds)?;
     }
     Ok(())
 }
@@ -133,7 +138,7 @@ fn legend(root: &Area<'_>, series: &[Styled<'_>], width: u32, top: u32) -> Resul
     let style = words(TEXT, FontStyle::Normal, HPos::Left, VPos::Center);
     for styled in series.iter().filter(|styled| !styled.series.label.is_empty()) {
         let label = &styled.series.label;
-        let needed = sample + 6 + TEXT * 55 * label.chars().count() as u32 / 100 + 16;
+        let needed = sample + 6 + TEXT * 62 * label.chars().count() as u32 / 100 + 16;
         if x > left && x + needed > width {
             (x, y) = (left, y + ROW);
         }
@@ -151,43 +156,32 @@ fn legend(root: &Area<'_>, series: &[Styled<'_>], width: u32, top: u32) -> Resul
     Ok(y + ROW + 4)
 }
 
-fn curve(chart: &Chart, plot: &mut Plot<'_, '_>, styled: &Styled<'_>) -> Result<(), Fault> {
+fn curve(
+    chart: &Chart,
+    plot: &mut Plot<'_, '_>,
+    styled: &Styled<'_>,
+    bounds: &Bounds,
+) -> Result<(), Fault> {
     let place = |&(x, y): &(f64, f64)| chart.x.place(x).zip(chart.y.place(y));
     let points: Vec<(f64, f64)> = styled.series.points.iter().filter_map(place).collect();
     if styled.series.dash.is_some() {
-        plot.draw_series(std::iter::once(stroke(styled, points.clone())))?;
+        let line = if styled.series.stairs { staircase(&points) } else { points.clone() };
+        for piece in bounds.clip(&line) {
+            plot.draw_series(std::iter::once(stroke(styled, piece)))?;
+        }
     }
     if let Some(kind) = styled.series.marker {
-        plot.draw_series(
-            points.iter().map(|&p| EmptyElement::at(p) + marker(kind, styled.colour)),
-        )?;
+        let inside = points.iter().filter(|&&point| bounds.holds(point));
+        let marks = inside.map(|&p| EmptyElement::at(p) + marker(kind, styled.colour));
+        plot.draw_series(marks)?;
     }
     Ok(())
 }
 
-/// Marked places and ticks as the axis has them, nothing left to plotters.
-impl Ranged for Ruler {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let share = (value - self.low) / (self.high - self.low);
-        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
-        self.ticks.clone()
-    }
-
-    fn range(&self) -> std::ops::Range<f64> {
-        self.low..self.high
-    }
-}
-
-impl ValueFormatter<f64> for Ruler {
-    fn format_ext(&self, value: &f64) -> String {
-        self.words(*value)
-    }
+/// Along x first, then along y, from point to point.
+fn staircase(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let stairs = points.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]);
+    stairs.chain(points.last().copied()).collect()
 }
 
 /// A vertical line over the height of the plot, its words above it.
@@ -199,7 +193,7 @@ fn mark(
 ) -> Result<(), Fault> {
     let style = Colour::Grey.rgb().stroke_width(FINE);
     let line = vec![(x.place, y.0), (x.place, y.1)];
-    let line = DashedPathElement::new(line.into_iter(), 4 * FINE, 3 * FINE, style);
+    let line = DashedPathElement::new(line, 4 * FINE, 3 * FINE, style);
     plot.draw_series(std::iter::once(line))?;
     let (across, up) = plot.backend_coord(&(x.place, y.1));
     let words = words(TEXT - 1, FontStyle::Normal, HPos::Center, VPos::Bottom);
@@ -214,7 +208,7 @@ fn stroke<'b, C: Clone + 'static>(
 ) -> DynElement<'static, SVGBackend<'b>, C> {
     let style = styled.colour.stroke_width(styled.series.width * FINE);
     let dashes = |long: u32, gap: u32| {
-        DashedPathElement::new(points.clone().into_iter(), long * FINE, gap * FINE, style)
+        DashedPathElement::new(points.clone(), long * FINE, gap * FINE, style)
     };
     match styled.series.dash {
         Some(Dash::Dashed) => dashes(8, 4).into_dyn(),

@@ -10,6 +10,7 @@
 //! ```
 
 mod axis;
+mod clip;
 mod draw;
 mod palette;
 
@@ -41,6 +42,7 @@ pub struct Series {
     dash: Option<Dash>,
     width: u32,
     marker: Option<Marker>,
+    stairs: bool,
 }
 
 /// How a line is drawn.
@@ -112,7 +114,15 @@ impl Chart {
 impl Series {
     fn new(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let points = points.into_iter().collect();
-        Self { label: label.into(), points, colour: None, dash: None, width: 2, marker: None }
+        Self {
+            label: label.into(),
+            points,
+            colour: None,
+            dash: None,
+            width: 2,
+            marker: None,
+            stairs: false,
+        }
     }
 
     /// A curve.
@@ -128,14 +138,9 @@ impl Series {
     /// The points of a front where less is better on both axes, joined by a staircase over what
     /// they dominate.
     pub fn front(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
-        let mut corners: Vec<(f64, f64)> = points.into_iter().collect();
-        corners.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let stairs = corners.iter().enumerate().flat_map(|(i, &(x, y))| {
-            let step = (i > 0).then(|| (x, corners[i - 1].1));
-            step.into_iter().chain([(x, y)])
-        });
-        let line = Self::line(label, stairs).colour(Colour::Vermilion);
-        Self { marker: Some(Marker::Disc), ..line }
+        let mut line = Self::line(label, points).colour(Colour::Vermilion).marker(Marker::Disc);
+        line.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self { stairs: true, ..line }
     }
 
     /// That colour.
@@ -160,5 +165,25 @@ impl Series {
     pub fn marker(mut self, marker: Marker) -> Self {
         self.marker = Some(marker);
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_front_marks_its_points_and_not_its_corners() {
+        let front = Series::front("front", [(2.0, 1.0), (1.0, 3.0), (4.0, 0.5)]);
+        let chart = Chart::new("", Axis::linear("x"), Axis::linear("y")).with(front);
+        assert_eq!(chart.svg().unwrap().matches("<circle").count(), 3);
+    }
+
+    #[test]
+    fn text_is_escaped() {
+        let chart = Chart::new("a < b & \"c\"", Axis::linear("<x>"), Axis::linear("y"));
+        let picture = chart.svg().unwrap();
+        assert!(picture.contains("aria-label=\"a &lt; b &amp; &quot;c&quot;\""));
+        assert!(picture.contains("&lt;x&gt;") && !picture.contains("<x>"));
     }
 }

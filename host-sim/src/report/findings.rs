@@ -34,18 +34,22 @@ pub(super) fn head(study: &Study) -> Markup {
              repeats the numerical runs of "
             cite { "A. Kato and D. Isobe, \u{201c}Calculating Trajectories for Flexible \
                     Manipulators by Using Finite Element Method\u{201d}" }
-            " (in Japanese) and numbers its figures as the paper does. Figures 3 and 4 are \
-             photographs and drawings of the rig; its measured curves are not reproduced."
+            " (in Japanese) and numbers its figures as the paper does. Figures 3 and 4 \
+             show the rig; the curves measured on it are not reproduced."
         }
-        div.scroll { table.words {
-            caption {
+        div.scroll {
+            p.caption {
                 "What was run: stillbeam-sim " (env!("CARGO_PKG_VERSION")) ". Every move is a \
-                 cubic over \u{3c0} rad in a horizontal plane, hub radius 0. All curves are \
-                 computed; none is measured."
+                 cubic over \u{3c0} rad in a horizontal plane, but for those that the profiles \
+                 are compared by. Hub radius 0: the paper\u{2019}s rig clamps its links at some \
+                 distance from the motor\u{2019}s axis, which its text does not give. All curves \
+                 are computed; none is measured."
             }
-            thead { tr { th { "Part" } th { "Scene" } th { "Solver" } } }
-            tbody { @for row in &rows { tr { @for cell in row { td { (cell) } } } } }
-        } }
+            table.words {
+                thead { tr { th { "Part" } th { "Scene" } th { "Solver" } } }
+                tbody { @for row in &rows { tr { @for cell in row { td { (cell) } } } } }
+            }
+        }
         p.soft {
             "Newmark is the paper\u{2019}s scheme (\u{3b4} = 1/2, \u{3b2} = 1/4) on cubic beam \
              elements, small deflections with centrifugal stiffening and foreshortening; \
@@ -59,7 +63,7 @@ pub(super) fn head(study: &Study) -> Markup {
 /// The findings, a line each.
 pub(super) fn in_short(study: &Study) -> Markup {
     let lines = study.findings();
-    html! { ul { @for line in &lines { li { (line) } } } }
+    html! { section { h2 { "In short" } ul { @for line in &lines { li { (line) } } } } }
 }
 
 /// The mass that does not fit.
@@ -94,8 +98,8 @@ pub(super) fn link_mass(study: &Study) -> Section {
                  period of " (ms(PAPER_THEORY, 1)) " ms. These do not agree: such a link swings \
                  with " (ms(found.printed.period, 1)) " ms, more than three times as slowly. With "
                 (found.used.link.mass) " kg, the mass of the paper\u{2019}s aluminium member D in \
-                 its table 1(d), the same stiffness gives " (ms(found.used.period, 2)) " ms. Most \
-                 likely the decimal point slipped, so this study uses " (found.used.link.mass)
+                 its table 1(d), the same stiffness gives " (ms(found.used.period, 2)) " ms. The \
+                 printed mass must be a slip, and this study uses " (found.used.link.mass)
                 " kg wherever it repeats section 3."
             }
             p {

@@ -1,13 +1,24 @@
 //! The study as one HTML page that needs nothing but itself.
 
-mod figures;
+mod fig1;
+mod fig2;
+mod fig5;
+mod fig6;
 mod findings;
 pub mod parts;
+mod profiles;
+mod setpoints;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::error::Error;
 use crate::study::Study;
+
+/// Words that several figures share.
+const TIME: &str = "time, s";
+const TIP_X: &str = "tip X, m";
+/// Over the line that ends a move.
+const STOP: &str = "hub stops";
 
 /// A chapter of the page.
 struct Section {
@@ -20,12 +31,12 @@ struct Section {
 pub fn render(study: &Study) -> Result<String, Error> {
     let sections = [
         findings::link_mass(study),
-        figures::tip_path(study)?,
-        figures::elements(study)?,
-        figures::steps(study)?,
-        figures::members(study)?,
-        figures::profiles(study)?,
-        figures::setpoints(study)?,
+        fig1::section(study)?,
+        fig2::section(study)?,
+        fig5::section(study)?,
+        fig6::section(study)?,
+        profiles::section(study)?,
+        setpoints::section(study)?,
     ];
     let page = html! {
         (DOCTYPE)
@@ -37,14 +48,14 @@ pub fn render(study: &Study) -> Result<String, Error> {
                 style { (PreEscaped(include_str!("style.css"))) }
             }
             body {
-                header { (findings::head(study)) }
+                header { (findings::head(study)) (findings::in_short(study)) }
                 nav aria-label="Contents" {
+                    h2 { "Contents" }
                     ol { @for section in &sections {
                         li { a href={ "#" (section.id) } { (section.title) } }
                     } }
                 }
                 main {
-                    (findings::in_short(study))
                     @for section in &sections {
                         section id=(section.id) { h2 { (section.title) } (section.body) }
                     }

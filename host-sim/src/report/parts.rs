@@ -36,8 +36,8 @@ impl Table {
     pub fn markup(&self) -> Markup {
         html! {
             div.scroll {
-                table {
-                    caption { (self.caption) }
+                p.caption { (self.caption) }
+                table aria-label=(self.caption) {
                     thead { tr { @for name in &self.header { th scope="col" { (name) } } } }
                     tbody {
                         @for (index, row) in self.rows.iter().enumerate() {
@@ -65,4 +65,9 @@ pub fn percent(fraction: f64, decimals: usize) -> String {
 /// A number with that many decimals.
 pub fn fixed(value: f64, decimals: usize) -> String {
     format!("{value:.decimals$}").replace('-', "\u{2212}")
+}
+
+/// Metres over time to millimetres over time.
+pub fn millimetres(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    points.into_iter().map(|(t, x)| (t, 1e3 * x)).collect()
 }

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Study;
+use super::{Run, Study};
 use crate::error::Error;
+use crate::table::Row;
 use crate::{output, report, table};
 
 /// Name of the report.
@@ -25,16 +26,12 @@ impl Columns {
 impl Study {
     /// Refuses a folder that cannot be one.
     pub fn check_folder(folder: &Path) -> Result<(), Error> {
-        let file = folder.ancestors().find(|path| path.is_file());
-        match file {
+        match folder.ancestors().find(|path| path.is_file()) {
             Some(path) => Err(Error::new(format_args!(
                 "--out = {}: {} is a file; accepted is a folder, made if it does not exist",
                 folder.display(),
                 path.display()
             ))),
-            None if folder.as_os_str().is_empty() => {
-                Err(Error::new("--out = \"\": accepted is a folder, made if it does not exist"))
-            }
             None => Ok(()),
         }
     }
@@ -82,14 +79,11 @@ impl Study {
     }
 
     fn element_columns(&self) -> Columns {
-        let meshes = &self.elements.meshes;
-        let name = |mass: &str, n: usize| format!("tip_x_{mass}_{n}_m");
-        let header = std::iter::once("t_s".to_owned())
-            .chain(meshes.iter().map(|mesh| name("lumped", mesh.elements)))
-            .chain(meshes.iter().map(|mesh| name("consistent", mesh.elements)));
-        let runs = meshes.iter().map(|mesh| &mesh.lumped.run);
-        let runs = runs.chain(meshes.iter().map(|mesh| &mesh.consistent.run));
-        side_by_side("fig2-elements.csv", header.collect(), &runs.collect::<Vec<_>>())
+        let meshes = || self.elements.meshes.iter();
+        let lumped = meshes().map(|mesh| (format!("lumped_{}", mesh.elements), &mesh.lumped.run));
+        let consistent =
+            meshes().map(|mesh| (format!("consistent_{}", mesh.elements), &mesh.consistent.run));
+        side_by_side("fig2-elements.csv", &lumped.chain(consistent).collect::<Vec<_>>())
     }
 
     fn period_columns(&self) -> Columns {
@@ -102,13 +96,16 @@ impl Study {
     }
 
     fn step_columns(&self) -> Columns {
-        let table = |tick: f64, points: Vec<(f64, f64)>| {
-            points.into_iter().map(move |(t, x)| vec![tick, t, x])
-        };
-        let finest = table(self.steps.finest.solver.tick, self.steps.finest_tip_x());
-        let steps = self.steps.steps.iter().map(|step| &step.run);
-        let rows = finest.chain(steps.flat_map(|run| table(run.solver.tick, run.tip_x())));
-        Columns::new("fig5-steps.csv", &["step_s", "t_s", "tip_x_m"], rows.collect())
+        let runs = self.steps.steps.iter().map(|step| &step.run);
+        let rows = std::iter::once(&self.steps.finest).chain(runs).flat_map(|run| {
+            let row = |row: &Row| vec![run.solver.tick, row.t_s, row.tip_x_m, row.deflection_m];
+            run.rows.iter().map(row)
+        });
+        Columns::new(
+            "fig5-steps.csv",
+            &["step_s", "t_s", "tip_x_m", "deflection_m"],
+            rows.collect(),
+        )
     }
 
     fn step_error_columns(&self) -> Columns {
@@ -120,12 +117,13 @@ impl Study {
     }
 
     fn member_columns(&self) -> Columns {
-        let members = &self.members.members;
-        let header = std::iter::once("t_s".to_owned()).chain(members.iter().flat_map(|member| {
-            ["undamped", "damped"].map(|kind| format!("tip_x_{}_{kind}_m", member.name))
-        }));
-        let runs: Vec<_> = members.iter().flat_map(|m| [&m.undamped.run, &m.damped.run]).collect();
-        side_by_side("fig6-members.csv", header.collect(), &runs)
+        let runs = self.members.members.iter().flat_map(|member| {
+            [
+                (format!("{}_undamped", member.name), &member.undamped.run),
+                (format!("{}_damped", member.name), &member.damped.run),
+            ]
+        });
+        side_by_side("fig6-members.csv", &runs.collect::<Vec<_>>())
     }
 
     fn member_summary(&self) -> Columns {
@@ -168,13 +166,19 @@ impl Study {
     }
 }
 
-/// Tip X of runs with the same ticks, a column each.
-fn side_by_side(file: &'static str, header: Vec<String>, runs: &[&super::Run]) -> Columns {
-    let count = runs.first().map_or(0, |run| run.rows.len());
+/// Tip X and deflection of named runs with the same ticks, two columns each.
+fn side_by_side(file: &'static str, runs: &[(String, &Run)]) -> Columns {
+    let names = runs
+        .iter()
+        .flat_map(|(name, _)| [format!("tip_x_{name}_m"), format!("deflection_{name}_m")]);
+    let header = std::iter::once("t_s".to_owned()).chain(names).collect();
+    let count = runs.first().map_or(0, |(_, run)| run.rows.len());
     let row = |k: usize| {
-        std::iter::once(runs[0].rows[k].t_s)
-            .chain(runs.iter().map(|run| run.rows[k].tip_x_m))
-            .collect()
+        let values = runs.iter().flat_map(|(_, run)| {
+            let row = &run.rows[k];
+            [row.tip_x_m, row.deflection_m]
+        });
+        std::iter::once(runs[0].1.rows[k].t_s).chain(values).collect()
     };
     Columns { file, header, rows: (0..count).map(row).collect() }
 }

@@ -36,7 +36,7 @@ impl Study {
             lines.push(format!(
                 "Undamped, member B arrives almost still: {} of its peak deflection remains. \
                  Damping raises that to {}. A cubic leaves nothing behind after {} periods, and \
-                 the paper's 2 s are {}.",
+                 the paper’s 2 s are {}.",
                 percent(member.undamped.ratio(), 1),
                 percent(member.damped.ratio(), 1),
                 fixed(self.profiles.cubic_zeros[1], 3),

@@ -65,6 +65,17 @@ impl Profiles {
     }
 }
 
+impl Profiles {
+    /// The least residual of the other profiles after the paper's 2 s over the cubic's.
+    pub fn margin(&self) -> f64 {
+        let least = |cubic: bool| {
+            let curves = self.curves.iter().filter(|c| (c.profile == Profile::Cubic) == cubic);
+            curves.map(|curve| curve.at_paper).fold(f64::INFINITY, f64::min)
+        };
+        least(false) / least(true)
+    }
+}
+
 /// The root of `tan x = x` in `kπ..(k + ½)π`, from `x = kπ + atan x`, which contracts.
 fn tangent_root(k: u32) -> f64 {
     let base = f64::from(k) * PI;

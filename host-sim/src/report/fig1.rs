@@ -1,0 +1,60 @@
+//! Fig. 1: rigid and flexible tip path.
+
+use maud::html;
+
+use super::Section;
+use super::parts::{figure, percent};
+use crate::error::Error;
+use crate::plot::{Axis, Chart, Colour, Dash, Marker, Series};
+use crate::study::{Run, Study};
+
+/// Seconds between the marked instants.
+const EVERY: f64 = 0.02;
+
+/// The section.
+pub(super) fn section(study: &Study) -> Result<Section, Error> {
+    let (rigid, flexible) = (&study.tip_path.rigid, &study.tip_path.flexible);
+    let chart =
+        Chart::new("Fig. 1: path of the tip", Axis::linear("tip X, m"), Axis::linear("tip Y, m"))
+            .sized(900, 600)
+            .equal_scales()
+            .with(Series::line("", spokes(rigid)).colour(Colour::Grey).width(1))
+            .with(Series::line("", spokes(flexible)).colour(Colour::Orange).width(1))
+            .with(Series::line("rigid link", path(rigid)).colour(Colour::Ink).dash(Dash::Dashed))
+            .with(Series::line("flexible link", path(flexible)).colour(Colour::Vermilion))
+            .with(
+                Series::scatter("rigid, every 20 ms of the move", instants(rigid))
+                    .colour(Colour::Ink),
+            )
+            .with(
+                Series::scatter("flexible, the same instants", instants(flexible))
+                    .colour(Colour::Vermilion)
+                    .marker(Marker::Ring),
+            );
+    let caption = html! {
+        strong { "The flexible tip first lags, then runs ahead, and goes on swinging." }
+        " Seen from above; member D bare, \u{3c0} rad in 0.2 s from right to left, then 0.2 s of \
+         rest, undamped, " (flexible.solver.describe()) ". Thin lines join the motor\u{2019}s axis \
+         and the tip at the same instants. The largest deflection, " (percent(flexible.peak(), 0))
+        " of L, is that of the swing after the hub has stopped; the path leaves the circle there \
+         because a bent link is also a shorter one."
+    };
+    let body = html! { (figure(&[chart], &caption, "fig1-tip-path.csv")?) };
+    Ok(Section { id: "fig1", title: "Fig. 1: rigid and flexible tip path", body })
+}
+
+fn path(run: &Run) -> Vec<(f64, f64)> {
+    run.rows.iter().map(|row| (row.tip_x_m, row.tip_y_m)).collect()
+}
+
+/// The tip every 20 ms of the move.
+fn instants(run: &Run) -> Vec<(f64, f64)> {
+    let every = (EVERY / run.solver.tick).round() as usize;
+    let moving = run.rows.iter().step_by(every).take_while(|row| row.t_s < run.move_time() + 1e-9);
+    moving.map(|row| (row.tip_x_m, row.tip_y_m)).collect()
+}
+
+/// From the axis to each of those points and back.
+fn spokes(run: &Run) -> Vec<(f64, f64)> {
+    instants(run).into_iter().flat_map(|tip| [(0.0, 0.0), tip]).collect()
+}
