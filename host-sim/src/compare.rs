@@ -108,7 +108,7 @@ fn jumps(trajectory: &Trajectory) -> Vec<f64> {
 }
 
 /// Rows of both at the same times, to a microsecond.
-fn common<'a>(a: &'a [Row], b: &'a [Row]) -> Vec<(&'a Row, &'a Row)> {
+pub(crate) fn common<'a>(a: &'a [Row], b: &'a [Row]) -> Vec<(&'a Row, &'a Row)> {
     let mut pairs = Vec::new();
     let mut rest = b;
     for row in a {

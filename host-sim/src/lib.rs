@@ -3,14 +3,18 @@
 //!
 //! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
 //! motion ([`trajectory`]), the core's run ([`run`], [`model_choice`]), its table ([`table`],
-//! [`output`]), and how far two tables are apart ([`compare`]). [`reference`] judges them all. The paper's figures are
-//! computed in [`study`] and shown by [`report`] and [`plot`].
+//! [`output`]), and how far two tables are apart ([`compare`]).
+//!
+//! Reference solutions ([`reference`], as tables [`truth`]) judge the core in [`sweep`], run time
+//! against error; its run time is compared with that of [`textbook`]. The paper's figures are
+//! computed in [`study`]. [`report`] and [`plot`] show both.
 
 pub mod compare;
 pub mod error;
 pub mod model_choice;
 pub mod output;
 pub mod plot;
+pub mod progress;
 pub mod reference;
 pub mod report;
 pub mod run;
@@ -18,5 +22,8 @@ pub mod scene_file;
 pub mod scenes;
 pub mod solver;
 pub mod study;
+pub mod sweep;
 pub mod table;
+pub mod textbook;
 pub mod trajectory;
+pub mod truth;

@@ -1,10 +1,13 @@
 //! From numbers that a user types to the model types of the core: the one place that lists them.
 
-use stillbeam::Scene;
+use std::marker::PhantomData;
+
 use stillbeam::beam::{Model, Modes};
+use stillbeam::stepper::{Newmark, Rigid, Stepper};
+use stillbeam::{Scalar as Real, Scene};
 
 use crate::error::Error;
-use crate::solver::Mass;
+use crate::solver::{Mass, Method, Scalar, Solver};
 
 /// What to do with a model whose type is only known here.
 pub trait Visitor {
@@ -54,4 +57,55 @@ pub fn first_period(scene: &Scene, elements: usize, mass: Mass) -> Result<f64, E
         }
     }
     with_model(scene, elements, mass, FirstPeriod)
+}
+
+/// What to do with a stepper whose type is only known here.
+pub trait StepperVisitor {
+    /// What comes out.
+    type Output;
+
+    /// Receives the stepper.
+    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Self::Output, Error>;
+}
+
+/// Builds the stepper that `solver` asks for, model included, and hands it to the visitor. A new
+/// method is one more arm here.
+pub fn with_stepper<V: StepperVisitor>(
+    scene: &Scene,
+    solver: &Solver,
+    visitor: V,
+) -> Result<V::Output, Error> {
+    match solver.scalar {
+        Scalar::F32 => with_stepper_in::<f32, V>(scene, solver, visitor),
+        Scalar::F64 => with_stepper_in::<f64, V>(scene, solver, visitor),
+    }
+}
+
+fn with_stepper_in<T: Real, V: StepperVisitor>(
+    scene: &Scene,
+    solver: &Solver,
+    visitor: V,
+) -> Result<V::Output, Error> {
+    match solver.method {
+        Method::Rigid => visitor.visit(Rigid::<T>::new(scene, solver.tick)?),
+        Method::Newmark => {
+            let newmark = NewmarkOf::<T, V> { solver, visitor, scalar: PhantomData };
+            with_model(scene, solver.elements, solver.mass, newmark)
+        }
+    }
+}
+
+struct NewmarkOf<'a, T, V> {
+    solver: &'a Solver,
+    visitor: V,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Real, V: StepperVisitor> Visitor for NewmarkOf<'_, T, V> {
+    type Output = V::Output;
+
+    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Result<V::Output, Error> {
+        let stepper = Newmark::<T, N, W>::new(&model, self.solver.tick)?;
+        self.visitor.visit(if self.solver.spin { stepper } else { stepper.without_spin() })
+    }
 }

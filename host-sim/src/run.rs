@@ -1,68 +1,65 @@
 //! Runs the core on a scene: the same generator as on the target, in f32 or f64.
 
-use std::marker::PhantomData;
-
-use stillbeam::beam::Model;
-use stillbeam::stepper::{Newmark, Rigid, Stepper};
+use stillbeam::stepper::Stepper;
 use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
 use crate::error::Error;
-use crate::model_choice::{Visitor, with_model};
+use crate::model_choice::{StepperVisitor, with_stepper};
 use crate::scene_file::SceneFile;
-use crate::solver::{Method, Scalar, Solver};
+use crate::solver::Solver;
 use crate::table::Row;
 
 /// Segments that can wait in the desktop's generator: two of the longest moves.
-const QUEUE: usize = 14;
+pub const QUEUE: usize = 14;
 
 /// Runs a scene from its beginning to the end of the last rest: a row every tick, from t = 0.
 ///
 /// At the end of a move the row holds the left-hand acceleration and torque.
 pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
-    let rows = match solver.scalar {
-        Scalar::F32 => run_in::<f32>(scene, solver),
-        Scalar::F64 => run_in::<f64>(scene, solver),
-    }?;
+    let rows = with_stepper(&scene.arm, solver, Rows { scene })?;
     let torque = rows.iter().map(|row| row.torque_nm.abs()).fold(0.0, f64::max);
     scene.limits.admit_torque(torque)?;
     Ok(rows)
 }
 
-fn run_in<T: Real>(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
-    match solver.method {
-        Method::Rigid => drive(Rigid::<T>::new(&scene.arm, solver.tick)?, scene),
-        Method::Newmark => {
-            let run = NewmarkRun::<T> { scene, solver, scalar: PhantomData };
-            with_model(&scene.arm, solver.elements, solver.mass, run)
-        }
-    }
-}
-
-struct NewmarkRun<'a, T> {
+struct Rows<'a> {
     scene: &'a SceneFile,
-    solver: &'a Solver,
-    scalar: PhantomData<T>,
 }
 
-impl<T: Real> Visitor for NewmarkRun<'_, T> {
+impl StepperVisitor for Rows<'_> {
     type Output = Vec<Row>;
 
-    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Result<Vec<Row>, Error> {
-        let stepper = Newmark::<T, N, W>::new(&model, self.solver.tick)?;
-        drive(if self.solver.spin { stepper } else { stepper.without_spin() }, self.scene)
+    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Vec<Row>, Error> {
+        drive(stepper, self.scene)
     }
 }
 
-/// Feeds the moves to a generator as its queue takes them, and ticks through all of them.
+/// Ticks a stepper through a scene: a row every tick.
 pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Error> {
     let tick = stepper.tick();
+    let mut rows = Vec::new();
+    each_tick(stepper, scene, |generator, k, ends| {
+        let setpoint = generator.tick();
+        let shown = if ends { generator.setpoint_before() } else { setpoint };
+        rows.push(row(k as f64 * tick, &shown));
+    })?;
+    Ok(rows)
+}
+
+/// Feeds the moves to a generator as its queue takes them, and has `each` tick it through all of
+/// them: `each(generator, k, ends)` calls [`Generator::tick`] once, for tick `k`, at which a move
+/// ends if `ends`.
+pub fn each_tick<S: Stepper>(
+    stepper: S,
+    scene: &SceneFile,
+    mut each: impl FnMut(&mut Generator<S, QUEUE>, u64, bool),
+) -> Result<(), Error> {
     let mut generator = Generator::<S, QUEUE>::new(stepper, scene.from)?;
     generator.limit(scene.limits)?;
     let motions = scene.motions();
     let mut waiting = motions.iter().peekable();
     let mut ends = Vec::new();
     let mut total = 0;
-    let mut rows = Vec::new();
     for k in 0.. {
         while let Some(&&motion) = waiting.peek() {
             match generator.push(&motion) {
@@ -77,14 +74,12 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
                 Err(error) => return Err(error.into()),
             }
         }
-        let setpoint = generator.tick();
-        let shown = if ends.contains(&k) { generator.setpoint_before() } else { setpoint };
-        rows.push(row(k as f64 * tick, &shown));
+        each(&mut generator, k, ends.contains(&k));
         if k == total {
-            return Ok(rows);
+            break;
         }
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// A setpoint in the units of the table.

@@ -4,6 +4,7 @@ use std::fmt::Display;
 use std::path::Path;
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use stillbeam::material::{MATERIALS, Material, Strip};
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Profile, Scene};
 
@@ -131,13 +132,7 @@ impl SceneFile {
 
     /// Parses and validates the text of a scene file.
     pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
-        let document =
-            toml::Deserializer::parse(text).map_err(|error| Error::new(error.message()))?;
-        let file: File = serde_path_to_error::deserialize(document).map_err(|error| {
-            let path = error.path().to_string();
-            let message = error.inner().message().to_owned();
-            if path == "." { Error::new(message) } else { Error::new(message).within(path) }
-        })?;
+        let file: File = from_toml(text)?;
         let gravity = file.gravity.acceleration;
         let arm = Scene {
             link: file.link.build()?,
@@ -206,6 +201,16 @@ impl SceneFile {
         });
         Ok(report.collect())
     }
+}
+
+/// Reads a TOML text into a table; the error names the field.
+pub(crate) fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
+    let document = toml::Deserializer::parse(text).map_err(|error| Error::new(error.message()))?;
+    serde_path_to_error::deserialize(document).map_err(|error| {
+        let path = error.path().to_string();
+        let message = error.inner().message().to_owned();
+        if path == "." { Error::new(message) } else { Error::new(message).within(path) }
+    })
 }
 
 fn place_of(index: usize) -> String {

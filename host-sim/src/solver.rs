@@ -1,12 +1,12 @@
 //! Which solver a run uses: command line over scene file over defaults.
 
 use clap::ValueEnum;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
 /// How the arm is stepped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// The arm does not bend.
@@ -16,7 +16,7 @@ pub enum Method {
 }
 
 /// How the elements' mass is spread.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mass {
     /// By the element's shape functions.
@@ -26,7 +26,7 @@ pub enum Mass {
 }
 
 /// Precision of the tick; set-up is always f64.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scalar {
     /// As on the target.
@@ -37,7 +37,7 @@ pub enum Scalar {
 
 /// The `[solver]` table, and the same keys on the command line. What is absent is left to the
 /// next in line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, clap::Args)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, clap::Args)]
 #[serde(deny_unknown_fields)]
 pub struct SolverKeys {
     /// Stepper [default: newmark]
@@ -77,6 +77,36 @@ pub struct Solver {
     pub spin: bool,
 }
 
+impl Method {
+    /// As it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::Newmark => "newmark",
+        }
+    }
+}
+
+impl Mass {
+    /// As it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Consistent => "consistent",
+            Self::Lumped => "lumped",
+        }
+    }
+}
+
+impl Scalar {
+    /// As it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F32 => "f32",
+            Self::F64 => "f64",
+        }
+    }
+}
+
 impl Default for Solver {
     fn default() -> Self {
         Self {
@@ -90,7 +120,33 @@ impl Default for Solver {
     }
 }
 
+impl From<Solver> for SolverKeys {
+    fn from(solver: Solver) -> Self {
+        Self {
+            method: Some(solver.method),
+            elements: Some(solver.elements as i64),
+            mass: Some(solver.mass),
+            tick: Some(solver.tick),
+            scalar: Some(solver.scalar),
+            spin: Some(solver.spin),
+        }
+    }
+}
+
 impl SolverKeys {
+    /// Names of the keys, in the order of the fields; a sweep's columns.
+    pub const NAMES: [&'static str; 6] = ["method", "elements", "mass", "tick_s", "scalar", "spin"];
+
+    /// Every key that the method reads, absent ones at their defaults; none that it does not, so
+    /// that equal solvers have equal keys.
+    pub fn relevant(self) -> Self {
+        let keys = self.or(Solver::default().into());
+        match keys.method {
+            Some(Method::Rigid) => Self { elements: None, mass: None, spin: None, ..keys },
+            Some(Method::Newmark) | None => keys,
+        }
+    }
+
     /// These keys, and `other`'s where they are absent.
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -136,21 +192,15 @@ impl Solver {
     /// In a few words, e.g. `newmark, 4 consistent elements, 10 ms, f32`.
     pub fn describe(&self) -> String {
         let tick = self.tick * 1e3;
-        let scalar = match self.scalar {
-            Scalar::F32 => "f32",
-            Scalar::F64 => "f64",
-        };
+        let (method, scalar) = (self.method.name(), self.scalar.name());
         match self.method {
-            Method::Rigid => format!("rigid, {tick} ms, {scalar}"),
+            Method::Rigid => format!("{method}, {tick} ms, {scalar}"),
             Method::Newmark => {
-                let mass = match self.mass {
-                    Mass::Consistent => "consistent",
-                    Mass::Lumped => "lumped",
-                };
+                let mass = self.mass.name();
                 let plural = if self.elements == 1 { "" } else { "s" };
                 let spin = if self.spin { "" } else { ", no spin terms" };
                 format!(
-                    "newmark, {} {mass} element{plural}, {tick} ms, {scalar}{spin}",
+                    "{method}, {} {mass} element{plural}, {tick} ms, {scalar}{spin}",
                     self.elements
                 )
             }

@@ -1,8 +1,13 @@
 //! The command line: words in, a library call, lines out. One command a file.
 
 mod compare;
+mod merge;
+mod pareto;
+mod reference;
 mod run;
 mod study;
+mod sweep;
+mod tables;
 
 use std::process::ExitCode;
 
@@ -28,6 +33,16 @@ enum Command {
     Run(run::RunArgs),
     /// How far two runs of a scene are apart
     Compare(compare::CompareArgs),
+    /// Solve a scene with a reference solver
+    Reference(reference::ReferenceArgs),
+    /// Run many solvers on many scenes: error and time of each
+    Sweep(sweep::SweepArgs),
+    /// Join the shards of a sweep
+    Merge(merge::MergeArgs),
+    /// Draw a sweep's error against its time and answer what a choice costs
+    Pareto(pareto::ParetoArgs),
+    /// Fill the tables in README.md, or check them
+    Tables(tables::TablesArgs),
     /// List the embedded scenes
     Scenes,
 }
@@ -40,6 +55,11 @@ impl Cli {
             Some(Command::Study(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
+            Some(Command::Reference(args)) => args.execute(),
+            Some(Command::Sweep(args)) => args.execute(),
+            Some(Command::Merge(args)) => args.execute(),
+            Some(Command::Pareto(args)) => args.execute(),
+            Some(Command::Tables(args)) => args.execute(),
             Some(Command::Scenes) => {
                 for (name, about) in scenes::list() {
                     println!("{name:<20} {about}");

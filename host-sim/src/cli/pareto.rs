@@ -1,0 +1,51 @@
+//! `pareto`: error against time, drawn and in words.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stillbeam_sim::error::Error;
+use stillbeam_sim::sweep::page;
+use stillbeam_sim::sweep::picture::{self, Picture};
+use stillbeam_sim::sweep::row::{Row, Rows};
+
+#[derive(clap::Args)]
+pub struct ParetoArgs {
+    /// A CSV of sweep or merge
+    #[arg(value_name = "SWEEP.csv")]
+    sweep: PathBuf,
+    /// Only this scene [default: every scene of the sweep]
+    #[arg(long)]
+    scene: Option<String>,
+    /// Folder for the page and a picture a scene
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+impl ParetoArgs {
+    pub fn execute(self) -> Result<ExitCode, Error> {
+        let rows = Rows::open(&self.sweep)?.collect::<Result<Vec<Row>, _>>()?;
+        let known = picture::scenes(&rows);
+        let scenes = match &self.scene {
+            None if known.is_empty() => {
+                return Err(Error::file(&self.sweep, "no rows; accepted is a CSV of sweep"));
+            }
+            None => known,
+            Some(name) if known.contains(&name.as_str()) => vec![name.as_str()],
+            Some(name) => {
+                return Err(Error::new(format_args!(
+                    "--scene = \"{name}\": accepted is {}",
+                    known.join(", ")
+                )));
+            }
+        };
+        let pictures: Vec<Picture<'_>> =
+            scenes.iter().map(|scene| Picture::of(&rows, scene)).collect();
+        let files = page::write(&self.out, &pictures)?;
+        for picture in &pictures {
+            print!("{}", page::text(picture));
+        }
+        print!("{}", page::summary(&pictures));
+        println!("{}", files.display());
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,60 @@
+//! `reference`: what the core is judged by, on a scene.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stillbeam_sim::error::Error;
+use stillbeam_sim::truth::{self, Reference};
+use stillbeam_sim::{progress, scenes, table};
+
+#[derive(clap::Args)]
+pub struct ReferenceArgs {
+    /// Scene file, or the name of an embedded scene
+    scene: String,
+    /// Reference solver
+    #[arg(long, value_enum, default_value = "rod")]
+    solver: Reference,
+    /// Where the rows go
+    #[arg(long, value_name = "OUT.csv")]
+    csv: PathBuf,
+    /// Interval of the rows in s [default: the scene's tick]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    every: Option<f64>,
+}
+
+impl ReferenceArgs {
+    pub fn execute(self) -> Result<ExitCode, Error> {
+        let scene = scenes::open(&self.scene)?;
+        let tick = scene.solver.resolve()?.tick;
+        for line in scene.roundings(tick)? {
+            eprintln!("note: {line}");
+        }
+        let trajectory = scene.trajectory(tick)?;
+        let every = self.every.unwrap_or(tick);
+        if !(1e-6..=trajectory.duration()).contains(&every) {
+            return Err(Error::new(format_args!(
+                "--every = {every}: accepted is 0.000001 to {} s, the run's length",
+                trajectory.duration()
+            )));
+        }
+        let bar = progress::percent(&scene.name);
+        let times = truth::times(&trajectory, every);
+        let rows = truth::solve(self.solver, &scene, &trajectory, &times, &|done| {
+            bar.set_position((100.0 * done) as u64);
+        });
+        bar.finish_and_clear();
+        let rows = rows?;
+        table::write(&self.csv, &rows)?;
+        let peak = |of: fn(&table::Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
+        let bent = peak(|row| row.deflection_m.abs());
+        println!("{}: {}", scene.name, self.solver.describe());
+        println!("  {} rows to {}", rows.len(), self.csv.display());
+        println!("  peak torque      {:.4} N m", peak(|row| row.torque_nm.abs()));
+        println!(
+            "  peak deflection  {:.2} mm ({:.1} % of L)",
+            1e3 * bent,
+            100.0 * bent / scene.arm.link.length
+        );
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,118 @@
+//! What a sweep crosses: a TOML file of lists.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::error::Error;
+use crate::scene_file::from_toml;
+use crate::solver::{Mass, Method, Scalar, SolverKeys};
+
+/// A sweep as its user writes it.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spec {
+    /// Scene files, or names of embedded scenes.
+    pub scenes: Vec<String>,
+    /// Grids of solvers; every scene is run with each solver of each grid, once.
+    pub grid: Vec<Grid>,
+}
+
+/// Lists that are crossed with each other. An empty one stands for the default.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Grid {
+    /// Steppers.
+    pub method: Vec<Method>,
+    /// Beam elements.
+    pub elements: Vec<i64>,
+    /// Mass matrices.
+    pub mass: Vec<Mass>,
+    /// Ticks, s.
+    pub tick: Vec<f64>,
+    /// Precisions.
+    pub scalar: Vec<Scalar>,
+    /// With and without spin terms.
+    pub spin: Vec<bool>,
+}
+
+impl Spec {
+    /// The sweep that comes with the program.
+    pub fn embedded() -> Result<Self, Error> {
+        Self::parse(include_str!("../../sweeps/default.toml"))
+    }
+
+    /// Reads a spec from a file.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(path).map_err(|cause| {
+            Error::file(path, format_args!("{cause}; accepted is a sweep's TOML file"))
+        })?;
+        Self::parse(&text).map_err(|error| error.within(path.display()))
+    }
+
+    /// Parses a spec.
+    pub fn parse(text: &str) -> Result<Self, Error> {
+        let spec: Self = from_toml(text)?;
+        if spec.scenes.is_empty() || spec.grid.is_empty() {
+            return Err(Error::new("scenes, grid: accepted is at least one of each"));
+        }
+        Ok(spec)
+    }
+
+    /// The solvers of all grids, each once, in the order of the file.
+    pub fn solvers(&self) -> Vec<SolverKeys> {
+        let mut seen = HashSet::new();
+        let all = self.grid.iter().flat_map(Grid::solvers);
+        all.filter(|keys| seen.insert(format!("{keys:?}"))).collect()
+    }
+}
+
+impl Grid {
+    /// Every combination; keys that a method does not read are not crossed.
+    fn solvers(&self) -> Vec<SolverKeys> {
+        let mut all = vec![SolverKeys::default()];
+        cross(&mut all, &self.method, |keys| &mut keys.method);
+        cross(&mut all, &self.elements, |keys| &mut keys.elements);
+        cross(&mut all, &self.mass, |keys| &mut keys.mass);
+        cross(&mut all, &self.spin, |keys| &mut keys.spin);
+        cross(&mut all, &self.scalar, |keys| &mut keys.scalar);
+        cross(&mut all, &self.tick, |keys| &mut keys.tick);
+        all.into_iter().map(SolverKeys::relevant).collect()
+    }
+}
+
+/// Each of `all` with each of `values` in its place.
+fn cross<V: Copy>(
+    all: &mut Vec<SolverKeys>,
+    values: &[V],
+    place: impl Fn(&mut SolverKeys) -> &mut Option<V>,
+) {
+    if values.is_empty() {
+        return;
+    }
+    let with = |keys: &SolverKeys, value: V| {
+        let mut keys = *keys;
+        *place(&mut keys) = Some(value);
+        keys
+    };
+    *all = all.iter().flat_map(|keys| values.iter().map(move |&v| with(keys, v))).collect();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_a_method_reads_is_crossed() {
+        let text = "scenes = [\"d-fast\"]\n[[grid]]\nmethod = [\"rigid\", \"newmark\"]\nelements = \
+                    [1, 2]\nspin = [true, false]\n[[grid]]\nelements = [2]";
+        let solvers = Spec::parse(text).unwrap().solvers();
+        assert_eq!(solvers.len(), 1 + 4, "{solvers:?}");
+    }
+
+    #[test]
+    fn the_embedded_specs_are_accepted() {
+        assert_eq!(Spec::embedded().unwrap().solvers().len(), 4 * 2 * 5 * 2 * 2 + 5);
+    }
+}
