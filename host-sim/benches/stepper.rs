@@ -30,6 +30,15 @@ const SOLVERS: &str = r#"
     [[grid]]
     spin = [false]
     elements = [1, 4]
+    [[grid]]
+    method = ["modal"]
+    modes = [1, 2, 3]
+    scalar = ["f32", "f64"]
+    [[grid]]
+    method = ["elastica"]
+    modes = [1, 2]
+    quality = ["fast", "fine"]
+    scalar = ["f32", "f64"]
 "#;
 
 fn solvers() -> Vec<(String, Solver)> {
@@ -93,7 +102,7 @@ impl StepperVisitor for Build {
 }
 
 fn steppers(c: &mut Criterion) {
-    let arm = scene().arm;
+    let arm = scene();
     for (name, solver) in solvers() {
         with_stepper(&arm, &solver, Tick(c, &name)).expect("a stepper");
         with_stepper(&arm, &solver, WholeTick(c, &name)).expect("a stepper");
@@ -104,11 +113,11 @@ fn steppers(c: &mut Criterion) {
 }
 
 fn textbook(c: &mut Criterion) {
-    let arm = scene().arm;
+    let arm = scene();
     let hub = black_box(turning::<f64>());
     let mut group = c.benchmark_group("textbook");
     for elements in [1, 2, 4, 8] {
-        let mut textbook = Textbook::new(&arm, elements, 0.01);
+        let mut textbook = Textbook::new(&arm.arm, elements, 0.01);
         group.bench_function(BenchmarkId::new("elements", elements), |b| {
             b.iter(|| {
                 textbook.step(&hub, &hub);

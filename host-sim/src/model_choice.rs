@@ -2,12 +2,13 @@
 
 use std::marker::PhantomData;
 
-use stillbeam::beam::{Model, Modes};
-use stillbeam::stepper::{Newmark, Rigid, Stepper};
+use stillbeam::beam::{Model, Modes, Rod};
+use stillbeam::stepper::{self, Elastica, Modal, Newmark, Rigid, Stepper};
 use stillbeam::{Scalar as Real, Scene};
 
 use crate::error::Error;
-use crate::solver::{Mass, Method, Scalar, Solver};
+use crate::scene_file::SceneFile;
+use crate::solver::{Mass, Method, Quality, Scalar, Solver};
 
 /// What to do with a model whose type is only known here.
 pub trait Visitor {
@@ -71,7 +72,7 @@ pub trait StepperVisitor {
 /// Builds the stepper that `solver` asks for, model included, and hands it to the visitor. A new
 /// method is one more arm here.
 pub fn with_stepper<V: StepperVisitor>(
-    scene: &Scene,
+    scene: &SceneFile,
     solver: &Solver,
     visitor: V,
 ) -> Result<V::Output, Error> {
@@ -82,16 +83,22 @@ pub fn with_stepper<V: StepperVisitor>(
 }
 
 fn with_stepper_in<T: Real, V: StepperVisitor>(
-    scene: &Scene,
+    scene: &SceneFile,
     solver: &Solver,
     visitor: V,
 ) -> Result<V::Output, Error> {
     match solver.method {
-        Method::Rigid => visitor.visit(Rigid::<T>::new(scene, solver.tick)?),
+        Method::Rigid => visitor.visit(Rigid::<T>::new(&scene.arm, solver.tick)?),
         Method::Newmark => {
             let newmark = NewmarkOf::<T, V> { solver, visitor, scalar: PhantomData };
-            with_model(scene, solver.elements, solver.mass, newmark)
+            with_model(&scene.arm, solver.elements, solver.mass, newmark)
         }
+        Method::Modal => {
+            let modal = ModalOf::<T, V> { solver, visitor, scalar: PhantomData };
+            with_model(&scene.arm, solver.elements, solver.mass, modal)
+        }
+        Method::Elastica if solver.modes == 1 => visitor.visit(elastica::<T, 1>(scene, solver)?),
+        Method::Elastica => visitor.visit(elastica::<T, 2>(scene, solver)?),
     }
 }
 
@@ -108,4 +115,54 @@ impl<T: Real, V: StepperVisitor> Visitor for NewmarkOf<'_, T, V> {
         let stepper = Newmark::<T, N, W>::new(&model, self.solver.tick)?;
         self.visitor.visit(if self.solver.spin { stepper } else { stepper.without_spin() })
     }
+}
+
+struct ModalOf<'a, T, V> {
+    solver: &'a Solver,
+    visitor: V,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Real, V: StepperVisitor> Visitor for ModalOf<'_, T, V> {
+    type Output = V::Output;
+
+    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Result<V::Output, Error> {
+        let Self { solver, visitor, .. } = self;
+        match solver.modes {
+            1 => visitor.visit(modal::<T, 1, N, W>(&model, solver)?),
+            2 => visitor.visit(modal::<T, 2, N, W>(&model, solver)?),
+            _ => visitor.visit(modal::<T, 3, N, W>(&model, solver)?),
+        }
+    }
+}
+
+fn modal<T: Real, const K: usize, const N: usize, const W: usize>(
+    model: &Model<N, W>,
+    solver: &Solver,
+) -> Result<Modal<T, K>, Error> {
+    let stepper = Modal::new(model, solver.tick)?;
+    Ok(if solver.spin { stepper } else { stepper.without_spin() })
+}
+
+/// Fitted for the bend that the scene's own accelerations let expect.
+fn elastica<T: Real, const K: usize>(
+    scene: &SceneFile,
+    solver: &Solver,
+) -> Result<Elastica<T, K>, Error> {
+    let trajectory = scene.trajectory(solver.tick)?;
+    let peaks = trajectory.plans().iter().map(|plan| plan.peaks.acceleration);
+    let rod = Rod::new(&scene.arm)?;
+    let quality = match solver.quality {
+        Quality::Fast => stepper::Quality::Fast,
+        Quality::Fine => stepper::Quality::Fine,
+    };
+    let (least, most) = Elastica::<T, K>::BEND;
+    let bend = rod.bend(peaks.fold(0.0, f64::max)).max(least);
+    if bend > most {
+        return Err(Error::new(format_args!(
+            "solver.method = elastica: the tip is expected to turn {bend:.2} rad against the hub; \
+             accepted is up to {most} rad, by a longer move or a stiffer link"
+        )));
+    }
+    Ok(Elastica::new(&rod, solver.tick, quality, bend)?)
 }

@@ -16,7 +16,7 @@ pub const QUEUE: usize = 14;
 ///
 /// At the end of a move the row holds the left-hand acceleration and torque.
 pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
-    let rows = with_stepper(&scene.arm, solver, Rows { scene })?;
+    let rows = with_stepper(scene, solver, Rows { scene })?;
     let torque = rows.iter().map(|row| row.torque_nm.abs()).fold(0.0, f64::max);
     scene.limits.admit_torque(torque)?;
     Ok(rows)

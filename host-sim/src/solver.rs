@@ -13,6 +13,20 @@ pub enum Method {
     Rigid,
     /// The paper's time marching, small deflections.
     Newmark,
+    /// Small deflections in a few modes, each advanced exactly.
+    Modal,
+    /// Exact kinematics in one or two modes.
+    Elastica,
+}
+
+/// How much work a tick of elastica does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quality {
+    /// One evaluation a tick.
+    Fast,
+    /// Two half-steps.
+    Fine,
 }
 
 /// How the elements' mass is spread.
@@ -43,12 +57,18 @@ pub struct SolverKeys {
     /// Stepper [default: newmark]
     #[arg(long, value_enum)]
     pub method: Option<Method>,
-    /// Beam elements: 1, 2, 4 or 8 [default: 1]
+    /// Beam elements: 1, 2, 4 or 8; newmark and modal [default: 1, modal 8]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub elements: Option<i64>,
-    /// Mass matrix [default: consistent]
+    /// Mass matrix; newmark and modal [default: consistent]
     #[arg(long, value_enum)]
     pub mass: Option<Mass>,
+    /// Modes: 1 to 3 for modal, 1 or 2 for elastica [default: 2]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub modes: Option<i64>,
+    /// Work a tick; elastica [default: fine]
+    #[arg(long, value_enum)]
+    pub quality: Option<Quality>,
     /// Setpoint interval in s [default: 0.01]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub tick: Option<f64>,
@@ -69,6 +89,10 @@ pub struct Solver {
     pub elements: usize,
     /// Mass matrix.
     pub mass: Mass,
+    /// Modes of modal and elastica: 1 to 3.
+    pub modes: usize,
+    /// Work a tick of elastica.
+    pub quality: Quality,
     /// h, s.
     pub tick: f64,
     /// Precision of the tick.
@@ -83,6 +107,23 @@ impl Method {
         match self {
             Self::Rigid => "rigid",
             Self::Newmark => "newmark",
+            Self::Modal => "modal",
+            Self::Elastica => "elastica",
+        }
+    }
+
+    /// Beam elements where none are asked for: they cost newmark the tick, modal only set-up.
+    fn elements(self) -> usize {
+        if self == Self::Modal { 8 } else { 1 }
+    }
+}
+
+impl Quality {
+    /// As it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Fine => "fine",
         }
     }
 }
@@ -113,6 +154,8 @@ impl Default for Solver {
             method: Method::Newmark,
             elements: 1,
             mass: Mass::Consistent,
+            modes: 2,
+            quality: Quality::Fine,
             tick: 0.01,
             scalar: Scalar::F32,
             spin: true,
@@ -126,6 +169,8 @@ impl From<Solver> for SolverKeys {
             method: Some(solver.method),
             elements: Some(solver.elements as i64),
             mass: Some(solver.mass),
+            modes: Some(solver.modes as i64),
+            quality: Some(solver.quality),
             tick: Some(solver.tick),
             scalar: Some(solver.scalar),
             spin: Some(solver.spin),
@@ -135,15 +180,21 @@ impl From<Solver> for SolverKeys {
 
 impl SolverKeys {
     /// Names of the keys, in the order of the fields; a sweep's columns.
-    pub const NAMES: [&'static str; 6] = ["method", "elements", "mass", "tick_s", "scalar", "spin"];
+    pub const NAMES: [&'static str; 8] =
+        ["method", "elements", "mass", "modes", "quality", "tick_s", "scalar", "spin"];
 
     /// Every key that the method reads, absent ones at their defaults; none that it does not, so
     /// that equal solvers have equal keys.
     pub fn relevant(self) -> Self {
-        let keys = self.or(Solver::default().into());
-        match keys.method {
-            Some(Method::Rigid) => Self { elements: None, mass: None, spin: None, ..keys },
-            Some(Method::Newmark) | None => keys,
+        let method = self.method.unwrap_or(Solver::default().method);
+        let default = Solver { elements: method.elements(), ..Solver::default() };
+        let keys = self.or(default.into());
+        let meshless = Self { elements: None, mass: None, spin: None, ..keys };
+        match method {
+            Method::Rigid => Self { modes: None, quality: None, ..meshless },
+            Method::Newmark => Self { modes: None, quality: None, ..keys },
+            Method::Modal => Self { quality: None, ..keys },
+            Method::Elastica => meshless,
         }
     }
 
@@ -153,6 +204,8 @@ impl SolverKeys {
             method: self.method.or(other.method),
             elements: self.elements.or(other.elements),
             mass: self.mass.or(other.mass),
+            modes: self.modes.or(other.modes),
+            quality: self.quality.or(other.quality),
             tick: self.tick.or(other.tick),
             scalar: self.scalar.or(other.scalar),
             spin: self.spin.or(other.spin),
@@ -162,12 +215,24 @@ impl SolverKeys {
     /// The solver, absent keys at their defaults.
     pub fn resolve(self) -> Result<Solver, Error> {
         let default = Solver::default();
+        let method = self.method.unwrap_or(default.method);
         let elements = match self.elements {
-            None => default.elements,
+            None => method.elements(),
             Some(n @ (1 | 2 | 4 | 8)) => n as usize,
             Some(n) => {
                 return Err(Error::new(format_args!(
                     "solver.elements = {n}: accepted is 1, 2, 4 or 8"
+                )));
+            }
+        };
+        let most = if method == Method::Elastica { 2 } else { 3 };
+        let modes = match self.modes {
+            None => default.modes,
+            Some(n) if (1..=most).contains(&n) => n as usize,
+            Some(n) => {
+                return Err(Error::new(format_args!(
+                    "solver.modes = {n}: accepted is 1 to {most} with method {}",
+                    method.name()
                 )));
             }
         };
@@ -178,9 +243,11 @@ impl SolverKeys {
             )));
         }
         Ok(Solver {
-            method: self.method.unwrap_or(default.method),
+            method,
             elements,
             mass: self.mass.unwrap_or(default.mass),
+            modes,
+            quality: self.quality.unwrap_or(default.quality),
             tick,
             scalar: self.scalar.unwrap_or(default.scalar),
             spin: self.spin.unwrap_or(default.spin),
@@ -193,16 +260,16 @@ impl Solver {
     pub fn describe(&self) -> String {
         let tick = self.tick * 1e3;
         let (method, scalar) = (self.method.name(), self.scalar.name());
+        let spin = if self.spin { "" } else { ", no spin terms" };
+        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let elements = count(self.elements, &format!("{} element", self.mass.name()));
+        let modes = count(self.modes, "mode");
         match self.method {
             Method::Rigid => format!("{method}, {tick} ms, {scalar}"),
-            Method::Newmark => {
-                let mass = self.mass.name();
-                let plural = if self.elements == 1 { "" } else { "s" };
-                let spin = if self.spin { "" } else { ", no spin terms" };
-                format!(
-                    "{method}, {} {mass} element{plural}, {tick} ms, {scalar}{spin}",
-                    self.elements
-                )
+            Method::Newmark => format!("{method}, {elements}, {tick} ms, {scalar}{spin}"),
+            Method::Modal => format!("{method}, {modes} of {elements}, {tick} ms, {scalar}{spin}"),
+            Method::Elastica => {
+                format!("{method}, {modes}, {}, {tick} ms, {scalar}", self.quality.name())
             }
         }
     }

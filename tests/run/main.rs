@@ -2,6 +2,7 @@
 
 mod convergence;
 mod energy;
+mod exact;
 mod properties;
 mod scene_files;
 mod truth;

@@ -12,7 +12,7 @@ pub mod stream;
 use std::path::PathBuf;
 
 use stillbeam_sim::scene_file::SceneFile;
-use stillbeam_sim::solver::{Mass, Method, Scalar, Solver};
+use stillbeam_sim::solver::{Mass, Scalar, Solver};
 use stillbeam_sim::table::{self, Row};
 
 /// Scenes that have a truth file.
@@ -41,7 +41,7 @@ pub fn truth(name: &str) -> (SceneFile, Vec<Row>) {
 
 /// Newmark with consistent mass.
 pub fn newmark(elements: usize, tick: f64, scalar: Scalar) -> Solver {
-    Solver { method: Method::Newmark, elements, mass: Mass::Consistent, tick, scalar, spin: true }
+    Solver { elements, mass: Mass::Consistent, tick, scalar, ..Solver::default() }
 }
 
 /// Asserts `|value − expected| ≤ tolerance` and says by how much it fails.

@@ -65,7 +65,10 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         model: &Model<N, W>,
         tick: f64,
     ) -> Result<Self, Error> {
-        const { assert!(1 <= K && K <= 3 && K <= N, "1 to 3 modes, at most the model's") }
+        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
+        if K > N {
+            return Err(Error::DegreesOfFreedom { given: N, needed: K });
+        }
         let tick = super::check_tick(tick)?;
         let scene = model.scene();
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);

@@ -31,10 +31,10 @@ pub fn cost(scene: &SceneFile, keys: SolverKeys) -> Result<Cost, Error> {
     let mut setups = Vec::with_capacity(SETUPS);
     for _ in 0..SETUPS {
         let start = Instant::now();
-        sizes = with_stepper(&scene.arm, &solver, Build)?;
+        sizes = with_stepper(scene, &solver, Build)?;
         setups.push(start.elapsed().as_secs_f64());
     }
-    let mut ticks = with_stepper(&scene.arm, &solver, Ticks { scene })?;
+    let mut ticks = with_stepper(scene, &solver, Ticks { scene })?;
     Ok(Cost {
         setup_us: significant(1e6 * median(&mut setups), 3),
         state_bytes: sizes.0 as u64,

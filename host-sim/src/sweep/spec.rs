@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::error::Error;
 use crate::scene_file::from_toml;
-use crate::solver::{Mass, Method, Scalar, SolverKeys};
+use crate::solver::{Mass, Method, Quality, Scalar, SolverKeys};
 
 /// A sweep as its user writes it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -29,6 +29,10 @@ pub struct Grid {
     pub elements: Vec<i64>,
     /// Mass matrices.
     pub mass: Vec<Mass>,
+    /// Modes.
+    pub modes: Vec<i64>,
+    /// Work a tick.
+    pub quality: Vec<Quality>,
     /// Ticks, s.
     pub tick: Vec<f64>,
     /// Precisions.
@@ -75,6 +79,8 @@ impl Grid {
         cross(&mut all, &self.method, |keys| &mut keys.method);
         cross(&mut all, &self.elements, |keys| &mut keys.elements);
         cross(&mut all, &self.mass, |keys| &mut keys.mass);
+        cross(&mut all, &self.modes, |keys| &mut keys.modes);
+        cross(&mut all, &self.quality, |keys| &mut keys.quality);
         cross(&mut all, &self.spin, |keys| &mut keys.spin);
         cross(&mut all, &self.scalar, |keys| &mut keys.scalar);
         cross(&mut all, &self.tick, |keys| &mut keys.tick);
@@ -113,6 +119,9 @@ mod tests {
 
     #[test]
     fn the_embedded_specs_are_accepted() {
-        assert_eq!(Spec::embedded().unwrap().solvers().len(), 4 * 2 * 5 * 2 * 2 + 5);
+        assert_eq!(
+            Spec::embedded().unwrap().solvers().len(),
+            4 * 2 * 5 * 2 * 2 + 5 + 3 * 5 * 2 * 2 + 2 * 2 * 5 * 2
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! Every method, once.
 
-use stillbeam::beam::{EightElements, FourElements, Model, OneElement, TwoElements};
-use stillbeam::stepper::{Newmark, Rigid};
+use stillbeam::beam::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
+use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Scene, Stepper};
 
 /// A stepper with its name in the tables.
@@ -107,4 +107,21 @@ methods! {
         |s, h| Newmark::new(&Model::lumped::<8>(s)?, h);
     Lumped8Tip: "newmark", 8, "lumped", "", Some(true), Lumped<9>,
         |s, h| Newmark::new(&Model::lumped::<16>(s)?, h);
+    Modal1: "modal", 1, "", "", None, Modal<f32, 1>,
+        |s, h| Modal::new(&FourElements::consistent(s)?, h);
+    Modal2: "modal", 2, "", "", None, Modal<f32, 2>,
+        |s, h| Modal::new(&FourElements::consistent(s)?, h);
+    Modal3: "modal", 3, "", "", None, Modal<f32, 3>,
+        |s, h| Modal::new(&FourElements::consistent(s)?, h);
+    Modal2NoSpin: "modal", 2, "", "no-spin", None, Modal<f32, 2>,
+        |s, h| Ok(Modal::new(&FourElements::consistent(s)?, h)?.without_spin());
+    Elastica1: "elastica", 1, "fast", "", None, Elastica<f32, 1>,
+        |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fast, BEND);
+    Elastica2: "elastica", 2, "fast", "", None, Elastica<f32, 2>,
+        |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fast, BEND);
+    Elastica2Fine: "elastica", 2, "fine", "", None, Elastica<f32, 2>,
+        |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fine, BEND);
 }
+
+/// Tip angle that elastica is fitted for, rad: enough for every scene of the list.
+const BEND: f64 = 0.5;
