@@ -4,7 +4,7 @@
 //! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
 //! motion ([`trajectory`]), the core's run ([`run`], [`model_choice`]), its table ([`table`],
 //! [`output`]), and how far two tables are apart ([`compare`], [`statics`]). The paper's figures are
-//! computed in [`study`] and shown by [`report`] and [`plot`]. Reference solutions ([`reference`],
+//! computed in [`study`] and shown by [`report`] and [`plot`]. Reference solutions ([`mod@reference`],
 //! as tables [`truth`]) judge the core in [`sweep`], run time against error; its run time is
 //! compared with that of [`textbook`].
 
