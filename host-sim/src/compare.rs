@@ -1,7 +1,5 @@
 //! How far two runs of one scene are apart. The same definitions everywhere in the project.
 
-use stillbeam::Move;
-
 use crate::error::Error;
 use crate::reference::rod;
 use crate::scene_file::SceneFile;
@@ -73,7 +71,7 @@ pub fn residual(rows: &[Row], scene: &SceneFile) -> Result<Option<f64>, Error> {
     if last.is_none_or(|plan| plan.end.rate != 0.0) {
         return Ok(None);
     }
-    let end = last_move_end(scene, &trajectory);
+    let end = trajectory.arrivals().last().unwrap_or(0.0);
     let still = rod::rest_deflection(&scene.arm, trajectory.at(end, Side::Right).angle)?;
     let length = scene.arm.link.length;
     let largest = rows
@@ -82,18 +80,6 @@ pub fn residual(rows: &[Row], scene: &SceneFile) -> Result<Option<f64>, Error> {
         .map(|row| (row.deflection_m - still).abs() / length)
         .fold(None, |most: Option<f64>, x| Some(most.map_or(x, |most| most.max(x))));
     Ok(largest)
-}
-
-/// Time at which the last move that is no dwell ends, s.
-fn last_move_end(scene: &SceneFile, trajectory: &Trajectory) -> f64 {
-    let (mut now, mut end) = (0.0, 0.0);
-    for (motion, plan) in scene.motions().iter().zip(trajectory.plans()) {
-        now += f64::from(plan.ticks) * trajectory.tick();
-        if !matches!(motion, Move::Dwell { .. }) {
-            end = now;
-        }
-    }
-    end
 }
 
 /// Times at which the commanded acceleration jumps, the beginning of the run included.

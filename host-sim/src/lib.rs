@@ -5,7 +5,7 @@
 //! motion ([`trajectory`]), the core's run ([`run`], [`model_choice`]), its table ([`table`],
 //! [`output`]), and how far two tables are apart ([`compare`]).
 //!
-//! Reference solutions ([`reference`], as tables [`truth`]) judge the core in [`sweep`], run time
+//! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core in [`sweep`], run time
 //! against error; its run time is compared with that of [`textbook`]. The paper's figures are
 //! computed in [`study`]. [`report`] and [`plot`] show both.
 

@@ -18,6 +18,8 @@ pub enum Side {
 pub struct Trajectory {
     pieces: Vec<Piece>,
     plans: Vec<Plan>,
+    /// Ticks at which moves other than dwells end.
+    arrivals: Vec<u64>,
     tick: f64,
     ticks: u64,
 }
@@ -36,7 +38,8 @@ impl Trajectory {
     /// Plans the moves from rest at `from` rad. At least one move.
     pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, Error> {
         let mut start = Start::at_rest(from)?;
-        let mut trajectory = Self { pieces: Vec::new(), plans: Vec::new(), tick, ticks: 0 };
+        let mut trajectory =
+            Self { pieces: Vec::new(), plans: Vec::new(), arrivals: Vec::new(), tick, ticks: 0 };
         for motion in moves {
             let plan = Plan::new(motion, start, limits, tick)?;
             let mut k = trajectory.ticks;
@@ -51,6 +54,9 @@ impl Trajectory {
                 trajectory.pieces.push(Piece { begin, end, first, segment: *segment });
             }
             trajectory.ticks = k;
+            if !matches!(motion, Move::Dwell { .. }) {
+                trajectory.arrivals.push(k);
+            }
             start = plan.end;
             trajectory.plans.push(plan);
         }
@@ -74,6 +80,12 @@ impl Trajectory {
     /// higher derivative may jump there. An integrator restarts at each.
     pub fn breaks(&self) -> Vec<f64> {
         self.pieces.iter().skip(1).map(|piece| piece.begin).collect()
+    }
+
+    /// Times at which moves end, dwells left out, s. There a table holds the left-hand acceleration
+    /// and torque.
+    pub fn arrivals(&self) -> impl Iterator<Item = f64> {
+        self.arrivals.iter().map(|&k| k as f64 * self.tick)
     }
 
     /// Ticks of the whole run.

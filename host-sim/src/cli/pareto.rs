@@ -1,5 +1,6 @@
 //! `pareto`: error against time, drawn and in words.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -40,12 +41,12 @@ impl ParetoArgs {
         };
         let pictures: Vec<Picture<'_>> =
             scenes.iter().map(|scene| Picture::of(&rows, scene)).collect();
-        let files = page::write(&self.out, &pictures)?;
-        for picture in &pictures {
-            print!("{}", page::text(picture));
-        }
-        print!("{}", page::summary(&pictures));
-        println!("{}", files.display());
+        let file = page::write(&self.out, &pictures)?;
+        let mut text: String = pictures.iter().map(page::text).collect();
+        text += &page::summary(&pictures);
+        text += &format!("{}\n", file.display());
+        // Long enough to be piped into something that stops reading.
+        let _ = std::io::stdout().write_all(text.as_bytes());
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -37,11 +37,7 @@ impl<'a> Schedule<'a> {
             }
             before = time;
         }
-        let ends = trajectory.plans().iter().scan(0, |ticks, plan| {
-            *ticks += u64::from(plan.ticks);
-            Some(*ticks as f64 * tick)
-        });
-        Ok(Self { trajectory, times, ends: ends.collect(), close })
+        Ok(Self { trajectory, times, ends: trajectory.arrivals().collect(), close })
     }
 
     /// Sample times at the very beginning.

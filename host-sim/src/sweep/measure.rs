@@ -8,6 +8,9 @@ use crate::scene_file::SceneFile;
 use crate::solver::SolverKeys;
 use crate::table::Row;
 
+/// A tip this many lengths off is no answer any more, only a measure of how long it has grown.
+const LOST: f64 = 10.0;
+
 /// Runs the core on the scene and compares it with the reference, by the definitions of
 /// [`crate::compare`].
 pub fn errors(scene: &SceneFile, keys: SolverKeys, reference: &[Row]) -> Result<Errors, Error> {
@@ -24,6 +27,9 @@ pub fn errors(scene: &SceneFile, keys: SolverKeys, reference: &[Row]) -> Result<
     // at the run's own.
     let reference: Vec<Row> = common(&rows, reference).into_iter().map(|(_, row)| *row).collect();
     let comparison = compare(&rows, &reference, &scene)?;
+    if comparison.tip_max > LOST {
+        return Ok(Errors::DIVERGED);
+    }
     let errors = Errors {
         tip_max: comparison.tip_max,
         tip_rms: comparison.tip_rms,
