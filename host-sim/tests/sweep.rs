@@ -307,7 +307,7 @@ fn a_million_rows_are_joined_in_little_memory() {
         for case in (shard..=ROWS).step_by(SHARDS as usize) {
             writeln!(
                 file,
-                "5eed,{case},{ROWS},d-fast,newmark,1,consistent,0.01,f32,true,0.13,0.05,,0.4,1.5,24,\
+                "5eed,{case},{ROWS},d-fast,newmark,1,consistent,,,0.01,f32,true,0.13,0.05,,0.4,1.5,24,\
                  200,40.0,60.0"
             )
             .unwrap();

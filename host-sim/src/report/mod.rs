@@ -9,9 +9,10 @@ pub mod parts;
 mod profiles;
 mod setpoints;
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 use crate::error::Error;
+use crate::report::parts::page;
 use crate::study::Study;
 
 /// Words that several figures share.
@@ -38,30 +39,19 @@ pub fn render(study: &Study) -> Result<String, Error> {
         profiles::section(study)?,
         setpoints::section(study)?,
     ];
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Stillbeam: the paper's study" }
-                style { (PreEscaped(include_str!("style.css"))) }
-            }
-            body {
-                header { (findings::head(study)) (findings::in_short(study)) }
-                nav aria-label="Contents" {
-                    h2 { "Contents" }
-                    ol { @for section in &sections {
-                        li { a href={ "#" (section.id) } { (section.title) } }
-                    } }
-                }
-                main {
-                    @for section in &sections {
-                        section id=(section.id) { h2 { (section.title) } (section.body) }
-                    }
-                }
+    let body = html! {
+        header { (findings::head(study)) (findings::in_short(study)) }
+        nav aria-label="Contents" {
+            h2 { "Contents" }
+            ol { @for section in &sections {
+                li { a href={ "#" (section.id) } { (section.title) } }
+            } }
+        }
+        main {
+            @for section in &sections {
+                section id=(section.id) { h2 { (section.title) } (section.body) }
             }
         }
     };
-    Ok(page.into_string())
+    Ok(page("Stillbeam: the paper's study", &body))
 }

@@ -1,9 +1,26 @@
 //! Pieces of a page: figures, tables, numbers.
 
-use maud::{Markup, PreEscaped, html};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::error::Error;
 use crate::plot::Chart;
+
+/// A whole page that needs nothing but itself.
+pub fn page(title: &str, body: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(include_str!("style.css"))) }
+            }
+            body { (body) }
+        }
+    };
+    page.into_string()
+}
 
 /// Charts side by side where the page is wide enough, and what to see in them.
 pub fn figure(charts: &[Chart], caption: &Markup, data: &str) -> Result<Markup, Error> {

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 use super::answers::bases;
 use super::picture::{Picture, describe, ends, overview};
 use super::row::header;
 use crate::error::Error;
 use crate::output;
-use crate::report::parts::{Table, figure};
+use crate::report::parts::{Table, figure, page};
 use crate::scenes;
 
 /// Writes `index.html`, and a picture and the rows of each scene beside it, into a folder. Returns
@@ -42,51 +42,40 @@ fn file_name(scene: &str) -> String {
 
 fn render(pictures: &[Picture<'_>]) -> Result<String, Error> {
     let sections = pictures.iter().map(section).collect::<Result<Vec<_>, _>>()?;
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Stillbeam: run time against error" }
-                style { (PreEscaped(include_str!("../report/style.css"))) }
+    let body = html! {
+        header {
+            h1 { "Run time against error" }
+            p.lead {
+                "Each mark is one solver on one scene. Its error is the largest distance \
+                 of the tip from the reference rod, which shares no method with it; its \
+                 time is what a second of motion takes on the machine that ran the sweep, \
+                 so that a shorter tick costs what it costs."
             }
-            body {
-                header {
-                    h1 { "Run time against error" }
-                    p.lead {
-                        "Each mark is one solver on one scene. Its error is the largest distance \
-                         of the tip from the reference rod, which shares no method with it; its \
-                         time is what a second of motion takes on the machine that ran the sweep, \
-                         so that a shorter tick costs what it costs."
-                    }
-                    p.soft {
-                        "A tick is one call of the generator: commanded motion, step, torque and \
-                         tip. Times tell solvers apart; they are not those of the target, whose \
-                         instructions are counted elsewhere. The torque error leaves out what lies \
-                         beside a jump of the commanded acceleration, and is a share of the peak \
-                         torque."
-                    }
-                }
-                nav aria-label="Contents" {
-                    ol {
-                        li { a href="#overview" { "What a choice costs" } }
-                        @for picture in pictures {
-                            li { a href={ "#" (file_name(&picture.scene)) } { (picture.scene) } }
-                        }
-                    }
-                }
-                main {
-                    section id="overview" {
-                        h2 { "What a choice costs" }
-                        @for table in overviews(pictures) { (table.markup()) }
-                    }
-                    @for section in &sections { (section) }
+            p.soft {
+                "A tick is one call of the generator: commanded motion, step, torque and \
+                 tip. Times tell solvers apart; they are not those of the target, whose \
+                 instructions are counted elsewhere. The torque error leaves out what lies \
+                 beside a jump of the commanded acceleration, and is a share of the peak \
+                 torque."
+            }
+        }
+        nav aria-label="Contents" {
+            ol {
+                li { a href="#overview" { "What a choice costs" } }
+                @for picture in pictures {
+                    li { a href={ "#" (file_name(&picture.scene)) } { (picture.scene) } }
                 }
             }
         }
+        main {
+            section id="overview" {
+                h2 { "What a choice costs" }
+                @for table in overviews(pictures) { (table.markup()) }
+            }
+            @for section in &sections { (section) }
+        }
     };
-    Ok(page.into_string())
+    Ok(page("Stillbeam: run time against error", &body))
 }
 
 fn section(picture: &Picture<'_>) -> Result<Markup, Error> {

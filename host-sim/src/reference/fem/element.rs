@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::model::{Change, Node};
+use super::node::{Change, Node};
 
 /// A Bernoulli-Euler element between two nodes, cubic in its own frame.
 ///

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix6, SMatrix, Vector2, Vector3, Vector6};
 use stillbeam::Scene;
 
-use super::model::{Change, Node};
+use super::node::{Change, Node};
 
 /// Consistent mass of a uniform element of mass m: its kinetic energy is that of
 /// `r(ξ) = N₁x₁ + N₂t₁ + N₃x₂ + N₄t₂`, the cubic Hermite curve through the nodes with the unit

@@ -13,6 +13,7 @@ mod element;
 mod inertia;
 mod model;
 mod newmark;
+mod node;
 
 use model::Model;
 use newmark::March;

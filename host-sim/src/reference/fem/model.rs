@@ -9,37 +9,8 @@ use stillbeam::motion::Hub;
 use super::block::Chain;
 use super::element::Element;
 use super::inertia::{Inertia, payload};
+use super::node::{Change, Deformation, Node};
 use super::{HubModel, Options};
-
-/// Displacement, velocity and acceleration of a node: global x, y (m) and rotation (rad), u_m and
-/// u_d together.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Node {
-    /// Position x, y and rotation.
-    pub q: Vector3<f64>,
-    pub v: Vector3<f64>,
-    pub a: Vector3<f64>,
-    /// u_d alone.
-    pub deformation: Vector3<f64>,
-}
-
-/// How much of a change of the unknowns reaches displacements, velocities and accelerations.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Change {
-    pub displacement: f64,
-    /// 1/s.
-    pub rate: f64,
-    /// 1/s².
-    pub acceleration: f64,
-}
-
-/// u_d of every node with its time derivatives.
-#[derive(Clone, Debug)]
-pub(super) struct Deformation {
-    pub u: Vec<Vector3<f64>>,
-    pub v: Vec<Vector3<f64>>,
-    pub a: Vec<Vector3<f64>>,
-}
 
 /// Elements, and the residual of the equations of motion.
 pub(super) struct Model {

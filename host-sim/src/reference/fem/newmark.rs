@@ -4,7 +4,8 @@ use nalgebra::Vector3;
 use stillbeam::motion::Hub;
 
 use super::block::Chain;
-use super::model::{Change, Deformation, Model, Node};
+use super::model::Model;
+use super::node::{Change, Deformation, Node};
 use crate::reference::{ReferenceError, Sample};
 
 /// Newton steps that an equilibrium may take.
