@@ -24,28 +24,15 @@ pub(crate) fn lumped_mass(rho_a: f64, l: f64) -> Matrix {
     [[half, 0.0, 0.0, 0.0], [0.0; 4], [0.0, 0.0, half, 0.0], [0.0; 4]]
 }
 
-/// `∫ P(ξ) N'N'ᵀ dx` over an element of length `l`, for an axial force `p₀ + p₁ξ + p₂ξ²` with
-/// `ξ = x/ℓ ∈ 0..1`; unit axial force gives the foreshortening matrix.
-///
-/// Four Gauss points: exact to degree 7, and `N'N'ᵀ` has degree 4.
+/// `∫ P(ξ) N'N'ᵀ dx` over an element of length `l`, for an axial force `P = p₀ + p₁ξ + p₂ξ²` with
+/// `ξ = x/ℓ ∈ 0..1`; unit axial force gives the foreshortening matrix. Exact, in closed form.
 #[inline(never)]
-pub(crate) fn axial(l: f64, p: [f64; 3]) -> Matrix {
-    const POINTS: [(f64, f64); 4] = [
-        (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
-        (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
-        (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
-        (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
-    ];
-    let mut sum = [[0.0; 4]; 4];
-    for (xi, weight) in POINTS {
-        let bend = 6.0 * xi * (xi - 1.0) / l;
-        let slope = [bend, 1.0 + xi * (3.0 * xi - 4.0), -bend, xi * (3.0 * xi - 2.0)];
-        let c = weight * l * (p[0] + xi * (p[1] + xi * p[2]));
-        for i in 0..4 {
-            for j in 0..4 {
-                sum[i][j] += c * slope[i] * slope[j];
-            }
-        }
-    }
-    sum
+pub(crate) fn axial(l: f64, [p0, p1, p2]: [f64; 3]) -> Matrix {
+    let a = (1.2 * p0 + 0.6 * p1 + 12.0 / 35.0 * p2) / l;
+    let b = 0.1 * (p0 + p1) + p2 / 14.0;
+    let c = 0.1 * p0 - p2 / 35.0;
+    let d = l * (2.0 / 15.0 * p0 + p1 / 30.0 + 2.0 / 105.0 * p2);
+    let e = -l * (p0 / 30.0 + p1 / 60.0 + p2 / 70.0);
+    let f = l * (2.0 / 15.0 * p0 + 0.1 * p1 + 3.0 / 35.0 * p2);
+    [[a, b, -a, c], [b, d, -b, e], [-a, -b, a, -c], [c, e, -c, f]]
 }

@@ -97,51 +97,43 @@ type Shapes = Vec<(f64, Shape<f64>), MAX_SEGMENTS>;
 /// Largest angle and rate that a move may name: 1e6 rad resolve to 1e-10 rad.
 const MAX_ANGLE: f64 = 1e6;
 
+/// Turns by `d`.
 fn rest_to_rest(profile: Profile, d: f64) -> Shapes {
+    let pieces = |pieces: &[[f64; 3]]| {
+        let share = 1.0 / pieces.len() as f64;
+        pieces.iter().map(|c| (share, Shape::Cubic(c.map(|c| c * d)))).collect()
+    };
+    let one = |shape| Vec::from_iter([(1.0, shape)]);
     match profile {
-        Profile::Cubic => Vec::from_iter([(1.0, Shape::Cubic([0.75 * d, 0.0, -0.25 * d]))]),
-        Profile::Quintic => {
-            let c = [15.0, 0.0, -10.0, 0.0, 3.0].map(|c| c * d / 16.0);
-            Vec::from_iter([(1.0, Shape::Quintic(c))])
-        }
-        Profile::Cycloid => {
-            let shape = Shape::Harmonic { c: [0.5 * d, 0.0], a: d / TAU, b: 0.0 };
-            Vec::from_iter([(1.0, shape)])
-        }
-        Profile::Trapezoid => {
-            let a = 4.5 * d;
-            integrate(&[(1.0 / 3.0, a, 0.0), (1.0 / 3.0, 0.0, 0.0), (1.0 / 3.0, -a, 0.0)])
-        }
-        Profile::SCurve => {
-            let (j, a) = (42.875 * d, 6.125 * d);
-            let f = 1.0 / 7.0;
-            integrate(&[
-                (f, 0.0, j),
-                (f, a, 0.0),
-                (f, a, -j),
-                (f, 0.0, 0.0),
-                (f, 0.0, -j),
-                (f, -a, 0.0),
-                (f, -a, j),
-            ])
-        }
+        Profile::Cubic => one(Shape::Cubic([0.75 * d, 0.0, -0.25 * d])),
+        Profile::Quintic => one(Shape::Quintic([15.0, 0.0, -10.0, 0.0, 3.0].map(|c| c * d / 16.0))),
+        Profile::Cycloid => one(Shape::Harmonic { c: [0.5 * d, 0.0], a: d / TAU, b: 0.0 }),
+        Profile::Trapezoid => pieces(const { &integrate([(4.5, 0.0), (0.0, 0.0), (-4.5, 0.0)]) }),
+        Profile::SCurve => pieces(const { &integrate(S_CURVE) }),
     }
 }
 
-/// Cubics for stretches `(share of T, acceleration at its beginning, jerk)`, per T² and T³, from
-/// rest.
-fn integrate(stretches: &[(f64, f64, f64)]) -> Shapes {
-    let mut rate = 0.0;
-    stretches
-        .iter()
-        .map(|&(f, a, j)| {
-            // c₁s + c₂s² + c₃s³ about s = ½.
-            let (c1, c2, c3) = (rate * f, a * f * f / 2.0, j * f * f * f / 6.0);
-            let c = [(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0];
-            rate += (a + j * f / 2.0) * f;
-            (f, Shape::Cubic(c))
-        })
-        .collect()
+/// Acceleration at the beginning of each seventh, and its jerk, of a turn by 1 in a time of 1.
+const S_CURVE: [(f64, f64); 7] = {
+    let (a, j) = (6.125, 42.875);
+    [(0.0, j), (a, 0.0), (a, -j), (0.0, 0.0), (0.0, -j), (-a, 0.0), (-a, j)]
+};
+
+/// Cubics about their middles for `N` equal stretches `(acceleration at its beginning, jerk)`, per
+/// T² and T³, from rest.
+const fn integrate<const N: usize>(stretches: [(f64, f64); N]) -> [[f64; 3]; N] {
+    let f = 1.0 / N as f64;
+    let mut cubics = [[0.0; 3]; N];
+    let (mut rate, mut i) = (0.0, 0);
+    while i < N {
+        let (a, j) = stretches[i];
+        // c₁s + c₂s² + c₃s³ about s = ½.
+        let (c1, c2, c3) = (rate * f, a * f * f / 2.0, j * f * f * f / 6.0);
+        cubics[i] = [(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0];
+        rate += (a + j * f / 2.0) * f;
+        i += 1;
+    }
+    cubics
 }
 
 /// `v` turns at the old rate, and half of `dv` more by the end:

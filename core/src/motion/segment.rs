@@ -148,6 +148,21 @@ impl<T: Scalar> Angle<T> {
     }
 }
 
+impl Shape<f64> {
+    /// `Δ(−1)`, `Δ(1)` and `d²Δ/du²(1)`.
+    fn ends(&self) -> [f64; 3] {
+        let (odd, even, bend) = match *self {
+            Self::Cubic([c1, c2, c3]) => (c1 + c3, c2, 2.0 * c2 + 6.0 * c3),
+            Self::Quintic([c1, c2, c3, c4, c5]) => {
+                (c1 + c3 + c5, c2 + c4, 2.0 * c2 + 6.0 * c3 + 12.0 * c4 + 20.0 * c5)
+            }
+            Self::Harmonic { c: [c1, c2], b, .. } => (c1, c2 - 2.0 * b, 2.0 * c2 + PI * PI * b),
+            Self::Cruise { .. } => (0.0, 0.0, 0.0),
+        };
+        [even - odd, even + odd, bend]
+    }
+}
+
 impl Segment<f64> {
     /// A segment of `length` ticks (not whole in general) that begins `before` ticks, 0 to 1,
     /// before the first tick that belongs to it.
@@ -170,8 +185,9 @@ impl Segment<f64> {
             landing: 0.0,
             shape,
         };
-        segment.origin = start.plus(-segment.derivatives(-1.0).0);
-        segment.landing = segment.derivatives(1.0).2 * segment.acceleration_scale;
+        let [begin, _, landing] = segment.shape.ends();
+        segment.origin = start.plus(-begin);
+        segment.landing = landing * segment.acceleration_scale;
         segment
     }
 
@@ -211,7 +227,7 @@ impl Segment<f64> {
 
     /// The angle at `u = 1`.
     pub(crate) fn end(&self) -> Angle<f64> {
-        self.origin.plus(self.derivatives(1.0).0)
+        self.origin.plus(self.shape.ends()[1])
     }
 
     /// Ticks from the segment's true beginning to its first tick, 0 to 1.
