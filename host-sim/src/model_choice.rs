@@ -128,6 +128,14 @@ impl<T: Real, V: StepperVisitor> Visitor for ModalOf<'_, T, V> {
 
     fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Result<V::Output, Error> {
         let Self { solver, visitor, .. } = self;
+        if solver.modes > N {
+            return Err(Error::new(format_args!(
+                "solver.modes = {}: accepted is up to {N} with elements = {} and {} mass",
+                solver.modes,
+                solver.elements,
+                solver.mass.name()
+            )));
+        }
         match solver.modes {
             1 => visitor.visit(modal::<T, 1, N, W>(&model, solver)?),
             2 => visitor.visit(modal::<T, 2, N, W>(&model, solver)?),

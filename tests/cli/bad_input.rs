@@ -158,6 +158,13 @@ fn words_on_the_command_line() {
     refused(GOOD, &["--tick", "nan"], &["solver.tick = NaN"]);
     refused(GOOD, &["--method", "euler"], &["euler", "newmark"]);
     refused(GOOD, &["--mass", "heavy"], &["heavy", "lumped"]);
+    refused(
+        GOOD,
+        &["--method", "modal", "--modes", "3"],
+        &["solver.modes = 3", "accepted is up to 2", "elements = 1"],
+    );
+    refused(GOOD, &["--modes", "0", "--method", "elastica"], &["solver.modes = 0", "1 to 2"]);
+    refused(GOOD, &["--quality", "best"], &["best", "fine"]);
     refused(GOOD, &["--frobnicate"], &["--frobnicate"]);
 }
 

@@ -3,9 +3,9 @@
 use super::answers::{Answer, QUESTIONS, answers, bases, percent, short};
 use super::pareto::front;
 use super::row::Row;
-use crate::plot::{Axis, Chart, Colour, Series};
+use crate::plot::{Axis, Chart, Colour, Marker, Series};
 use crate::report::parts::Table;
-use crate::solver::SolverKeys;
+use crate::solver::{Mass, Method, SolverKeys};
 use crate::table::significant;
 
 /// What a sweep says of one scene.
@@ -47,11 +47,9 @@ impl<'a> Picture<'a> {
 
     /// Error against time, one mark a case, the front joined.
     pub fn chart(&self) -> Chart {
-        // The front's vermilion is left out.
-        let colours = [Colour::Blue, Colour::Sky, Colour::Green, Colour::Orange, Colour::Purple];
-        let mut groups: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+        let mut groups: Vec<(Group, Vec<(f64, f64)>)> = Vec::new();
         for row in &self.rows {
-            let label = group(row);
+            let label = Group::of(row);
             match groups.iter_mut().find(|group| group.0 == label) {
                 Some(group) => group.1.push(point(row)),
                 None => groups.push((label, vec![point(row)])),
@@ -59,12 +57,12 @@ impl<'a> Picture<'a> {
         }
         let x = Axis::log("processor time for a second of motion on this machine, \u{b5}s");
         let y = Axis::log("largest tip error, fraction of L");
-        let scatter = |((label, points), &colour): ((String, Vec<_>), &Colour)| {
-            Series::scatter(label, points).colour(colour)
+        let scatter = |(label, points): (Group, Vec<_>)| {
+            Series::scatter(label.name(), points).colour(label.colour()).marker(label.marker())
         };
         Chart::new(format!("Error against time, {}", self.scene), x, y)
             .sized(760, 460)
-            .with_all(groups.into_iter().zip(colours.iter().cycle()).map(scatter))
+            .with_all(groups.into_iter().map(scatter))
             .with(Series::front("front", self.front.iter().map(|row| point(row))))
     }
 
@@ -154,17 +152,41 @@ pub fn overview(pictures: &[Picture<'_>], base: usize) -> Option<Table> {
     })
 }
 
-/// What shares a colour: a method, without and with spin terms.
-fn group(row: &Row) -> String {
-    let keys = SolverKeys { method: row.keys.method, ..SolverKeys::default() };
-    let method = keys.resolve().map(|solver| solver.method.name()).unwrap_or_default();
-    match (row.keys.spin, row.keys.mass) {
-        (None, None) => method.to_owned(),
-        (spin, mass) => {
-            let mass = mass.map_or("", |mass| mass.name());
-            let spin = if spin == Some(false) { ", no spin terms" } else { "" };
-            format!("{method}, {mass}{spin}")
+/// What shares a mark: a method with its mass matrix, with or without spin terms.
+#[derive(Clone, Copy, PartialEq)]
+struct Group {
+    method: Method,
+    mass: Option<Mass>,
+    spin: bool,
+}
+
+impl Group {
+    fn of(row: &Row) -> Self {
+        Self {
+            method: row.keys.method.unwrap_or(Method::Newmark),
+            mass: row.keys.mass,
+            spin: row.keys.spin != Some(false),
         }
+    }
+
+    fn name(&self) -> String {
+        let mass = self.mass.map_or(String::new(), |mass| format!(", {}", mass.name()));
+        let spin = if self.spin { "" } else { ", no spin terms" };
+        format!("{}{mass}{spin}", self.method.name())
+    }
+
+    fn colour(&self) -> Colour {
+        match (self.method, self.mass) {
+            (Method::Rigid, _) => Colour::Grey,
+            (Method::Newmark, Some(Mass::Lumped)) => Colour::Orange,
+            (Method::Newmark, _) => Colour::Blue,
+            (Method::Modal, _) => Colour::Purple,
+            (Method::Elastica, _) => Colour::Green,
+        }
+    }
+
+    fn marker(&self) -> Marker {
+        if self.spin { Marker::Dot } else { Marker::Ring }
     }
 }
 
