@@ -5,11 +5,13 @@
 
 mod band;
 mod jacobi;
+mod least_squares;
 mod propagator;
 mod scalar;
 
 pub use band::{Band, Ldl};
 pub(crate) use jacobi::generalized_eigen;
+pub(crate) use least_squares::LeastSquares;
 pub(crate) use propagator::phi_functions;
 pub use scalar::Scalar;
 
