@@ -41,9 +41,6 @@ pub trait Scalar:
     fn to_f64(self) -> f64;
 
     /// Rounds to nearest, ties to even.
-    fn from_i32(value: i32) -> Self;
-
-    /// Rounds to nearest, ties to even.
     fn from_u32(value: u32) -> Self;
 
     /// The nearest whole number, halves to even, and what is left: `self = whole + rest` exactly.
@@ -83,11 +80,6 @@ macro_rules! scalar {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 self as f64
-            }
-
-            #[inline(always)]
-            fn from_i32(value: i32) -> Self {
-                value as $t
             }
 
             #[inline(always)]
