@@ -75,7 +75,11 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let tail = hold(end, stepper.tick());
         // The hold before the first tick has no length: a move pushed now begins at t = 0.
         let current = tail.cut(0);
-        let hub = current.hub_where(0, stepper.is_directed());
+        let mut hub = Hub::ZERO;
+        current.drive(&mut hub, 0);
+        if stepper.is_directed() {
+            (hub.sin, hub.cos) = hub.angle.sin_cos();
+        }
         let state = stepper.equilibrium(&hub);
         Ok(Self {
             stepper,
@@ -129,17 +133,14 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn tick(&mut self) -> Setpoint<S::Scalar> {
         let before = self.hub;
         self.k = self.next_k();
-        let turns_over = self.k >= self.current.count();
-        if turns_over {
-            self.landing = self.current.landing();
-            self.advance();
-        }
-        // A hub at rest stays where it is.
-        if turns_over || !(self.holding && before.rate == S::Scalar::ZERO) {
-            self.hub = self.current.hub_where(self.k, self.stepper.is_directed());
-        }
-        if !turns_over {
+        if self.k >= self.current.count() {
+            self.turn_over();
+        } else if !(self.holding && before.rate == S::Scalar::ZERO) {
+            self.current.drive(&mut self.hub, self.k);
             self.landing = self.hub.acceleration;
+            if self.stepper.is_directed() {
+                (self.hub.sin, self.hub.cos) = self.hub.angle.sin_cos();
+            }
         }
         // The first tick too: the arm was at rest before it, and stays so.
         let arrival = Hub { acceleration: self.landing, ..self.hub };
@@ -197,9 +198,11 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
     }
 
-    /// Takes up the next segment, or holds.
-    #[inline(always)]
-    fn advance(&mut self) {
+    /// The tick that takes up the next segment, or holds. Out of the way of the ticks in between,
+    /// which then need not save the registers that it takes to move a segment.
+    #[inline(never)]
+    fn turn_over(&mut self) {
+        self.landing = self.current.landing();
         match self.queue.pop_front() {
             Some(segment) => {
                 self.current = segment;
@@ -212,6 +215,10 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             }
         }
         self.k = 0;
+        self.current.drive(&mut self.hub, 0);
+        if self.stepper.is_directed() {
+            (self.hub.sin, self.hub.cos) = self.hub.angle.sin_cos();
+        }
     }
 
     /// A hold that has run out (after 497 days at 10 ms) goes on from where it is.

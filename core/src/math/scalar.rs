@@ -92,7 +92,7 @@ macro_rules! scalar {
                 // Added to 1.5 × 2^(mantissa bits), a number loses what is behind its point, and
                 // the lowest bits are the whole part: four instructions, no branch.
                 let shifted = self + $shift;
-                ($whole(shifted.to_bits()), self - (shifted - $shift))
+                ($whole(shifted.to_bits()), self + ($shift - shifted))
             }
 
             #[inline(always)]

@@ -21,6 +21,17 @@ pub struct Hub<T> {
     pub cos: T,
 }
 
+impl<T: Scalar> Hub<T> {
+    /// At rest at angle 0.
+    pub(crate) const ZERO: Self = Self {
+        angle: Angle { turns: 0, part: T::ZERO },
+        rate: T::ZERO,
+        acceleration: T::ZERO,
+        sin: T::ZERO,
+        cos: T::ONE,
+    };
+}
+
 /// A stretch of the motion with one formula, `u = −1..1` over its length. About the middle the
 /// coefficients are small and nothing cancels: rounding is an eighth of that in `0..1`.
 ///
@@ -68,65 +79,46 @@ type Derivatives<T> = (T, T, T);
 impl<T: Scalar> Segment<T> {
     /// The hub at the segment's tick `k`, `k < count`.
     pub fn hub(&self, k: u32) -> Hub<T> {
-        self.hub_where(k, true)
+        let mut hub = Hub::ZERO;
+        self.drive(&mut hub, k);
+        (hub.sin, hub.cos) = hub.angle.sin_cos();
+        hub
     }
 
-    /// As [`Self::hub`], with sine and cosine only where `directed`.
+    /// Moves the hub, but for its sine and cosine, to the segment's tick `k`, `k < count`.
     #[inline(always)]
-    pub(crate) fn hub_where(&self, k: u32, directed: bool) -> Hub<T> {
-        let (angle, rate, acceleration) = match self.shape {
+    pub(crate) fn drive(&self, hub: &mut Hub<T>, k: u32) {
+        if let Shape::Cubic(c) = self.shape {
+            let u = self.offset + T::from_u32(k) * self.advance;
+            (hub.angle, hub.rate, hub.acceleration) = self.scaled(cubic(c, u));
+        } else {
+            self.drive_otherwise(hub, k);
+        }
+    }
+
+    /// What is no cubic, out of the way of those that are: most ticks are theirs.
+    #[inline(never)]
+    fn drive_otherwise(&self, hub: &mut Hub<T>, k: u32) {
+        (hub.angle, hub.rate, hub.acceleration) = match self.shape {
             Shape::Cruise { rate, step } => (self.origin.cruise(step, k), rate, T::ZERO),
-            _ => self.at(self.offset + T::from_u32(k) * self.advance),
+            _ => self.scaled(self.derivatives(self.offset + T::from_u32(k) * self.advance)),
         };
-        let (sin, cos) = if directed { angle.sin_cos() } else { (T::ZERO, T::ONE) };
-        Hub { angle, rate, acceleration, sin, cos }
     }
 
-    #[inline(always)]
-    fn at(&self, u: T) -> (Angle<T>, T, T) {
-        let (delta, first, half_second) = self.derivatives(u);
-        let rate = first * self.rate_scale;
-        (self.origin.plus(delta), rate, half_second * self.acceleration_scale)
-    }
-
-    /// Polynomials by repeated synthetic division: value, slope and half the curvature out of one
-    /// chain, without multiplying coefficients by their powers.
     #[inline(always)]
     fn derivatives(&self, u: T) -> Derivatives<T> {
         match self.shape {
-            Shape::Cubic([c1, c2, c3]) => {
-                let p = c3 * u;
-                let p2 = p + c2;
-                let p1 = p2 * u + c1;
-                let q2 = p2 + p;
-                (p1 * u, q2 * u + p1, q2 + p)
-            }
-            Shape::Quintic([c1, c2, c3, c4, c5]) => {
-                let p = c5 * u;
-                let p4 = p + c4;
-                let p3 = p4 * u + c3;
-                let p2 = p3 * u + c2;
-                let p1 = p2 * u + c1;
-                let q4 = p4 + p;
-                let q3 = q4 * u + p3;
-                let q2 = q3 * u + p2;
-                let r3 = (q4 + p) * u + q3;
-                (p1 * u, q2 * u + p1, r3 * u + q2)
-            }
-            Shape::Harmonic { c: [c1, c2], a, b } => {
-                let (sin, cos) = (T::HALF * u).sin_cos_turns();
-                let pi = T::from_f64(PI);
-                let half_pi2 = T::from_f64(0.5 * PI * PI);
-                let p2 = c2 * u;
-                let p1 = p2 + c1;
-                (
-                    p1 * u + a * sin + b * (cos - T::ONE),
-                    p1 + p2 + pi * (a * cos - b * sin),
-                    c2 - half_pi2 * (a * sin + b * cos),
-                )
-            }
+            Shape::Cubic(c) => cubic(c, u),
+            Shape::Quintic(c) => quintic(c, u),
+            Shape::Harmonic { c, a, b } => harmonic(c, a, b, u),
             Shape::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
         }
+    }
+
+    #[inline(always)]
+    fn scaled(&self, (delta, first, half_second): Derivatives<T>) -> (Angle<T>, T, T) {
+        let rate = first * self.rate_scale;
+        (self.origin.plus(delta), rate, half_second * self.acceleration_scale)
     }
 
     /// Ticks that belong to the segment.
@@ -148,6 +140,45 @@ impl<T: Scalar> Segment<T> {
     pub(crate) fn moved(self, origin: Angle<T>) -> Self {
         Self { origin, ..self }
     }
+}
+
+/// By repeated synthetic division: value, slope and half the curvature out of one chain, without
+/// multiplying coefficients by their powers.
+#[inline(always)]
+fn cubic<T: Scalar>([c1, c2, c3]: [T; 3], u: T) -> Derivatives<T> {
+    let p = c3 * u;
+    let p2 = p + c2;
+    let p1 = p2 * u + c1;
+    let q2 = p2 + p;
+    (p1 * u, q2 * u + p1, q2 + p)
+}
+
+/// As [`cubic`].
+#[inline(always)]
+fn quintic<T: Scalar>([c1, c2, c3, c4, c5]: [T; 5], u: T) -> Derivatives<T> {
+    let p = c5 * u;
+    let p4 = p + c4;
+    let p3 = p4 * u + c3;
+    let p2 = p3 * u + c2;
+    let p1 = p2 * u + c1;
+    let q4 = p4 + p;
+    let q3 = q4 * u + p3;
+    let q2 = q3 * u + p2;
+    let r3 = (q4 + p) * u + q3;
+    (p1 * u, q2 * u + p1, r3 * u + q2)
+}
+
+#[inline(always)]
+fn harmonic<T: Scalar>([c1, c2]: [T; 2], a: T, b: T, u: T) -> Derivatives<T> {
+    let (sin, cos) = (T::HALF * u).sin_cos_turns();
+    let (pi, half_pi2) = (T::from_f64(PI), T::from_f64(0.5 * PI * PI));
+    let p2 = c2 * u;
+    let p1 = p2 + c1;
+    (
+        p1 * u + a * sin + b * (cos - T::ONE),
+        p1 + p2 + pi * (a * cos - b * sin),
+        c2 - half_pi2 * (a * sin + b * cos),
+    )
 }
 
 impl<T: Scalar> Angle<T> {
@@ -232,7 +263,7 @@ impl Segment<f64> {
                 let turns = step as f64 / 18_446_744_073_709_551_616.0 * ticks;
                 (self.origin.plus(turns), rate, 0.0)
             }
-            _ => self.at(self.offset + ticks * self.advance),
+            _ => self.scaled(self.derivatives(self.offset + ticks * self.advance)),
         };
         let (sin, cos) = angle.sin_cos();
         Hub { angle, rate, acceleration, sin, cos }
