@@ -35,9 +35,8 @@ pub struct Newmark<T, const N: usize, const W: usize> {
     stiffness: Band<T, N, W>,
     /// `G`.
     spin: Band<T, N, W>,
-    /// `4/h² M + 2/h (αM + βK)`.
-    inertial: Band<T, N, W>,
-    /// Of that and `K`, for ticks on which nothing is added to it.
+    /// `4/h² M + 2/h (αM + βK) + K`, and its factors for ticks on which nothing is added to it.
+    effective: Band<T, N, W>,
     factors: Ldl<T, N, W>,
     /// `−4/h² F`.
     coupling: [T; N],
@@ -95,7 +94,8 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         let per_half = 2.0 / tick;
         let damping =
             model.mass().scaled(per_half * alpha).plus(per_half * beta, model.stiffness());
-        let inertial = damping.plus(per_half * per_half, model.mass());
+        let effective =
+            damping.plus(per_half * per_half, model.mass()).plus(1.0, model.stiffness());
         let turn = model.mass().factor().solve(model.coupling());
         let residual = scene.rigid_inertia() - dot(model.coupling(), &turn);
         let band = |a: &Band<f64, N, W>| a.map(T::from_f64);
@@ -110,8 +110,8 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
             turn: cast(&turn.map(|b| 0.5 * tick * b)),
             stiffness: band(model.stiffness()),
             spin: band(model.spin()),
-            factors: inertial.plus(1.0, model.stiffness()).factor().map(T::from_f64),
-            inertial: band(&inertial),
+            factors: effective.factor().map(T::from_f64),
+            effective: band(&effective),
             coupling: coupling(-per_half * per_half),
             inertia: T::from_f64(scene.hub.inertia + residual),
             twice_per_half: T::from_f64(2.0 * per_half),
@@ -153,22 +153,22 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
     /// `K_t = K + θ̇²G − g sinθ K_P`; the factors of set-up serve while `K_t` is `K`.
     #[inline(always)]
     fn solve(&self, q: &[T; N], d: &[T; N], hub: &Hub<T>) -> [T; N] {
+        let mut force = self.stiffness.times(q);
+        self.load(&mut force, d, hub);
         let turns = self.terms.spin && hub.rate != T::ZERO;
         if !turns && !self.terms.gravity {
-            let mut force = self.stiffness.times(q);
-            self.load(&mut force, d, hub);
             return self.factors.solve(&force);
         }
-        let mut tangent = self.stiffness;
-        if turns {
-            tangent = tangent.plus(hub.rate * hub.rate, &self.spin);
+        let change = match (turns, self.terms.gravity) {
+            (true, false) => self.spin.scaled(hub.rate * hub.rate),
+            (false, _) => self.tension.scaled(-hub.sin),
+            (true, true) => self.spin.scaled(hub.rate * hub.rate).plus(-hub.sin, &self.tension),
+        };
+        let changed = change.times(q);
+        for i in 0..N {
+            force[i] += changed[i];
         }
-        if self.terms.gravity {
-            tangent = tangent.plus(-hub.sin, &self.tension);
-        }
-        let mut force = tangent.times(q);
-        self.load(&mut force, d, hub);
-        self.inertial.plus(T::ONE, &tangent).factor().solve(&force)
+        self.effective.plus(T::ONE, &change).factor().solve(&force)
     }
 
     /// Adds the forces that do not depend on `q`.
