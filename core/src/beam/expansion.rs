@@ -7,13 +7,12 @@
 use super::rod::Rod;
 use crate::math::{Band, LeastSquares, dot};
 
-/// Most monomials, with two modes. Even: all `aᵢaⱼ`, and `a₁⁴`. Odd, beyond the linear: all
-/// `aᵢaⱼaₖ`.
-pub(crate) const MAX_EVEN: usize = 4;
-pub(crate) const MAX_ODD: usize = 4;
+/// Most monomials, with three modes: see [`even_monomials`] and [`odd_monomials`].
+pub(crate) const MAX_EVEN: usize = 6;
+pub(crate) const MAX_ODD: usize = 5;
 
-/// Even quantities of two modes: `G`, `g`, `s` and two of `X`.
-const MAX_QUANTITIES: usize = 9;
+/// Even quantities of three modes: `G`, `g`, `s` and two of `X`.
+const MAX_QUANTITIES: usize = 15;
 
 /// Samples along a coordinate: Chebyshev points over `−1..1`, and for the first mode over `0..1`,
 /// which symmetry allows.
@@ -60,14 +59,28 @@ pub(crate) struct Expansion<const K: usize> {
     pub odd: [Odd<f64>; MAX_ODD],
 }
 
+/// Is `aᵢaⱼ`, `i ≤ j`, among the even monomials? All but the third mode's square.
+#[inline(always)]
+pub(crate) const fn is_even_pair(i: usize, j: usize) -> bool {
+    i < 2 || j < 2
+}
+
+/// Is `aᵢaⱼaₖ`, `i ≤ j ≤ k`, among the odd monomials? Those of two modes, and `a₁²a₃`.
+#[inline(always)]
+pub(crate) const fn is_odd_triple(i: usize, j: usize, k: usize) -> bool {
+    k < 2 || (i == 0 && j == 0)
+}
+
 /// Even monomials in their order: `aᵢaⱼ`, `i ≤ j`, row by row, then `a₁⁴`.
 fn even_monomials<const K: usize>(a: &[f64; K]) -> [f64; MAX_EVEN] {
     let mut m = [0.0; MAX_EVEN];
     let mut n = 0;
     for i in 0..K {
         for j in i..K {
-            m[n] = a[i] * a[j];
-            n += 1;
+            if is_even_pair(i, j) {
+                m[n] = a[i] * a[j];
+                n += 1;
+            }
         }
     }
     m[n] = a[0] * a[0] * a[0] * a[0];
@@ -81,8 +94,10 @@ fn odd_monomials<const K: usize>(a: &[f64; K]) -> [f64; MAX_ODD] {
     for i in 0..K {
         for j in i..K {
             for k in j..K {
-                m[n] = a[i] * a[j] * a[k];
-                n += 1;
+                if is_odd_triple(i, j, k) {
+                    m[n] = a[i] * a[j] * a[k];
+                    n += 1;
+                }
             }
         }
     }
@@ -118,33 +133,45 @@ impl<const K: usize> Even<f64, K> {
 /// Everything that is expanded, at one shape.
 fn sample<const K: usize>(rod: &Rod<K>, a: &[f64; K]) -> (Even<f64, K>, Odd<f64>) {
     let kinetics = rod.kinetics(a);
+    // M and h of the first two modes; the third, if there is one, cut off.
     let mut mass = Band::<f64, K, K>::ZERO;
+    let mut coupling = kinetics.coupling;
     for i in 0..K {
         for j in 0..=i {
-            mass.add(i, j, kinetics.mass[i][j]);
+            match (i < 2, i == j) {
+                (true, _) => mass.add(i, j, kinetics.mass[i][j]),
+                (false, true) => mass.add(i, j, 1.0),
+                (false, false) => {}
+            }
+        }
+        if i >= 2 {
+            coupling[i] = 0.0;
         }
     }
     let factors = mass.factor();
-    let d = factors.solve(&kinetics.coupling);
-    let even = Even {
-        c: core::array::from_fn(|i| {
-            let mut unit = [0.0; K];
-            unit[i] = 1.0;
-            factors.solve(&unit)
-        }),
-        d,
-        e: dot(&kinetics.coupling, &d) - kinetics.inertia,
-        moment: kinetics.moment[0],
-        tip: kinetics.tip[0],
-    };
+    let mut d = factors.solve(&coupling);
+    let e = dot(&coupling, &d) - kinetics.inertia;
+    let mut c = core::array::from_fn(|i| {
+        let mut unit = [0.0; K];
+        unit[i] = 1.0;
+        factors.solve(&unit)
+    });
+    for k in 2..K {
+        let mut across = kinetics.mass[k];
+        across[k] = 0.0;
+        d[k] = kinetics.coupling[k] - dot(&across, &d);
+        c[k] = factors.solve(&across).map(|x| -x);
+        c[k][k] = 1.0;
+    }
+    let even = Even { c, d, e, moment: kinetics.moment[0], tip: kinetics.tip[0] };
     (even, Odd { moment: kinetics.moment[1], tip: kinetics.tip[1] })
 }
 
 impl<const K: usize> Expansion<K> {
     /// Fits the monomials by least squares over the box `|aₖ| ≤ range[k]`; values and, for Y, slopes
-    /// at `a = 0` are exact. `K` is 1 or 2.
+    /// at `a = 0` are exact. `K` is 1 to 3.
     pub(crate) fn fit(rod: &Rod<K>, range: &[f64; K]) -> Self {
-        const { assert!(1 <= K && K <= 2, "1 or 2 modes") }
+        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
         let (rest, _) = sample(rod, &[0.0; K]);
         let linear: [Odd<f64>; K] = core::array::from_fn(|k| {
             // Y is odd: a difference of 1e-4 of the range errs by 1e-8 of it, cubically.

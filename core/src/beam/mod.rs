@@ -11,7 +11,9 @@ mod model;
 mod modes;
 mod rod;
 
-pub(crate) use expansion::{Even, Expansion, MAX_EVEN, MAX_ODD, Odd};
+pub(crate) use expansion::{
+    Even, Expansion, MAX_EVEN, MAX_ODD, Odd, is_even_pair, is_odd_triple,
+};
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
 pub use modes::Modes;
 pub use rod::{Kinetics, Rod};

@@ -40,6 +40,7 @@ pub struct Elastica<T, const K: usize> {
     tick: f64,
     quality: Quality,
     per_tick: T,
+    per_step: T,
     quarter: T,
     /// ⅛ tick: Hermite interpolation to the middle.
     eighth_tick: T,
@@ -72,7 +73,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// For steps of `tick` s and tip angles up to `bend` rad relative to the hub, in
     /// [`Self::BEND`]: see [`Rod::bend`]. f64 inside.
     pub fn new(rod: &Rod<K>, tick: f64, quality: Quality, bend: f64) -> Result<Self, Error> {
-        const { assert!(1 <= K && K <= 2, "1 or 2 modes") }
+        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
         let tick = super::check_tick(tick)?;
         let bend = Error::check("bend", bend, Self::BEND.0, Self::BEND.1, "rad")?;
         let step = match quality {
@@ -87,6 +88,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             tick,
             quality,
             per_tick: T::from_f64(1.0 / tick),
+            per_step: T::from_f64(1.0 / step),
             quarter: T::from_f64(0.25),
             eighth_tick: T::from_f64(0.125 * tick),
             alpha: T::from_f64(damping.alpha),
@@ -106,13 +108,16 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             let at = [state.coordinate[k], state.momentum[k]];
             y[k] = self.modes[k].predict(at, drive, state.force[k], state.change[k]);
         }
-        let Value { force, torque, inertia } =
+        let Value { force, mut torque, inertia, lever } =
             self.remainder.evaluate(&y.map(|y| y[0]), &y.map(|y| y[1]), end);
         for k in 0..K {
             let change = [0, 1].map(|r| force[k][r] - state.force[k][r]);
             let excess = [0, 1].map(|r| change[r] - state.change[k][r]);
             [state.coordinate[k], state.momentum[k]] = self.modes[k].correct(y[k], excess);
             state.change[k] = change;
+            if k >= Remainder::<T, K>::MOMENTA {
+                torque += lever[k] * change[0] * self.per_step;
+            }
         }
         state.force = force;
         state.torque = torque;

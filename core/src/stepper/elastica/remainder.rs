@@ -1,6 +1,6 @@
 //! What the exact kinematics add to the linear oscillators.
 
-use crate::beam::{Even, Expansion, MAX_EVEN, MAX_ODD, Odd, Rod};
+use crate::beam::{Even, Expansion, MAX_EVEN, MAX_ODD, Odd, Rod, is_even_pair, is_odd_triple};
 use crate::math::{Scalar, cast, dot};
 use crate::motion::Hub;
 
@@ -33,6 +33,8 @@ pub(super) struct Value<T, const K: usize> {
     pub torque: T,
     /// `−s`.
     pub inertia: T,
+    /// `g`.
+    pub lever: [T; K],
 }
 
 /// What the monomial `μ` multiplies: `½(p·u − ωt)` is its share of the energy.
@@ -46,6 +48,9 @@ struct Form<T, const K: usize> {
 }
 
 impl<T: Scalar, const K: usize> Remainder<T, K> {
+    /// Modes that have a momentum; a third one has a velocity.
+    pub(super) const MOMENTA: usize = if K < 2 { K } else { 2 };
+
     pub(super) fn new(rod: &Rod<K>, expansion: &Expansion<K>, range: &[f64; K]) -> Self {
         let f = T::from_f64;
         let scene = rod.scene();
@@ -83,9 +88,12 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
     /// The remainder for `a`, `p̃` and a hub; hub-frame, SI.
     #[inline(always)]
     pub(super) fn evaluate(&self, a: &[T; K], p_tilde: &[T; K], hub: &Hub<T>) -> Value<T, K> {
-        let a = &clip(a, &self.coordinate_range);
-        let p_tilde = &clip(p_tilde, &self.momentum_range);
-        let mut p = *p_tilde;
+        let a: [T; K] = core::array::from_fn(|k| within(a[k], self.coordinate_range[k]));
+        let mut p_tilde = *p_tilde;
+        for k in 0..Self::MOMENTA {
+            p_tilde[k] = within(p_tilde[k], self.momentum_range[k]);
+        }
+        let mut p = p_tilde;
         for k in 0..K {
             p[k] += self.coupling[k] * hub.rate;
         }
@@ -109,10 +117,12 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         let mut n = 0;
         for i in 0..K {
             for j in i..K {
-                let energy = collect(n, a[i] * a[j]);
-                gradient[i] += energy * a[j];
-                gradient[j] += energy * a[i];
-                n += 1;
+                if is_even_pair(i, j) {
+                    let energy = collect(n, a[i] * a[j]);
+                    gradient[i] += energy * a[j];
+                    gradient[j] += energy * a[i];
+                    n += 1;
+                }
             }
         }
         let square = a[0] * a[0];
@@ -121,7 +131,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
 
         let mut torque = T::ZERO;
         if self.gravity {
-            let (y, slope) = self.lateral(a);
+            let (y, slope) = self.lateral(&a);
             torque += hub.cos * moment - hub.sin * y;
             for k in 0..K {
                 gradient[k] += hub.cos * slope[k];
@@ -132,9 +142,15 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         let mut n = 0;
         for i in 0..K {
             for j in i..K {
-                torque += (rate[i] * a[j] + a[i] * rate[j]) * t[n];
-                n += 1;
+                if is_even_pair(i, j) {
+                    torque += (rate[i] * a[j] + a[i] * rate[j]) * t[n];
+                    n += 1;
+                }
             }
+        }
+        for k in Self::MOMENTA..K {
+            s += g[k] * self.coupling[k];
+            torque += self.alpha * g[k] * r[k];
         }
         torque += quartic_slope * rate[0] * t[n];
         let force = core::array::from_fn(|k| {
@@ -142,14 +158,21 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             [r[k], -gradient[k] - self.loss[k] * r[k]]
         });
         torque -= self.alpha * s * hub.rate;
-        Value { force, torque, inertia: -s }
+        Value { force, torque, inertia: -s, lever: g }
     }
 
     #[inline(always)]
     fn form(&self, term: &Even<T, K>, p: &[T; K], hub: &Hub<T>) -> Form<T, K> {
-        let u: [T; K] = core::array::from_fn(|k| dot(&term.c[k], p) - term.d[k] * hub.rate);
-        let t = dot(&term.d, p) - term.e * hub.rate;
-        let mut energy = T::HALF * (dot(p, &u) - hub.rate * t);
+        let over = |f: &[T; K], x: &[T; K]| {
+            let mut sum = f[0] * x[0];
+            for k in 1..Self::MOMENTA {
+                sum += f[k] * x[k];
+            }
+            sum
+        };
+        let u: [T; K] = core::array::from_fn(|k| over(&term.c[k], p) - term.d[k] * hub.rate);
+        let t = over(&term.d, p) - term.e * hub.rate;
+        let mut energy = T::HALF * (over(p, &u) - hub.rate * t);
         if self.gravity {
             energy += hub.sin * term.moment;
         }
@@ -165,12 +188,14 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         for i in 0..K {
             for j in i..K {
                 for k in j..K {
-                    let c = self.odd[n].moment;
-                    y += c * (a[i] * a[j] * a[k]);
-                    slope[i] += c * (a[j] * a[k]);
-                    slope[j] += c * (a[i] * a[k]);
-                    slope[k] += c * (a[i] * a[j]);
-                    n += 1;
+                    if is_odd_triple(i, j, k) {
+                        let c = self.odd[n].moment;
+                        y += c * (a[i] * a[j] * a[k]);
+                        slope[i] += c * (a[j] * a[k]);
+                        slope[j] += c * (a[i] * a[k]);
+                        slope[k] += c * (a[i] * a[j]);
+                        n += 1;
+                    }
                 }
             }
         }
@@ -183,8 +208,10 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         let (mut x, mut n) = (self.tip, 0);
         for i in 0..K {
             for j in i..K {
-                x += self.even[n].tip * (a[i] * a[j]);
-                n += 1;
+                if is_even_pair(i, j) {
+                    x += self.even[n].tip * (a[i] * a[j]);
+                    n += 1;
+                }
             }
         }
         let square = a[0] * a[0];
@@ -194,8 +221,10 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             y += self.linear[i].tip * a[i];
             for j in i..K {
                 for k in j..K {
-                    y += self.odd[n].tip * (a[i] * a[j] * a[k]);
-                    n += 1;
+                    if is_odd_triple(i, j, k) {
+                        y += self.odd[n].tip * (a[i] * a[j] * a[k]);
+                        n += 1;
+                    }
                 }
             }
         }
@@ -206,11 +235,9 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
 /// Beyond this multiple of the fitted range the remainder's arguments are clipped.
 const CLIP: f64 = 1.5;
 
-/// Each element within ± its range.
+/// `x` within ± `range`.
 #[inline(always)]
-fn clip<T: Scalar, const K: usize>(x: &[T; K], range: &[T; K]) -> [T; K] {
-    core::array::from_fn(|k| {
-        let least = if x[k] < -range[k] { -range[k] } else { x[k] };
-        if least > range[k] { range[k] } else { least }
-    })
+fn within<T: Scalar>(x: T, range: T) -> T {
+    let least = if x < -range { -range } else { x };
+    if least > range { range } else { least }
 }
