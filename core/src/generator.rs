@@ -54,6 +54,8 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
     /// Ticks since the current segment's first; wraps to 0 at the very first tick.
     k: u32,
     holding: bool,
+    /// The hub is at rest and the arm with it: see [`Stepper::is_settled`].
+    asleep: bool,
     hub: Hub<S::Scalar>,
     /// θ̈ just before now.
     landing: S::Scalar,
@@ -93,6 +95,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             end,
             limits: Limits::default(),
             holding: true,
+            asleep: false,
         })
     }
 
@@ -134,9 +137,16 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn tick(&mut self) -> Setpoint<S::Scalar> {
         let before = self.hub;
         self.k = self.next_k();
+        let mut at_rest = false;
         if self.k >= self.current.count() {
             self.turn_over();
-        } else if !(self.holding && before.rate == S::Scalar::ZERO) {
+        } else if self.holding && before.rate == S::Scalar::ZERO {
+            if self.asleep {
+                return self.setpoint();
+            }
+            self.landing = S::Scalar::ZERO;
+            at_rest = true;
+        } else {
             self.current.drive(&mut self.hub, self.k);
             self.landing = self.hub.acceleration;
             if self.stepper.is_directed() {
@@ -146,6 +156,9 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         // The first tick too: the arm was at rest before it, and stays so.
         let arrival = Hub { acceleration: self.landing, ..self.hub };
         self.stepper.step(&mut self.state, &before, &arrival);
+        if at_rest {
+            self.asleep = self.stepper.is_settled(&self.state);
+        }
         self.setpoint()
     }
 
@@ -203,6 +216,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// which then need not save the registers that it takes to move a segment.
     #[inline(never)]
     fn turn_over(&mut self) {
+        self.asleep = false;
         self.landing = self.current.landing();
         match self.queue.pop_front() {
             Some(segment) => {

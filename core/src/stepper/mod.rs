@@ -66,8 +66,24 @@ pub trait Stepper {
     /// only have nothing to do.
     fn shift(&self, _state: &mut Self::State, _moment: Self::Scalar) {}
 
+    /// Whether the arm, its hub at rest, moves by less than [`SLEEP`] of its length from where it
+    /// rests: it may then be left as it is, and goes on from there.
+    #[inline(always)]
+    fn is_settled(&self, _state: &Self::State) -> bool {
+        false
+    }
+
     /// Hub torque and tip for a state and the hub at the same instant.
     fn response(&self, state: &Self::State, hub: &Hub<Self::Scalar>) -> Response<Self::Scalar>;
+}
+
+/// Deflection below which an arm on a resting hub sleeps, fraction of its length: a tenth of what
+/// the best reference resolves, and a few f32 roundings.
+pub const SLEEP: f64 = 1e-6;
+
+/// Floors of a mode's coordinate for [`Stepper::is_settled`], from its tip deflection per unit.
+fn sleep_floor<T: Scalar>(length: f64, tip: f64) -> T {
+    T::from_f64(SLEEP * length / tip.abs())
 }
 
 /// The tick length if it is one: 1 µs to 1 s.

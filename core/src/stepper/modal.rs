@@ -44,6 +44,8 @@ pub struct Modal<T, const K: usize> {
     moment: T,
     /// `ωᵢ²`.
     stiffness: [T; K],
+    /// Coordinates below which a mode sleeps, and their rates.
+    asleep: [[T; 2]; K],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -123,6 +125,11 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             tension: between(model.tension(), gravity),
             weight: cast(&onto(model.weight()).map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
+            asleep: core::array::from_fn(|k| {
+                let tip = modes.shape[k][model.tip()];
+                let floor = super::sleep_floor::<f64>(scene.link.length, tip);
+                [floor, modes.frequency[k] * floor].map(T::from_f64)
+            }),
             stiffness: cast(&squared),
         })
     }
@@ -178,11 +185,11 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
 
     #[inline(always)]
     fn step(&self, state: &mut ModalState<T, K>, before: &Hub<T>, after: &Hub<T>) {
-        let gained = (after.rate - before.rate) * self.per_tick;
-        let mut drive = Drive { begin: before.acceleration, mean: gained, end: after.acceleration };
-        if self.terms.damping {
-            drive = Drive::between(before, after, self.per_tick, self.alpha);
-        }
+        let drive = if self.terms.damping {
+            Drive::between(before, after, self.per_tick, self.alpha)
+        } else {
+            Drive::undamped(before, after, self.per_tick)
+        };
         let mut y = [[T::ZERO; 2]; K];
         for k in 0..K {
             y[k] = [state.coordinate[k], state.rate[k]];
@@ -205,6 +212,16 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             state.coordinate[k] += self.jolt[k][0] * moment;
             state.rate[k] += self.jolt[k][1] * moment;
         }
+    }
+
+    #[inline(always)]
+    fn is_settled(&self, state: &ModalState<T, K>) -> bool {
+        (0..K).all(|k| {
+            let ([near, slow], stiffness) = (self.asleep[k], self.stiffness[k]);
+            let rate = state.rate[k];
+            let pull = state.force[k] - stiffness * state.coordinate[k];
+            rate < slow && -rate < slow && pull < stiffness * near && -pull < stiffness * near
+        })
     }
 
     /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ

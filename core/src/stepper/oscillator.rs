@@ -46,6 +46,13 @@ impl<T: Scalar> Drive<T> {
         }
     }
 
+    /// [`Self::between`] where `α` is zero.
+    #[inline(always)]
+    pub(super) fn undamped(before: &Hub<T>, after: &Hub<T>, per_tick: T) -> Self {
+        let mean = (after.rate - before.rate) * per_tick;
+        Self { begin: before.acceleration, mean, end: after.acceleration }
+    }
+
     /// The same parabola over the first and over the second half of the tick.
     #[inline(always)]
     pub(super) fn halves(&self, quarter: T) -> [Self; 2] {

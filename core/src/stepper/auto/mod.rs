@@ -188,6 +188,11 @@ impl<T: Scalar> Stepper for Auto<T> {
     }
 
     #[inline(always)]
+    fn is_settled(&self, state: &AutoState<T>) -> bool {
+        each_with_state!(self, state, (s, own) => s.is_settled(own), false)
+    }
+
+    #[inline(always)]
     fn response(&self, state: &AutoState<T>, hub: &Hub<T>) -> Response<T> {
         let nothing = Response { torque: T::ZERO, tip: [T::ZERO; 2] };
         each_with_state!(self, state, (s, own) => s.response(own, hub), nothing)

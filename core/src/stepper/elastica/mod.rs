@@ -59,6 +59,8 @@ pub struct Elastica<T, const K: usize> {
     jolt: [[T; 2]; K],
     remainder: Remainder<T, K>,
     hub_inertia: T,
+    /// Coordinates below which a mode sleeps, and their rates.
+    asleep: [[T; 2]; K],
     /// What the range admits: see [`Rod::bend`].
     bend: f64,
     sag: f64,
@@ -120,6 +122,10 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             }),
             remainder: Remainder::new(rod, &expansion, &range),
             hub_inertia: T::from_f64(scene.hub.inertia),
+            asleep: core::array::from_fn(|k| {
+                let floor = super::sleep_floor::<f64>(scene.link.length, expansion.linear[k].tip);
+                [floor, rod.frequency()[k] * floor].map(T::from_f64)
+            }),
             bend,
             sag: rod.bend(0.0),
             flexibility: rod.bend(1.0) - rod.bend(0.0),
@@ -214,7 +220,11 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
 
     #[inline(always)]
     fn step(&self, state: &mut ElasticaState<T, K>, before: &Hub<T>, after: &Hub<T>) {
-        let drive = Drive::between(before, after, self.per_tick, self.alpha);
+        let drive = if self.remainder.is_damped() {
+            Drive::between(before, after, self.per_tick, self.alpha)
+        } else {
+            Drive::undamped(before, after, self.per_tick)
+        };
         match self.quality {
             Quality::Fast => self.advance(state, &drive, after),
             Quality::Fine => {
@@ -230,6 +240,17 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
             state.coordinate[k] += self.jolt[k][0] * moment;
             state.momentum[k] += self.jolt[k][1] * moment;
         }
+    }
+
+    #[inline(always)]
+    fn is_settled(&self, state: &ElasticaState<T, K>) -> bool {
+        (0..K).all(|k| {
+            let [near, slow] = self.asleep[k];
+            let rate = state.momentum[k] + state.force[k][0];
+            let stiffness = self.remainder.stiffness(k);
+            let pull = state.force[k][1] - stiffness * state.coordinate[k];
+            rate < slow && -rate < slow && pull < stiffness * near && -pull < stiffness * near
+        })
     }
 
     #[inline(always)]
