@@ -1,8 +1,9 @@
 //! The work of the hub torque is the change of energy plus what damping takes.
 
 use stillbeam::Generator;
-use stillbeam::beam::Model;
-use stillbeam::stepper::{Newmark, Stepper};
+use stillbeam::beam::{Model, Rod};
+use stillbeam::stepper::{Elastica, Newmark, Quality, Stepper};
+use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_tests::{TRUTH_SCENES, truth};
 
 const TICK: f64 = 0.001;
@@ -44,6 +45,29 @@ fn balance(model: &Model<8, 4>, arm: &Generator<Newmark<f64, 8, 4>, 8>, torque: 
     }
 }
 
+/// The same of the exact kinematics: `T = ½J_hω² + ½vᵀMv + ωhᵀv + ½ω²T_θθ`,
+/// `V = ½Σωₖ²aₖ² + g(X sinθ + Y cosθ)`; the strip takes `βΣωₖ²vₖ²`.
+fn exact_balance(rod: &Rod<2>, arm: &Generator<Elastica<f64, 2>, 8>, torque: f64) -> Balance {
+    let (hub, scene) = (arm.hub(), rod.scene());
+    let flex = arm.stepper().flex(arm.state(), hub);
+    let (a, v, omega) = (flex.coordinate, flex.rate, hub.rate);
+    let kinetics = rod.kinetics(&a);
+    let moved = kinetics.mass.map(|row| dot(&row, &v));
+    let carried = 0.5 * dot(&moved, &v)
+        + omega * dot(&kinetics.coupling, &v)
+        + 0.5 * omega * omega * kinetics.inertia;
+    let stiffness = rod.frequency().map(|omega| omega * omega);
+    let elastic = |x: [f64; 2]| stiffness[0] * x[0] * x[0] + stiffness[1] * x[1] * x[1];
+    let [x, y] = kinetics.moment;
+    let raised = scene.gravity * (hub.sin * x + hub.cos * y);
+    let damping = scene.damping;
+    Balance {
+        work: torque * omega,
+        dissipation: 2.0 * damping.alpha * carried + damping.beta * elastic(v),
+        energy: 0.5 * scene.hub.inertia * omega * omega + carried + 0.5 * elastic(a) + raised,
+    }
+}
+
 /// Simpson's rule over samples a tick apart, an even number of intervals.
 fn simpson(samples: &[Balance], of: impl Fn(&Balance) -> f64) -> f64 {
     assert!(samples.len() % 2 == 1, "an even number of intervals");
@@ -58,10 +82,11 @@ fn simpson(samples: &[Balance], of: impl Fn(&Balance) -> f64) -> f64 {
 }
 
 /// |work − energy gained − dissipation| over the integral of the absolute power.
-fn imbalance(name: &str) -> f64 {
-    let (scene, _) = truth(name);
-    let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
-    let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
+fn imbalance<S: Stepper>(
+    scene: &SceneFile,
+    stepper: S,
+    balance: impl Fn(&Generator<S, 8>, S::Scalar) -> Balance,
+) -> f64 {
     assert_eq!(stepper.tick(), TICK);
     let mut arm = Generator::<_, 8>::new(stepper, scene.from).expect("generator");
     let mut stretches: Vec<Vec<Balance>> = vec![Vec::new()];
@@ -78,12 +103,12 @@ fn imbalance(name: &str) -> f64 {
         let torque = arm.tick().torque;
         // At a border the stretch before it ends with the left-hand torque.
         if ends.contains(&k) {
-            let left = balance(&model, &arm, arm.setpoint_before().torque);
+            let left = balance(&arm, arm.setpoint_before().torque);
             stretches.last_mut().expect("a stretch").push(left);
             stretches.push(Vec::new());
         }
         if k < total {
-            let right = balance(&model, &arm, torque);
+            let right = balance(&arm, torque);
             stretches.last_mut().expect("a stretch").push(right);
         }
     }
@@ -98,7 +123,22 @@ fn imbalance(name: &str) -> f64 {
 #[test]
 fn the_torque_does_the_work() {
     for name in TRUTH_SCENES {
-        let imbalance = imbalance(name);
+        let (scene, _) = truth(name);
+        let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
+        let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
+        let imbalance = imbalance(&scene, stepper, |arm, torque| balance(&model, arm, torque));
         assert!(imbalance < 2e-3, "{name}: {imbalance:e}");
+    }
+}
+
+#[test]
+fn exact_kinematics_balance_to_a_ten_thousandth() {
+    for name in TRUTH_SCENES {
+        let (scene, _) = truth(name);
+        let rod = Rod::<2>::new(&scene.arm).expect("rod");
+        let stepper = Elastica::new(&rod, TICK, Quality::Fine, 0.5).expect("stepper");
+        let imbalance = imbalance(&scene, stepper, |arm, torque| exact_balance(&rod, arm, torque));
+        println!("{name}: {imbalance:.1e}");
+        assert!(imbalance < 1e-4, "{name}: {imbalance:e}");
     }
 }
