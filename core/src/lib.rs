@@ -9,6 +9,8 @@
 //! 3. [`stepper`]: what advances the arm by one tick; built from the model for one tick length.
 //! 4. [`motion`]: moves of the hub, planned into segments.
 //! 5. [`Generator`]: stepper and motion; [`Generator::tick`] gives the next [`Setpoint`].
+//! 6. [`motor`]: what the setpoint asks of the motor's shaft, behind gear and friction.
+//! 7. [`drive`]: that demand as the bytes of a drive's protocol.
 //!
 //! ```
 //! use stillbeam::beam::Rod;
@@ -46,11 +48,13 @@
 //! ```
 
 pub mod beam;
+pub mod drive;
 mod error;
 mod generator;
 pub mod material;
 pub mod math;
 pub mod motion;
+pub mod motor;
 pub mod scene;
 pub mod stepper;
 
