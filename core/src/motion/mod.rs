@@ -11,4 +11,4 @@ pub use angle::Angle;
 pub use limits::{Limits, Peaks};
 pub use plan::{MAX_SEGMENTS, Plan, Start};
 pub use profile::{Move, Profile};
-pub use segment::{Hub, Segment};
+pub use segment::{Braking, Hub, Segment};

@@ -1,0 +1,109 @@
+//! Planning beside the tick: a move is planned where nothing is urgent, from a copy of what a plan
+//! needs to know, and handed over in a few hundred instructions.
+
+use heapless::Vec;
+
+use super::Generator;
+use crate::Error;
+use crate::math::Scalar;
+use crate::motion::{Angle, Hub, Limits, MAX_SEGMENTS, Move, Peaks, Plan, Segment, Start};
+use crate::stepper::Stepper;
+
+/// Where the next move of a generator begins, and what it may do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    start: Start,
+    limits: Limits,
+    tick: f64,
+}
+
+/// A move ready for the generator that its [`Departure`] came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned<T> {
+    segments: Vec<Segment<T>, MAX_SEGMENTS>,
+    start: Start,
+    end: Start,
+    /// Whole ticks it takes.
+    pub ticks: u32,
+    /// Greatest magnitudes.
+    pub peaks: Peaks,
+}
+
+/// A planned move that cannot be taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rejected {
+    /// The queue has not enough free segments.
+    QueueFull {
+        /// Segments that the move takes.
+        needed: usize,
+        /// Segments that are free.
+        free: usize,
+    },
+    /// The hub's motion has changed since the departure was copied: plan again.
+    Stale,
+}
+
+impl Departure {
+    /// Plans `motion` from here. Runs in f64.
+    pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<Planned<T>, Error> {
+        let plan = Plan::new(motion, self.start, &self.limits, self.tick)?;
+        let segments = plan.segments.iter().map(Segment::cast).collect();
+        let Plan { end, ticks, peaks, .. } = plan;
+        Ok(Planned { segments, start: self.start, end, ticks, peaks })
+    }
+}
+
+impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
+    /// Where a move that is planned now begins.
+    pub fn departure(&self) -> Departure {
+        Departure { start: self.next_start(), limits: self.limits, tick: self.stepper.tick() }
+    }
+
+    /// Puts a planned move behind the others. Either the whole move is taken or nothing changes.
+    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<(), Rejected> {
+        let start = self.next_start();
+        // A hub that turns has turned on meanwhile; its moves are relative.
+        let turned = start.angle.in_turns() - planned.start.angle.in_turns();
+        if start.rate != planned.start.rate || (turned != 0.0 && start.rate == 0.0) {
+            return Err(Rejected::Stale);
+        }
+        let (needed, free) = (planned.segments.len(), QUEUE - self.queue.len());
+        if needed > free {
+            return Err(Rejected::QueueFull { needed, free });
+        }
+        for segment in &planned.segments {
+            // There is room: just counted.
+            let _ = self.queue.push_back(segment.shifted(S::Scalar::from_f64(turned)));
+        }
+        if self.holding {
+            self.current = self.current.cut(self.next_k());
+        }
+        self.end = Start { angle: planned.end.angle.plus(turned), rate: planned.end.rate };
+        self.tail = super::hold(self.end, self.stepper.tick());
+        Ok(())
+    }
+
+    /// Where the queue ends.
+    pub(crate) fn end(&self) -> Start {
+        self.end
+    }
+
+    /// Begins anew, at rest and in static equilibrium at `angle`; no move waits.
+    pub fn restart(&mut self, angle: Angle<S::Scalar>) {
+        let (sin, cos) = angle.sin_cos();
+        let (rate, acceleration) = (S::Scalar::ZERO, S::Scalar::ZERO);
+        self.hub = Hub { angle, sin, cos, rate, acceleration };
+        self.landing = S::Scalar::ZERO;
+        self.state = self.stepper.equilibrium(&self.hub);
+        self.rest_at(angle);
+        self.current = self.tail;
+        self.k = 0;
+        self.holding = true;
+    }
+
+    /// Another arm on the same hub, from the angle where it rests.
+    pub fn replace(&mut self, stepper: S) {
+        self.stepper = stepper;
+        self.restart(self.hub.angle);
+    }
+}
