@@ -4,4 +4,6 @@
 mod common;
 mod pace;
 mod policy;
+mod protocol;
+mod slcan;
 mod stop;

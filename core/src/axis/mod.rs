@@ -81,6 +81,7 @@ pub struct Policy {
 /// One tick's outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tick<T> {
     /// The tick's number, from 0.
     pub number: u32,

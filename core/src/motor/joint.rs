@@ -6,6 +6,7 @@ use crate::math::Scalar;
 
 /// The joint's constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Joint<T> {
     /// n, turns of the motor per turn of the hub.
     pub ratio: Ratio,

@@ -101,6 +101,11 @@ impl<T: Scalar> Mapping<T> {
         }
     }
 
+    /// The shaft's angle where the hub's is 0.
+    pub fn zero(&self) -> Angle<T> {
+        self.zero
+    }
+
     /// The same gear, with a zero such that `shaft` is where the hub is at `hub`.
     pub fn homed(self, shaft: Angle<T>, hub: Angle<T>) -> Self {
         let from_zero = self.turned(self.ratio.scale(hub));
