@@ -87,3 +87,37 @@ fn hex(text: &mut &[u8], digits: usize) -> Option<u32> {
     *text = rest;
     head.iter().try_fold(0, |value, &digit| Some(value << 4 | char::from(digit).to_digit(16)?))
 }
+
+/// Cuts a stream of bytes into lines.
+#[derive(Clone, Debug)]
+pub struct Splitter {
+    bytes: [u8; MAX],
+    filled: usize,
+}
+
+impl Default for Splitter {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Splitter {
+    /// Empty.
+    pub const fn new() -> Self {
+        Self { bytes: [0; MAX], filled: 0 }
+    }
+
+    /// Takes a byte. Where it closes a line, that line, for [`decode`]; of what is too long, only
+    /// the beginning is kept, which is no frame.
+    pub fn push(&mut self, byte: u8) -> Option<&[u8]> {
+        if byte != b'\r' {
+            if let Some(slot) = self.bytes.get_mut(self.filled) {
+                *slot = byte;
+                self.filled += 1;
+            }
+            return None;
+        }
+        let filled = core::mem::take(&mut self.filled);
+        self.bytes.get(..filled)
+    }
+}

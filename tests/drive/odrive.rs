@@ -79,6 +79,17 @@ fn saturation_is_reported() {
     assert_eq!(over.payload[4..], [0xff, 0x7f, 0x00, 0x80]);
 }
 
+/// Command 0x07, u32: 8 is closed-loop control, 1 is idle.
+#[test]
+fn axis_states_are_the_documented_ones() {
+    let node = Node::new(3).unwrap();
+    for (on, state) in [(true, 8), (false, 1)] {
+        let frame: ClassicFrame = node.set_axis_state(on).unwrap();
+        assert_eq!((frame.id(), frame.data()), (standard(0x67), &[state, 0, 0, 0][..]));
+        assert_eq!(node.axis_state(&frame), Some(on));
+    }
+}
+
 #[test]
 fn what_is_not_finite_is_not_sent() {
     for d in not_finite() {

@@ -1,4 +1,4 @@
-//! ODrive "CAN simple", `Set_Input_Pos` and `Get_Encoder_Estimates`.
+//! ODrive "CAN simple", `Set_Input_Pos`, `Set_Axis_State` and `Get_Encoder_Estimates`.
 //!
 //! Identifier `node << 5 | command`, 11 bits. Set_Input_Pos is command 0x0C: position f32 (turns),
 //! velocity feed-forward i16 (0.001 turn/s), torque feed-forward i16 (0.001 N m), the drive's
@@ -15,6 +15,7 @@ use crate::motor::Demand;
 /// N m a count of the torque feed-forward.
 pub const TORQUE_STEP: f32 = 0.001;
 
+const SET_AXIS_STATE: u16 = 0x07;
 const SET_INPUT_POS: u16 = 0x0c;
 const GET_ENCODER_ESTIMATES: u16 = 0x09;
 const PER_UNIT: f32 = 1000.0;
@@ -51,6 +52,22 @@ impl Node {
     /// The demand in a Set_Input_Pos frame of this node.
     pub fn demand(self, frame: &impl Frame) -> Option<Demand<f32>> {
         decode(self.of(SET_INPUT_POS, frame)?)
+    }
+
+    /// Set_Axis_State: on (8, closed-loop control) or off (1, idle). Send a position first, so that
+    /// the drive does not begin at an old one.
+    pub fn set_axis_state<F: Frame>(self, on: bool) -> Option<F> {
+        F::new(self.id(SET_AXIS_STATE), &[if on { 8 } else { 1 }, 0, 0, 0])
+    }
+
+    /// Whether such a frame of this node switches on or off.
+    pub fn axis_state(self, frame: &impl Frame) -> Option<bool> {
+        let ours = frame.id() == self.id(SET_AXIS_STATE).into() && frame.is_data_frame();
+        match frame.data() {
+            [8, 0, 0, 0] if ours => Some(true),
+            [1, 0, 0, 0] if ours => Some(false),
+            _ => None,
+        }
     }
 
     /// The request for the encoder's estimates: the same frame, remote.

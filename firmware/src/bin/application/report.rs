@@ -1,0 +1,31 @@
+//! A line a second for whoever watches, over defmt.
+
+use embassy_time::{Duration, Ticker};
+
+use crate::{board, shared};
+
+/// What a tick costs, whether ticks come in time, how the axes are.
+#[embassy_executor::task]
+pub async fn run() {
+    let mut ticker = Ticker::every(Duration::from_secs(1));
+    loop {
+        ticker.next().await;
+        let counters = shared::with(|s| s.counters);
+        defmt::info!(
+            "tick: {} {=str} last, {} worst; {} us late at most, {} missed, {} overruns, {} dropped",
+            counters.cost,
+            board::UNIT,
+            counters.worst,
+            board::microseconds(counters.late),
+            counters.missed,
+            counters.overruns,
+            counters.dropped
+        );
+        for axis in 0.. {
+            let state =
+                shared::with(|s| s.joints.get(axis).map(|j| (j.axis.mode(), j.axis.cause())));
+            let Some((mode, cause)) = state else { break };
+            defmt::info!("axis {}: {}, {}", axis, mode, cause);
+        }
+    }
+}
