@@ -1,19 +1,23 @@
-//! The rod's momentum form, expanded in its modal coordinates.
+//! The rod's equations of motion, expanded in its modal coordinates.
 //!
-//! With `p = Mȧ + hω`, `G = M⁻¹`, `g = Gh`, `s = hᵀGh − T_θθ` the motion is
-//! `ȧ = Gp − gω`, `ṗ = −∂/∂a [½(pᵀGp − 2ω gᵀp + ω²s) + V]`, and `t = gᵀp − sω` is the angular
-//! momentum about the axis. `G`, `g`, `s` and `X` are even in `a`, `Y` is odd.
+//! With `T = ½vᵀMv + ω hᵀv + ½ω² T_θθ`, `v = ȧ`, the first mode is described by its momentum
+//! `p = ∂T/∂v₁` and the others by their velocities (Routh's function): with `z = (p, v₂, …)`
+//!
+//! `R(a, z, ω) = p v₁ − T + V = ½(zᵀCz − 2ω dᵀz + ω²e) + V`,
+//! `v₁ = ∂R/∂p`, `ṗ = −∂R/∂a₁`, `Pₖ = −∂R/∂vₖ`, `Ṗₖ = −∂R/∂aₖ`,
+//!
+//! and `t = −∂R/∂ω = dᵀz − ωe` is the angular momentum about the axis. Written with `M`, `h`,
+//! `T_θθ`: `C₁₁ = 1/M₁₁`, `Cₖ₁ = −Mₖ₁/M₁₁`, `Cₖⱼ = −(Mₖⱼ − Mₖ₁M₁ⱼ/M₁₁)`, `d₁ = h₁/M₁₁`,
+//! `dₖ = hₖ − Mₖ₁h₁/M₁₁`, `e = h₁²/M₁₁ − T_θθ`. `C`, `d`, `e` and `X` are even in `a`, `Y` is odd.
+//! None of them has a small denominator where the link is bent far, as `M⁻¹` has with a heavy
+//! payload: the polynomials converge up to bends of 1.5 rad.
 
+use super::monomials::{EVEN, MAX_EVEN, MAX_ODD, ODD};
 use super::rod::Rod;
-use crate::math::{Band, LeastSquares, dot};
+use crate::math::{LeastSquares, dot};
 
-/// Most monomials, with two modes. Even: all `aᵢaⱼ`, and `a₁⁴`. Odd, beyond the linear: all
-/// `aᵢaⱼaₖ`.
-pub(crate) const MAX_EVEN: usize = 4;
-pub(crate) const MAX_ODD: usize = 4;
-
-/// Even quantities of two modes: `G`, `g`, `s` and two of `X`.
-const MAX_QUANTITIES: usize = 9;
+/// Even quantities of three modes: `C`, `d`, `e` and two of `X`.
+const MAX_QUANTITIES: usize = 15;
 
 /// Samples along a coordinate: Chebyshev points over `−1..1`, and for the first mode over `0..1`,
 /// which symmetry allows.
@@ -23,11 +27,11 @@ const HALF_SAMPLES: [f64; 4] = [0.195, 0.556, 0.831, 0.981];
 /// What one even monomial multiplies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Even<T, const K: usize> {
-    /// Of `G`.
+    /// Of `C`.
     pub c: [[T; K]; K],
-    /// Of `g`.
+    /// Of `d`.
     pub d: [T; K],
-    /// Of `s`.
+    /// Of `e`.
     pub e: T,
     /// Of `∫ρA X dx + m_p X_L`.
     pub moment: T,
@@ -44,13 +48,13 @@ pub(crate) struct Odd<T> {
     pub tip: T,
 }
 
-/// The expansion; at `a = 0`, `G` is the unit matrix.
+/// The expansion; at `a = 0`, `C` is `diag(1, −1, −1)`.
 #[derive(Clone, Debug)]
 pub(crate) struct Expansion<const K: usize> {
-    /// `b = g(0)`.
+    /// `b = d(0)`.
     pub coupling: [f64; K],
-    /// `s(0)`.
-    pub s: f64,
+    /// `e(0)`.
+    pub e: f64,
     /// X parts at `a = 0`.
     pub moment: f64,
     pub tip: f64,
@@ -58,35 +62,6 @@ pub(crate) struct Expansion<const K: usize> {
     pub linear: [Odd<f64>; K],
     pub even: [Even<f64, K>; MAX_EVEN],
     pub odd: [Odd<f64>; MAX_ODD],
-}
-
-/// Even monomials in their order: `aᵢaⱼ`, `i ≤ j`, row by row, then `a₁⁴`.
-fn even_monomials<const K: usize>(a: &[f64; K]) -> [f64; MAX_EVEN] {
-    let mut m = [0.0; MAX_EVEN];
-    let mut n = 0;
-    for i in 0..K {
-        for j in i..K {
-            m[n] = a[i] * a[j];
-            n += 1;
-        }
-    }
-    m[n] = a[0] * a[0] * a[0] * a[0];
-    m
-}
-
-/// Cubic monomials `aᵢaⱼaₖ`, `i ≤ j ≤ k`.
-fn odd_monomials<const K: usize>(a: &[f64; K]) -> [f64; MAX_ODD] {
-    let mut m = [0.0; MAX_ODD];
-    let mut n = 0;
-    for i in 0..K {
-        for j in i..K {
-            for k in j..K {
-                m[n] = a[i] * a[j] * a[k];
-                n += 1;
-            }
-        }
-    }
-    m
 }
 
 impl<const K: usize> Even<f64, K> {
@@ -118,22 +93,21 @@ impl<const K: usize> Even<f64, K> {
 /// Everything that is expanded, at one shape.
 fn sample<const K: usize>(rod: &Rod<K>, a: &[f64; K]) -> (Even<f64, K>, Odd<f64>) {
     let kinetics = rod.kinetics(a);
-    let mut mass = Band::<f64, K, K>::ZERO;
-    for i in 0..K {
-        for j in 0..=i {
-            mass.add(i, j, kinetics.mass[i][j]);
-        }
-    }
-    let factors = mass.factor();
-    let d = factors.solve(&kinetics.coupling);
+    let (m, h) = (&kinetics.mass, &kinetics.coupling);
+    let inverse = 1.0 / m[0][0];
     let even = Even {
         c: core::array::from_fn(|i| {
-            let mut unit = [0.0; K];
-            unit[i] = 1.0;
-            factors.solve(&unit)
+            core::array::from_fn(|j| match (i, j) {
+                (0, 0) => inverse,
+                (0, k) | (k, 0) => -m[k][0] * inverse,
+                _ => m[i][0] * m[0][j] * inverse - m[i][j],
+            })
         }),
-        d,
-        e: dot(&kinetics.coupling, &d) - kinetics.inertia,
+        d: core::array::from_fn(|k| match k {
+            0 => h[0] * inverse,
+            _ => h[k] - m[k][0] * h[0] * inverse,
+        }),
+        e: h[0] * h[0] * inverse - kinetics.inertia,
         moment: kinetics.moment[0],
         tip: kinetics.tip[0],
     };
@@ -142,9 +116,9 @@ fn sample<const K: usize>(rod: &Rod<K>, a: &[f64; K]) -> (Even<f64, K>, Odd<f64>
 
 impl<const K: usize> Expansion<K> {
     /// Fits the monomials by least squares over the box `|aₖ| ≤ range[k]`; values and, for Y, slopes
-    /// at `a = 0` are exact. `K` is 1 or 2.
+    /// at `a = 0` are exact. `K` is 1 to 3.
     pub(crate) fn fit(rod: &Rod<K>, range: &[f64; K]) -> Self {
-        const { assert!(1 <= K && K <= 2, "1 or 2 modes") }
+        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
         let (rest, _) = sample(rod, &[0.0; K]);
         let linear: [Odd<f64>; K] = core::array::from_fn(|k| {
             // Y is odd: a difference of 1e-4 of the range errs by 1e-8 of it, cubically.
@@ -163,19 +137,19 @@ impl<const K: usize> Expansion<K> {
             for (value, at_rest) in change.iter_mut().zip(&straight) {
                 *value -= at_rest;
             }
-            even.add(&even_monomials(unit), &change);
+            even.add(&EVEN.values(unit), &change);
             let beyond = |y: f64, slope: [f64; K]| y - dot(&slope, &a);
             let moment = beyond(y.moment, linear.map(|term| term.moment));
-            odd.add(&odd_monomials(unit), &[moment, beyond(y.tip, linear.map(|term| term.tip))]);
+            odd.add(&ODD.values(unit), &[moment, beyond(y.tip, linear.map(|term| term.tip))]);
         });
         Self {
             coupling: rest.d,
-            s: rest.e,
+            e: rest.e,
             moment: rest.moment,
             tip: rest.tip,
             linear,
-            even: even.solve(&even_monomials(range)).map(Even::from_flat),
-            odd: odd.solve(&odd_monomials(range)).map(|[moment, tip]| Odd { moment, tip }),
+            even: even.solve(&EVEN.values(range)).map(Even::from_flat),
+            odd: odd.solve(&ODD.values(range)).map(|[moment, tip]| Odd { moment, tip }),
         }
     }
 }

@@ -9,9 +9,10 @@ mod expansion;
 mod lumped;
 mod model;
 mod modes;
+pub(crate) mod monomials;
 mod rod;
 
-pub(crate) use expansion::{Even, Expansion, MAX_EVEN, MAX_ODD, Odd};
+pub(crate) use expansion::{Even, Expansion, Odd};
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
 pub use modes::Modes;
 pub use rod::{Kinetics, Rod};

@@ -9,6 +9,7 @@ mod segment;
 
 pub use angle::Angle;
 pub use limits::{Limits, Peaks};
-pub use plan::{MAX_SEGMENTS, Plan, Start};
+pub(crate) use plan::lay;
+pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};
 pub use segment::{Braking, Hub, Segment};

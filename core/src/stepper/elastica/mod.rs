@@ -67,12 +67,12 @@ pub struct ElasticaState<T, const K: usize> {
 impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// Least and greatest tip angle that the expansion is fitted for, rad. Beyond it the
     /// polynomials of a heavy payload are too coarse: 3 of 575 random arms ran away with 1.0 to 1.2.
-    pub const BEND: (f64, f64) = (0.05, 1.0);
+    pub const BEND: (f64, f64) = (0.05, 1.5);
 
     /// For steps of `tick` s and tip angles up to `bend` rad relative to the hub, in
     /// [`Self::BEND`]: see [`Rod::bend`]. f64 inside.
     pub fn new(rod: &Rod<K>, tick: f64, quality: Quality, bend: f64) -> Result<Self, Error> {
-        const { assert!(1 <= K && K <= 2, "1 or 2 modes") }
+        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
         let tick = super::check_tick(tick)?;
         let bend = Error::check("bend", bend, Self::BEND.0, Self::BEND.1, "rad")?;
         let step = match quality {
