@@ -44,11 +44,12 @@ pub enum Command {
 /// From the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Report<'a> {
-    /// The request is carried out; what it changes begins with this tick.
+    /// The request is carried out, between two ticks. A move begins with this tick, or behind the
+    /// moves before it.
     Accepted {
         /// The request's.
         sequence: u16,
-        /// Number of the first tick that it shows in.
+        /// Number of the tick after it.
         tick: u32,
     },
     /// The request changes nothing.

@@ -124,7 +124,6 @@ fn a_demand_carries_angle_rate_and_torque_to_the_shaft() {
         acceleration: 0.0,
         torque: 4.0,
         tip: [0.0; 2],
-        deflection: 0.0,
     };
     let demand = train.demand(&setpoint);
     assert_eq!(demand.position.in_turns(), -12.5);

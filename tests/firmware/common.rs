@@ -83,6 +83,6 @@ pub fn assert_continuous(ticks: &[Tick<f32>], limits: &Limits) {
         assert!(f64::from(b.rate).abs() <= rate * 1.001, "tick {k}: {} rad/s", b.rate);
         let a = f64::from(b.acceleration).abs();
         assert!(a <= acceleration * 1.001, "tick {k}: {a} rad/s²");
-        assert!(b.torque.is_finite() && b.deflection.is_finite(), "tick {k}");
+        assert!(b.torque.is_finite() && b.deflection().is_finite(), "tick {k}");
     }
 }

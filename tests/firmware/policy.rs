@@ -21,7 +21,7 @@ fn the_first_setpoint_is_the_measured_angle() {
         assert_eq!((first.rate, first.acceleration), (0.0, 0.0));
         // The arm hangs still in its static bend.
         let later = run(&mut axis, 100).pop().unwrap().setpoint;
-        assert!((later.deflection - first.deflection).abs() < 1e-6, "no swing at power-up");
+        assert!((later.deflection() - first.deflection()).abs() < 1e-6, "no swing at power-up");
         assert!((later.torque - first.torque).abs() < 1e-5);
     }
 }

@@ -104,7 +104,6 @@ fn longest() -> [Report<'static>; 4] {
                     acceleration: 1.0,
                     torque: 1.0,
                     tip: [1.0; 2],
-                    deflection: 1.0,
                 },
             },
             cause: Some(Cause::MissedTicks),

@@ -236,7 +236,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         }
         self.generator.take(planned).map_err(Refused::Queue)?;
         let begin = self.moves.back().map_or(self.clock, |last| last.arrival);
-        let arrival = begin.wrapping_add(planned.ticks);
+        let arrival = begin.wrapping_add(planned.outline().ticks);
         // There is room: just asked.
         let end = self.generator.end();
         let _ = self.moves.push_back(Accepted { begin, arrival, end });

@@ -54,8 +54,8 @@ pub struct Encoded<P> {
     pub saturated: Saturated,
 }
 
-/// Turns in one f32 as an angle, if they are finite and below 2²².
+/// Turns in one f32 as an angle, if they are finite and below 2²¹.
 fn turns(position: f32) -> Option<Angle<f32>> {
-    let within = position > -4_194_304.0 && position < 4_194_304.0;
+    let within = position > -2_097_152.0 && position < 2_097_152.0;
     within.then(|| Angle { turns: 0, part: 0.0 }.plus(position))
 }

@@ -116,7 +116,7 @@ pub fn encode(demand: &Demand<f32>) -> Option<Encoded<[u8; 8]>> {
     })
 }
 
-/// The demand in a payload. `None` if the position is not finite or beyond 2²² turns.
+/// The demand in a payload. `None` if the position is not finite or beyond 2²¹ turns.
 pub fn decode(payload: &[u8; 8]) -> Option<Demand<f32>> {
     let &[p0, p1, p2, p3, v0, v1, t0, t1] = payload;
     let position = f32::from_le_bytes([p0, p1, p2, p3]);

@@ -6,7 +6,7 @@ use heapless::Vec;
 use super::Generator;
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::{Angle, Hub, Limits, MAX_SEGMENTS, Move, Peaks, Plan, Segment, Start};
+use crate::motion::{Angle, Hub, Limits, MAX_SEGMENTS, Move, Outline, Segment, Start, lay};
 use crate::stepper::Stepper;
 
 /// Where the next move of a generator begins, and what it may do.
@@ -22,11 +22,14 @@ pub struct Departure {
 pub struct Planned<T> {
     segments: Vec<Segment<T>, MAX_SEGMENTS>,
     start: Start,
-    end: Start,
-    /// Whole ticks it takes.
-    pub ticks: u32,
-    /// Greatest magnitudes.
-    pub peaks: Peaks,
+    outline: Outline,
+}
+
+impl<T> Planned<T> {
+    /// What the move comes to.
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
 }
 
 /// A planned move that cannot be taken.
@@ -46,10 +49,12 @@ pub enum Rejected {
 impl Departure {
     /// Plans `motion` from here. Runs in f64.
     pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<Planned<T>, Error> {
-        let plan = Plan::new(motion, self.start, &self.limits, self.tick)?;
-        let segments = plan.segments.iter().map(Segment::cast).collect();
-        let Plan { end, ticks, peaks, .. } = plan;
-        Ok(Planned { segments, start: self.start, end, ticks, peaks })
+        let mut segments = Vec::new();
+        let outline = lay(motion, self.start, &self.limits, self.tick, &mut |segment| {
+            // No move has more.
+            let _ = segments.push(segment.cast());
+        })?;
+        Ok(Planned { segments, start: self.start, outline })
     }
 }
 
@@ -78,7 +83,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if self.holding {
             self.current = self.current.cut(self.next_k());
         }
-        self.end = Start { angle: planned.end.angle.plus(turned), rate: planned.end.rate };
+        let end = planned.outline.end;
+        self.end = Start { angle: end.angle.plus(turned), rate: end.rate };
         self.tail = super::hold(self.end, self.stepper.tick());
         Ok(())
     }
@@ -90,9 +96,10 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
 
     /// Begins anew, at rest and in static equilibrium at `angle`; no move waits.
     pub fn restart(&mut self, angle: Angle<S::Scalar>) {
-        let (sin, cos) = angle.sin_cos();
-        let (rate, acceleration) = (S::Scalar::ZERO, S::Scalar::ZERO);
-        self.hub = Hub { angle, sin, cos, rate, acceleration };
+        self.hub = Hub { angle, ..Hub::ZERO };
+        if self.stepper.is_directed() {
+            (self.hub.sin, self.hub.cos) = angle.sin_cos();
+        }
         self.landing = S::Scalar::ZERO;
         self.state = self.stepper.equilibrium(&self.hub);
         self.rest_at(angle);

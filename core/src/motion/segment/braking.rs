@@ -118,7 +118,7 @@ impl<T: Scalar> Braking<T> {
             offset: T::TWO / n - T::ONE,
             advance: T::TWO / n,
             rate_scale: tau / half,
-            acceleration_scale: tau / (half * half),
+            acceleration_scale: T::TWO * tau / (half * half),
             landing: T::ZERO,
             shape: Shape::Quintic([c1, c2, c3, c4, T::ZERO]),
         };

@@ -23,7 +23,7 @@ pub async fn run(mut line: LinkReader) {
     let mut bytes = [0; 32];
     loop {
         // A line that fails is silent; the axes' patience sees to the rest.
-        let Ok(n) = line.read(&mut bytes).await else { continue };
+        let n = line.read(&mut bytes).await.unwrap_or(0);
         for &byte in &bytes[..n] {
             let Some(frame) = splitter.push(byte) else { continue };
             match frame.and_then(decode::<Request>) {
@@ -90,7 +90,7 @@ fn plan(axis: usize, motion: &Move) -> Outcome<u32> {
         })?;
         let planned = departure.plan(motion)?;
         let taken = shared::with(|s| match s.joints.get_mut(axis) {
-            Some(joint) => joint.axis.take(&planned),
+            Some(joint) => joint.axis.take(&planned).map(|_| joint.axis.clock()),
             None => Err(last),
         });
         match taken {

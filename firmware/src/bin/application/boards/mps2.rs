@@ -108,7 +108,10 @@ pub fn microseconds(counts: u32) -> u32 {
 
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    defmt::error!("{}", defmt::Display2Format(info));
+    // The place alone: formatted messages would take some 4 KiB.
+    if let Some(place) = info.location() {
+        defmt::error!("panic at {=str}:{}", place.file(), place.line());
+    }
     semihosting::process::exit(exit::PANICKED)
 }
 
