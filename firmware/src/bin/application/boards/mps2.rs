@@ -12,7 +12,8 @@
 //!
 //! **Lock-step.** If there is a host on QEMU's standard input, it grants every tick with two bytes:
 //! how many bytes of UART 0 and of UART 1 have to be in before time goes on. Time stands still while
-//! the board waits for them, because a semihosting call takes no virtual time.
+//! the board waits: a semihosting call takes no virtual time, and with both timers stopped and the
+//! processor asleep QEMU's clock has nowhere to go.
 
 use core::cell::RefCell;
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -188,7 +189,7 @@ static __INTERRUPTS: [unsafe extern "C" fn(); 32] = {
 /// BAUDDIV.
 struct Uart {
     base: usize,
-    input: Pipe<CriticalSectionRawMutex, 64>,
+    input: Pipe<CriticalSectionRawMutex, 128>,
     /// Bytes that have come in.
     taken: AtomicU32,
 }
@@ -328,12 +329,15 @@ impl Timer {
         }
     }
 
-    fn stop(&self) {
+    /// Goes on from where it stands, or stops there.
+    fn control(&self, control: u32) {
         // SAFETY: as above.
-        unsafe {
-            self.register(0).write_volatile(0);
-            self.register(3).write_volatile(1);
-        }
+        unsafe { self.register(0).write_volatile(control) }
+    }
+
+    fn acknowledge(&self) {
+        // SAFETY: as above.
+        unsafe { self.register(3).write_volatile(1) }
     }
 }
 
@@ -384,9 +388,22 @@ impl Time {
 
     fn ring(&self) {
         self.state.lock(|state| {
-            self.alarm.stop();
+            self.alarm.control(0);
+            self.alarm.acknowledge();
             self.set(&mut state.borrow_mut());
         });
+    }
+
+    /// Time stands still.
+    fn hold(&self) {
+        self.alarm.control(0);
+        self.counter.control(0);
+    }
+
+    /// Time goes on.
+    fn go_on(&self) {
+        self.counter.control(1);
+        self.state.lock(|state| self.set(&mut state.borrow_mut()));
     }
 }
 
@@ -432,12 +449,20 @@ async fn keep_step() {
             Err(_) if first => return,
             Err(_) => semihosting::process::exit(0),
         }
-        for (uart, (awaited, granted)) in UARTS.iter().zip(awaited.iter_mut().zip(granted)) {
+        for (awaited, granted) in awaited.iter_mut().zip(granted) {
             *awaited += u32::from(granted);
-            while uart.taken.load(Ordering::Acquire) < *awaited {
-                // Lets the emulator bring the bytes in, in a microsecond of virtual time.
-                let _ = semihosting::experimental::time::SystemTime::now();
-            }
         }
+        TIME.hold();
+        let all_in =
+            || UARTS.iter().zip(awaited).all(|(u, n)| u.taken.load(Ordering::Acquire) >= n);
+        while !all_in() {
+            // Masked, so that no byte slips in between the look and the sleep; it wakes all the same.
+            cortex_m::interrupt::free(|_| {
+                if !all_in() {
+                    cortex_m::asm::wfi();
+                }
+            });
+        }
+        TIME.go_on();
     }
 }
