@@ -44,7 +44,7 @@ fn main() -> ! {
     let (tick, tasks) = board::start(&TICK, &TASKS);
     tasks.spawn(started(devices, tick).expect("one of each"));
     loop {
-        cortex_m::asm::wfi();
+        board::idle();
     }
 }
 
