@@ -41,6 +41,9 @@ fn chosen() -> Option<String> {
     let files = fs::read_dir(BOARDS).expect("the boards' folder");
     let names = files.filter_map(|file| {
         let path = file.expect("the boards' folder").path();
+        if path.is_dir() {
+            return None;
+        }
         Some(path.file_stem()?.to_str()?.to_owned())
     });
     let mut on = names

@@ -16,7 +16,7 @@ fn what_is_next_what_is_missing_and_what_is_stale() {
 #[test]
 fn a_torque_peak_below_a_hundred_counts_is_reported_once() {
     let mut peak = TorquePeak::default();
-    [0.01, -0.0999, 0.05].map(|torque| peak.note(torque));
+    [0.01, -0.0999, 0.05].into_iter().for_each(|torque| peak.note(torque));
     let coarse = peak.finish(odrive::TORQUE_STEP).expect("99.9 counts are too few");
     assert!((coarse.peak, (coarse.counts - 99.9).abs() < 1e-3) == (0.0999, true), "{coarse:?}");
     assert_eq!(peak.finish(odrive::TORQUE_STEP), None, "the next move has not begun");

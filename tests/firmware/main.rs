@@ -5,5 +5,6 @@ mod common;
 mod pace;
 mod policy;
 mod protocol;
+mod script;
 mod slcan;
 mod stop;

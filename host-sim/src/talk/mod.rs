@@ -4,6 +4,7 @@
 //! beside it ([`Replica`]) and compares each setpoint and drive frame, bit for bit, as it comes.
 //! [`Step`]s are what a user asks for, [`page()`] draws what came back.
 
+mod comparison;
 mod drive;
 mod emulator;
 mod log;

@@ -62,8 +62,9 @@ fn chart(
     let history = session.history(axis);
     let mut chart = Chart::new(title, Axis::tight("time, s"), Axis::linear(label));
     for stretch in history.chunk_by(|a, b| a.mode == b.mode) {
+        // Where a stop ends, the curve shows.
         if let Some(first) = stretch.first()
-            && first.number > 0
+            && [Mode::Enabled, Mode::Stopping].contains(&first.mode)
         {
             chart = chart.mark(time(first), format!("{:?}", first.mode).to_lowercase());
         }

@@ -44,7 +44,7 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
             payload: Payload { mass: 0.030, inertia: 0.0 },
             ..Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 })
         },
-        policy: POLICY,
+        policy: policy(5.0, 15.0),
         joint: Joint {
             ratio: Ratio { motor: 6, link: 1 },
             efficiency: 0.9,
@@ -65,7 +65,7 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
             damping: Damping { alpha: 0.1, beta: 1e-4 },
             gravity: 9.81,
         },
-        policy: POLICY,
+        policy: policy(8.0, 60.0),
         joint: Joint {
             ratio: Ratio { motor: 1, link: 1 },
             efficiency: 1.0,
@@ -80,12 +80,13 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
     },
 ];
 
-/// Half a second of silence is a lost link; two missed ticks are waited for.
-const POLICY: Policy = Policy {
-    limits: Limits { rate: Some(8.0), acceleration: Some(60.0), jerk: None, torque: None },
-    patience: 50,
-    missed: 2,
-};
+/// Limits in rad/s and rad/s². Half a second of silence is a lost link; two missed ticks are waited
+/// for.
+const fn policy(rate: f64, acceleration: f64) -> Policy {
+    let limits =
+        Limits { rate: Some(rate), acceleration: Some(acceleration), jerk: None, torque: None };
+    Policy { limits, patience: 50, missed: 2 }
+}
 
 /// The stepper of an arm. Set-up: some 70,000 instructions, never in the tick.
 pub fn stepper(scene: &Scene) -> Result<Stepper, Error> {
