@@ -6,7 +6,7 @@ use std::path::Path;
 use stillbeam::axis::Mode;
 use stillbeam_protocol::{Command, Status};
 use stillbeam_sim::talk::{Answer, DEMONSTRATION, Machine, Session, Step};
-use stillbeam_tests::{assert_near, firmware, image};
+use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 
 /// Whole application on the emulated board.
 const FLASH: u64 = 64 * 1024;
@@ -136,6 +136,17 @@ fn the_application_keeps_its_budgets() {
     assert!(footprint.ram + stack < RAM, "{footprint:?}, stack {stack}");
 }
 
+/// A stop may come out of any tick; no panic may.
+#[test]
+fn no_panic_is_reachable_from_an_axis_tick() {
+    let image = firmware::build("policy").unwrap_or_else(|error| panic!("{error}"));
+    let functions = image::functions(&image).unwrap_or_else(|error| panic!("{error}"));
+    // The ticks are really in there.
+    assert!(functions.iter().any(|name| name.contains("axis")), "{functions:#?}");
+    let error = firmware::build_with("policy", "STILLBEAM_FAULT", "panic").expect_err("a panic");
+    assert!(error.contains("panic-never"), "{error}");
+}
+
 /// Built and measured, not run: there is no such board here, and QEMU has none.
 #[test]
 fn the_nucleo_board_builds_and_fits() {
@@ -144,6 +155,32 @@ fn the_nucleo_board_builds_and_fits() {
     println!("{footprint:?}");
     assert!((20_000..80 * 1024).contains(&footprint.flash), "{footprint:?}");
     assert!(footprint.ram < 16 * 1024, "{footprint:?}");
+}
+
+/// The page says what happens. Instruction counts and sizes may be off by what a change of the code
+/// makes until the page is written anew; everything else is as it stands there.
+#[test]
+fn the_page_is_what_the_firmware_does() {
+    let path = root().join("docs/firmware.md");
+    let page = std::fs::read_to_string(&path).expect("docs/firmware.md");
+    let blocks = firmware_page::blocks().unwrap_or_else(|error| panic!("{error}"));
+    let written = firmware_page::replace(&page, &blocks).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(without_counts(&page), without_counts(&written), "write it by the command it names");
+    for block in blocks {
+        assert!(page.contains(&format!("<!-- firmware: {} -->", block.name)), "{}", block.name);
+    }
+}
+
+/// Lines that hold counts of instructions or bytes, with every number as `#`.
+fn without_counts(page: &str) -> Vec<String> {
+    let counted = |line: &str| line.contains("instructions") || line.starts_with('|');
+    let masked = |line: &str| {
+        line.split(|c: char| c.is_ascii_digit())
+            .filter(|part| !part.is_empty())
+            .collect::<Vec<_>>()
+            .join("#")
+    };
+    page.lines().map(|line| if counted(line) { masked(line) } else { line.to_owned() }).collect()
 }
 
 #[test]

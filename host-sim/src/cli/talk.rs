@@ -35,28 +35,16 @@ impl TalkArgs {
             [] => DEMONSTRATION.to_vec(),
             steps => steps.iter().map(String::as_str).collect(),
         };
-        let steps = steps
-            .into_iter()
-            .map(|text| text.parse().map(|step: Step| (text, step)))
-            .collect::<Result<Vec<_>, Error>>()?;
+        // Bad words are refused before anything starts.
+        for text in &steps {
+            text.parse::<Step>()?;
+        }
         let machine = match &self.serial {
             Some(port) => Machine::open(port, self.baud)?,
             None => Machine::emulate(&self.image)?,
         };
         let mut session = Session::begin(machine)?;
-        println!("{} axes, a tick of {} ms", session.axes(), 1e3 * session.tick());
-        for (text, step) in &steps {
-            let begin = f64::from(session.now()) * session.tick();
-            let said = step.take(&mut session)?;
-            println!("{begin:6.2} s  {text:<28} {said}");
-            for line in session.log() {
-                println!("          | {line}");
-            }
-        }
-        let [setpoints, frames] = session.compared();
-        println!(
-            "{setpoints} setpoints and {frames} drive frames, all equal to the host's to the bit"
-        );
+        talk::converse(&mut session, &steps, &mut |line| println!("{line}"))?;
         if let Some(path) = &self.plot {
             let page = talk::page(&session)?;
             output::write_whole(path, |file| file.write_all(page.as_bytes()))?;

@@ -126,6 +126,32 @@ impl Step {
     }
 }
 
+/// Takes steps one by one and hands out what came of each, line by line: when it began, what was
+/// asked, the answer; below it what the firmware logged.
+///
+/// # Errors
+/// The first word group that is no step, before any is taken; else as [`Step::take`].
+pub fn converse(
+    session: &mut Session,
+    steps: &[&str],
+    print: &mut dyn FnMut(&str),
+) -> Result<(), Error> {
+    let parsed: Vec<Step> = steps.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
+    print(&format!("{} axes, a tick of {} ms", session.axes(), 1e3 * session.tick()));
+    for (text, step) in steps.iter().zip(parsed) {
+        let begin = f64::from(session.now()) * session.tick();
+        let said = step.take(session)?;
+        print(format!("{begin:5.2} s  {text:<24} {said}").trim_end());
+        for line in session.log() {
+            print(&format!("         | {}", line.trim_end()));
+        }
+    }
+    let [setpoints, frames] = session.compared();
+    let what = format!("{setpoints} setpoints and {frames} drive frames");
+    print(&format!("{what}, all equal to the host's to the bit"));
+    Ok(())
+}
+
 fn ticks(seconds: f64, session: &Session) -> Result<u32, Error> {
     if (0.0..=3600.0).contains(&seconds) {
         Ok((seconds / session.tick()).round() as u32)

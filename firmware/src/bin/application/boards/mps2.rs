@@ -30,7 +30,7 @@ pub use lock_step::ticked;
 pub use serial::{BusReader, BusWriter};
 use serial::{Receiver, Transmitter, UARTS};
 use stillbeam_firmware::exit;
-use time::TIME;
+use time::time;
 
 /// What [`cost`] counts.
 pub const UNIT: &str = "instructions";
@@ -50,7 +50,7 @@ pub type LinkWriter = Transmitter<0>;
 
 /// Starts clocks and devices.
 pub fn set_up() -> Devices {
-    TIME.start();
+    time().start();
     UARTS.iter().for_each(|uart| uart.start());
     // SAFETY: the only use of the interrupt controller, before anything depends on priorities.
     let mut nvic = unsafe { cortex_m::Peripherals::steal() }.NVIC;
@@ -92,7 +92,7 @@ pub fn idle() {
 /// A free-running counter, 40 ns.
 #[inline(always)]
 pub fn counts() -> u32 {
-    TIME.reading()
+    time().reading()
 }
 
 /// Counts as instructions: 1.6 each.
@@ -156,7 +156,7 @@ extern "C" fn on_bus() {
 }
 
 extern "C" fn on_alarm() {
-    TIME.ring();
+    time().ring();
 }
 
 extern "C" fn on_tick() {

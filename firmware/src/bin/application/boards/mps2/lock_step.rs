@@ -7,7 +7,7 @@ use semihosting::fs::File;
 use semihosting::io::Read;
 
 use super::serial::UARTS;
-use super::time::TIME;
+use super::time::time;
 use crate::link::LINK;
 use crate::tick::{TO_DRIVE, TO_HOST};
 
@@ -39,7 +39,7 @@ pub async fn keep_step() {
         for (awaited, granted) in awaited.iter_mut().zip(granted) {
             *awaited += u32::from(granted);
         }
-        TIME.hold();
+        time().hold();
         let all_in = || UARTS.iter().zip(awaited).all(|(u, n)| u.taken() >= n);
         while !all_in() {
             // Masked, so that no byte slips in between the look and the sleep; it wakes all the same.
@@ -49,6 +49,6 @@ pub async fn keep_step() {
                 }
             });
         }
-        TIME.go_on();
+        time().go_on();
     }
 }

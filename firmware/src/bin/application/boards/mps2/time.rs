@@ -64,11 +64,17 @@ const PER_MICROSECOND: u64 = 25;
 /// Longest alarm, half of what the counter can tell; whoever asked for a later one is asked again.
 const LONGEST: u64 = 1 << 31;
 
-embassy_time_driver::time_driver_impl!(pub static TIME: Time = Time {
+embassy_time_driver::time_driver_impl!(static TIME: Time = Time {
     alarm: Timer { base: 0x4000_0000 },
     counter: Timer { base: 0x4000_1000 },
     state: CriticalSectionMutex::new(RefCell::new(State { queue: Queue::new(), high: 0, low: 0 })),
 });
+
+/// The board's time.
+#[inline(always)]
+pub fn time() -> &'static Time {
+    &TIME
+}
 
 impl Time {
     /// Starts the counter.
