@@ -54,14 +54,12 @@ fn talk() -> Result<(String, u32, u32), String> {
     let image = firmware::application("mps2")?;
     let mut text = "```text\n$ stillbeam-sim talk\n".to_owned();
     let mut moving = 0;
-    let run = || {
+    let mut run = || {
         let mut session = Session::begin(Machine::emulate(&image)?)?;
         converse(&mut session, &DEMONSTRATION, &mut |line| {
             writeln!(text, "{line}").expect("a string");
-            let words = line.split_whitespace().collect::<Vec<_>>();
-            if let [.., "tick:", cost, "instructions", "last,", _, "worst;", _, "us", ..] =
-                words.as_slice().get(..9).unwrap_or(&[])
-            {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            if let ["|", _, "tick:", cost, "instructions", ..] = words.as_slice() {
                 moving = moving.max(cost.parse().unwrap_or(0));
             }
         })?;
@@ -98,7 +96,7 @@ fn axes(both: u32) -> Result<String, String> {
             continue;
         }
         let name = [method, size, quality].join(" ");
-        let worst = worst.parse().map_err(|_| format!("{}: {line}", path.display()))?;
+        let worst: u32 = worst.parse().map_err(|_| format!("{}: {line}", path.display()))?;
         match methods.iter_mut().find(|(known, _)| *known == name.trim()) {
             Some((_, most)) => *most = worst.max(*most),
             None => methods.push((name.trim().to_owned(), worst)),

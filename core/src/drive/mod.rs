@@ -9,8 +9,8 @@
 //! | [`cia402`] CSP | i32 increments | i32 increments/s | i16 ‰ of rated torque | 10, or two PDOs |
 //! | [`moteus`] | f32 turns | f32 turns/s | f32 N m | 24, CAN FD |
 //!
-//! None of them has room for a count of its own, so a [`Sequence`] travels beside each payload
-//! ([`Stamped`]): to the bus task, to a log, or as the counter of CANopen's SYNC.
+//! None of them has room for a count of its own, so a [`Sequence`] travels beside each payload: to the
+//! task that sends it, in the stamp of a captured frame, as the counter of CANopen's SYNC.
 
 pub mod cia402;
 mod counts;
@@ -22,7 +22,7 @@ mod sequence;
 
 pub use frame::ClassicFrame;
 pub use resolution::{Coarse, TorquePeak};
-pub use sequence::{Freshness, Sequence, Stamped};
+pub use sequence::{Freshness, Sequence};
 
 use crate::motion::Angle;
 

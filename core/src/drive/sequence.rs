@@ -37,13 +37,3 @@ impl Sequence {
         }
     }
 }
-
-/// Anything with the number of the tick it belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Stamped<P> {
-    /// Tick.
-    pub sequence: Sequence,
-    /// Payload.
-    pub payload: P,
-}

@@ -41,8 +41,8 @@ pub fn page(session: &Session) -> Result<String, Error> {
             h1 { "What the firmware sent" }
             p.lead {
                 (setpoints) " setpoints and " (frames) " drive frames, every one equal to the \
-                 host's own to the last bit. Gaps are times with the drive off; grey lines are \
-                 changes of mode."
+                 host's own to the last bit. Nothing is drawn while a drive is off; grey lines \
+                 are where an axis is enabled and where a stop begins."
             }
         }
         main { @for section in &sections { (section) } }
@@ -63,10 +63,11 @@ fn chart(
     let mut chart = Chart::new(title, Axis::tight("time, s"), Axis::linear(label));
     for stretch in history.chunk_by(|a, b| a.mode == b.mode) {
         // Where a stop ends, the curve shows.
-        if let Some(first) = stretch.first()
-            && [Mode::Enabled, Mode::Stopping].contains(&first.mode)
-        {
-            chart = chart.mark(time(first), format!("{:?}", first.mode).to_lowercase());
+        let Some(first) = stretch.first() else { continue };
+        match first.mode {
+            Mode::Enabled => chart = chart.mark(time(first), "on"),
+            Mode::Stopping => chart = chart.mark(time(first), "stop"),
+            Mode::Disabled | Mode::Stopped => {}
         }
     }
     let on = history.chunk_by(|a, b| (a.mode == Mode::Disabled) == (b.mode == Mode::Disabled));

@@ -24,8 +24,11 @@ pub async fn run() {
         for axis in 0.. {
             let state =
                 shared::with(|s| s.joints.get(axis).map(|j| (j.axis.mode(), j.axis.cause())));
-            let Some((mode, cause)) = state else { break };
-            defmt::info!("axis {}: {}, {}", axis, mode, cause);
+            match state {
+                Some((mode, Some(cause))) => defmt::info!("axis {}: {}, {}", axis, mode, cause),
+                Some((mode, None)) => defmt::info!("axis {}: {}", axis, mode),
+                None => break,
+            }
         }
     }
 }
