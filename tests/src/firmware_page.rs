@@ -59,7 +59,7 @@ fn talk() -> Result<(String, u32, u32), String> {
         converse(&mut session, &DEMONSTRATION, &mut |line| {
             writeln!(text, "{line}").expect("a string");
             let words: Vec<&str> = line.split_whitespace().collect();
-            if let ["|", _, "tick:", cost, "instructions", ..] = words.as_slice() {
+            if let [_, "s", "|", _, "tick:", cost, "instructions", ..] = words.as_slice() {
                 moving = moving.max(cost.parse().unwrap_or(0));
             }
         })?;

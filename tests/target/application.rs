@@ -65,7 +65,7 @@ fn the_firmware_and_the_host_agree_to_the_bit_through_the_whole_policy() {
     assert!(outcome("silence").contains("axis 1 stopped"), "{lines:#?}");
 
     let log = session.log();
-    let logged = |words: &str| log.iter().any(|line| line.contains(words));
+    let logged = |words: &str| log.iter().any(|(_, line)| line.contains(words));
     assert!(logged("instructions last") && logged("under 100"), "{log:#?}");
     assert_eq!([session.drive_is_on(0), session.drive_is_on(1)], [Some(false); 2]);
     for axis in 0..2 {

@@ -1,5 +1,5 @@
 //! The firmware in QEMU: two serial lines over TCP, grants of time on its standard input, its log
-//! on the standard output.
+//! on the standard output, which is a file: a line is in it as soon as it is written.
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -36,6 +36,10 @@ impl Emulator {
                 ),
             )
         })?;
+        let temporary = |error| Error::new(format_args!("temporary file: {error}"));
+        let output = tempfile::NamedTempFile::new().map_err(temporary)?;
+        // Opened twice, because the two read and write at places of their own.
+        let log = Log::new(&elf, output.reopen().map_err(temporary)?)?;
         let (link, link_address) = listen()?;
         let (bus, bus_address) = listen()?;
         let mut child = Command::new("qemu-system-arm")
@@ -46,7 +50,7 @@ impl Emulator {
             .args(["-icount", "shift=6,sleep=off", "-kernel"])
             .arg(image)
             .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
+            .stdout(output.into_file())
             .stderr(Stdio::piped())
             .spawn()
             .map_err(|error| match error.kind() {
@@ -56,10 +60,7 @@ impl Emulator {
                 ),
                 _ => Error::new(format_args!("qemu-system-arm: {error}")),
             })?;
-        let (Some(grants), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
-            return Err(Error::new("qemu-system-arm: no pipes"));
-        };
-        let log = Log::new(&elf, output)?;
+        let grants = child.stdin.take().ok_or_else(|| Error::new("qemu-system-arm: no pipe"))?;
         let link = connect(&link, &mut child)?;
         let bus = connect(&bus, &mut child)?;
         Ok((Self { child, grants, bus, log }, link))

@@ -1,54 +1,56 @@
 //! The firmware's log: defmt frames, decoded with the strings in its image.
 
+use std::fs::File;
 use std::io::Read;
-use std::sync::mpsc::{Receiver, channel};
-use std::thread;
 
 use defmt_decoder::{DecodeError, Table};
 
 use crate::error::Error;
 
-/// Lines as they come.
+/// Lines as they come, from a file that grows.
 pub struct Log {
-    lines: Receiver<String>,
+    table: Table,
+    file: File,
+    bytes: Vec<u8>,
+    /// Lines that were handed out.
+    given: usize,
 }
 
 impl Log {
-    /// Decodes a stream until it ends.
+    /// The log of an image, in `file`.
     ///
     /// # Errors
     /// The image has no defmt strings.
-    pub fn new(elf: &[u8], mut stream: impl Read + Send + 'static) -> Result<Self, Error> {
+    pub fn new(elf: &[u8], file: File) -> Result<Self, Error> {
         let table = Table::parse(elf)
             .map_err(|error| Error::new(format_args!("image: {error}")))?
             .ok_or_else(|| Error::new("image: no defmt strings; accepted is the application's"))?;
-        let (sender, lines) = channel();
-        thread::spawn(move || {
-            let mut decoder = table.new_stream_decoder();
-            let mut bytes = [0; 1024];
-            while let Ok(n @ 1..) = stream.read(&mut bytes) {
-                decoder.received(&bytes[..n]);
-                loop {
-                    let line = match decoder.decode() {
-                        Ok(frame) => {
-                            let level = frame.level().map_or("", |level| level.as_str());
-                            format!("{level:<5} {}", frame.display_message())
-                        }
-                        Err(DecodeError::UnexpectedEof) => break,
-                        Err(DecodeError::Malformed) => "garbled".to_owned(),
-                    };
-                    // Nobody listens any more.
-                    if sender.send(line).is_err() {
-                        return;
-                    }
-                }
-            }
-        });
-        Ok(Self { lines })
+        Ok(Self { table, file, bytes: Vec::new(), given: 0 })
     }
 
-    /// What has come since the last time.
-    pub fn lines(&mut self) -> Vec<String> {
-        self.lines.try_iter().collect()
+    /// What was logged before tick `tick` was made and not handed out yet: with the number of ticks
+    /// made until then.
+    pub fn before(&mut self, tick: u32) -> Vec<(u32, String)> {
+        // What cannot be read is not shown.
+        let _ = self.file.read_to_end(&mut self.bytes);
+        let mut decoder = self.table.new_stream_decoder();
+        decoder.received(&self.bytes);
+        let mut lines = Vec::new();
+        loop {
+            match decoder.decode() {
+                Ok(frame) => {
+                    let made = frame.display_timestamp().map(|stamp| stamp.to_string());
+                    let made = made.and_then(|stamp| stamp.parse().ok()).unwrap_or(0);
+                    let level = frame.level().map_or("", |level| level.as_str());
+                    lines.push((made, format!("{level:<5} {}", frame.display_message())));
+                }
+                Err(DecodeError::UnexpectedEof) => break,
+                Err(DecodeError::Malformed) => lines.push((0, "garbled".to_owned())),
+            }
+        }
+        let new = lines.into_iter().skip(self.given).take_while(|(made, _)| *made < tick);
+        let new: Vec<_> = new.collect();
+        self.given += new.len();
+        new
     }
 }

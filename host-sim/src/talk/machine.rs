@@ -125,15 +125,17 @@ impl Machine {
         Ok(bytes)
     }
 
-    /// Lines that the firmware has logged since it was last asked.
-    pub fn log(&mut self) -> Vec<String> {
-        self.emulator.as_mut().map(|emulator| emulator.log.lines()).unwrap_or_default()
+    /// Lines that the firmware logged before tick `tick` and since it was last asked, each with the
+    /// number of ticks made until then.
+    pub fn log(&mut self, tick: u32) -> Vec<(u32, String)> {
+        self.emulator.as_mut().map(|emulator| emulator.log.before(tick)).unwrap_or_default()
     }
 
     fn gone(&mut self, what: &str) -> Error {
         let end = self.emulator.as_mut().map(Emulator::epitaph).unwrap_or_default();
-        let log = self.log();
-        let last = log.last().map(|line| format!("; it last logged: {line}")).unwrap_or_default();
+        let log = self.log(u32::MAX);
+        let last = log.last().map(|(_, line)| format!("; it last logged: {line}"));
+        let last = last.unwrap_or_default();
         Error::new(format_args!("firmware: {what}{end}{last}"))
     }
 }

@@ -142,14 +142,22 @@ pub fn converse(
         let begin = f64::from(session.now()) * session.tick();
         let said = step.take(session)?;
         print(format!("{begin:5.2} s  {text:<24} {said}").trim_end());
-        for line in session.log() {
-            print(&format!("         | {}", line.trim_end()));
-        }
+        logged(session, print);
     }
+    session.wait(1)?;
+    logged(session, print);
     let [setpoints, frames] = session.compared();
     let what = format!("{setpoints} setpoints and {frames} drive frames");
     print(&format!("{what}, all equal to the host's to the bit"));
     Ok(())
+}
+
+/// Prints what the firmware has logged.
+fn logged(session: &mut Session, print: &mut dyn FnMut(&str)) {
+    let h = session.tick();
+    for (made, line) in session.log() {
+        print(format!("{:5.2} s  | {line}", f64::from(made) * h).trim_end());
+    }
 }
 
 fn ticks(seconds: f64, session: &Session) -> Result<u32, Error> {

@@ -175,9 +175,11 @@ impl Session {
         self.comparison.axes().first().map_or(0.0, |axis| axis.replica.tick())
     }
 
-    /// Lines that the firmware has logged since it was last asked.
-    pub fn log(&mut self) -> Vec<String> {
-        self.machine.log()
+    /// Lines that the firmware logged before the latest tick and since it was last asked, each with
+    /// the number of ticks made until then. What it logs after a tick's setpoints shows with the
+    /// next.
+    pub fn log(&mut self) -> Vec<(u32, String)> {
+        self.machine.log(self.comparison.next())
     }
 
     fn send(&mut self, axis: u8, command: Command) -> Result<u16, Error> {

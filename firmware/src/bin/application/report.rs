@@ -1,8 +1,14 @@
 //! A line a second for whoever watches, over defmt.
 
+use core::sync::atomic::Ordering;
+
 use embassy_time::{Duration, Ticker};
 
+use crate::tick::MADE;
 use crate::{board, shared};
+
+// The log is kept in ticks, as everything else.
+defmt::timestamp!("{=u32}", MADE.load(Ordering::Relaxed));
 
 /// What a tick costs, whether ticks come in time, how the axes are.
 #[embassy_executor::task]

@@ -1,5 +1,7 @@
 //! The hard tick: 10 ms, above everything but the alarm that starts it.
 
+use core::sync::atomic::{AtomicU32, Ordering};
+
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
 use embassy_time::{Duration, Ticker};
@@ -21,6 +23,9 @@ pub struct Setpoint {
 
 /// Setpoints of two ticks: whoever is later than that gets the newest and a count of what is lost.
 pub type Outlet = Channel<CriticalSectionRawMutex, Setpoint, { 2 * AXES }>;
+
+/// Ticks made: the report's time.
+pub static MADE: AtomicU32 = AtomicU32::new(0);
 
 /// To the drives.
 pub static TO_DRIVE: Outlet = Channel::new();
@@ -51,6 +56,7 @@ pub async fn run() {
                     shared.counters.dropped += u32::from(!hand_on(outlet, setpoint));
                 }
             }
+            MADE.store(MADE.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
             let took = board::counts().wrapping_sub(begin);
             let counters = &mut shared.counters;
             counters.cost = board::cost(took);
