@@ -1,10 +1,68 @@
 //! Link arguments. They stand here because a member's own `.cargo/config.toml` is not read when
 //! cargo runs in the workspace root, and the image would come out empty.
 
+use std::path::Path;
+use std::{env, fs};
+
+/// Where the application's boards are, one file each.
+const BOARDS: &str = "src/bin/application/boards";
+
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=../memory.x");
+    println!("cargo:rerun-if-changed={BOARDS}");
     // cortex-m-rt's script, which takes in memory.x; no page alignment, so no gaps in the flash.
     println!("cargo:rustc-link-arg-bins=-Tlink.x");
     println!("cargo:rustc-link-arg-bins=--nmagic");
+
+    let chosen = chosen();
+    let folder = env::var_os("OUT_DIR").expect("cargo sets it");
+    let folder = Path::new(&folder);
+    println!("cargo:rustc-link-search={}", folder.display());
+    let board = chosen.as_deref().unwrap_or("mps2");
+    let memory = memory(Path::new(BOARDS).join(board).with_extension("rs").as_path());
+    fs::write(folder.join("board.x"), memory).expect("the build folder is writable");
+    // The report's level, read where its macros are expanded.
+    println!("cargo:rustc-env=DEFMT_LOG=info");
+    if chosen.is_some() {
+        println!("cargo:rustc-link-arg-bin=application=-Tdefmt.x");
+    }
+    if chosen.as_deref() == Some("mps2") {
+        // All handlers are named in the board's own table.
+        fs::write(folder.join("device.x"), "").expect("the build folder is writable");
+        // The stack's top, so that the application has 16 KiB for everything: what is more than
+        // that runs into the statics and does not pass the tests.
+        println!("cargo:rustc-link-arg-bin=application=--defsym=_stack_start=0x20004000");
+    }
+}
+
+/// The board whose feature is on, by its file's name.
+fn chosen() -> Option<String> {
+    let files = fs::read_dir(BOARDS).expect("the boards' folder");
+    let names = files.filter_map(|file| {
+        let path = file.expect("the boards' folder").path();
+        if path.is_dir() {
+            return None;
+        }
+        Some(path.file_stem()?.to_str()?.to_owned())
+    });
+    let mut on = names
+        .filter(|name| env::var_os(format!("CARGO_FEATURE_{}", name.to_uppercase())).is_some());
+    let chosen = on.next();
+    assert!(on.next().is_none(), "features: one board at a time");
+    chosen
+}
+
+/// The memory regions in a board's file: its lines that begin with `//! FLASH` and `//! RAM`.
+fn memory(board: &Path) -> String {
+    let text = fs::read_to_string(board).unwrap_or_else(|e| panic!("{}: {e}", board.display()));
+    let regions: Vec<&str> = ["FLASH", "RAM"]
+        .iter()
+        .filter_map(|region| {
+            let mut lines = text.lines().filter_map(|line| line.strip_prefix("//! "));
+            lines.find(|line| line.starts_with(region) && line.contains("ORIGIN"))
+        })
+        .collect();
+    assert!(regions.len() == 2, "{}: `//! FLASH : ORIGIN = …` and RAM", board.display());
+    format!("MEMORY\n{{\n  {}\n}}\n", regions.join("\n  "))
 }

@@ -1,6 +1,11 @@
 //! The one type the firmware drives.
 
+mod handover;
+mod stop;
+
+pub use handover::{Departure, Planned, Rejected};
 use heapless::Deque;
+pub(crate) use stop::Arrival;
 
 use crate::Error;
 use crate::math::Scalar;
@@ -10,6 +15,7 @@ use crate::stepper::{Response, Stepper};
 /// What the motor controller gets every tick. SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Setpoint<T> {
     /// Hub angle θ.
     pub angle: Angle<T>,

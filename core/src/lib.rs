@@ -9,6 +9,9 @@
 //! 3. [`stepper`]: what advances the arm by one tick; built from the model for one tick length.
 //! 4. [`motion`]: moves of the hub, planned into segments.
 //! 5. [`Generator`]: stepper and motion; [`Generator::tick`] gives the next [`Setpoint`].
+//! 6. [`axis`]: a generator under a policy: enable, stop, a late tick, a lost link.
+//! 7. [`motor`]: what the setpoint asks of the motor's shaft, behind gear and friction.
+//! 8. [`drive`]: that demand as the bytes of a drive's protocol.
 //!
 //! ```
 //! use stillbeam::beam::Rod;
@@ -45,17 +48,20 @@
 //! # Ok::<(), stillbeam::Error>(())
 //! ```
 
+pub mod axis;
 pub mod beam;
+pub mod drive;
 mod error;
 mod generator;
 pub mod material;
 pub mod math;
 pub mod motion;
+pub mod motor;
 pub mod scene;
 pub mod stepper;
 
 pub use error::Error;
-pub use generator::{Generator, Setpoint};
+pub use generator::{Departure, Generator, Planned, Rejected, Setpoint};
 pub use math::Scalar;
 pub use motion::{Angle, Limits, Move, Profile};
 pub use scene::{Damping, Hub, Link, Payload, Scene};

@@ -12,6 +12,7 @@ use crate::material::{Material, Strip};
 /// Fields are public so that a scene reads like its file; [`Scene::validate`] is called wherever a
 /// model is built from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scene {
     /// The flexible link.
     pub link: Link,
@@ -27,6 +28,7 @@ pub struct Scene {
 
 /// A uniform link: cubic Bernoulli-Euler bending in the plane of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Link {
     /// `L`, clamp to tip, m.
     pub length: f64,
@@ -38,6 +40,7 @@ pub struct Link {
 
 /// The motor hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Hub {
     /// `r`, motor axis to clamp, rigid, m.
     pub radius: f64,
@@ -47,6 +50,7 @@ pub struct Hub {
 
 /// The payload at the tip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Payload {
     /// `m_p`, kg.
     pub mass: f64,
@@ -56,6 +60,7 @@ pub struct Payload {
 
 /// Rayleigh damping `C = αM + βK`: α on absolute velocity, β on the deformation rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Damping {
     /// α, 1/s.
     pub alpha: f64,

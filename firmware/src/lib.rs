@@ -3,6 +3,8 @@
 //! own.
 
 pub mod counter;
+#[cfg(not(feature = "nucleo-g474re"))]
 pub mod exit;
+#[cfg(not(feature = "nucleo-g474re"))]
 pub mod output;
 pub mod stack;

@@ -8,6 +8,8 @@
 //! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core in [`sweep`], run time
 //! against error; its run time is compared with that of [`textbook`]. The paper's figures are
 //! computed in [`study`]. [`report`] and [`plot`] show both.
+//!
+//! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 
 pub mod compare;
 pub mod error;
@@ -24,6 +26,8 @@ pub mod solver;
 pub mod study;
 pub mod sweep;
 pub mod table;
+#[cfg(feature = "talk")]
+pub mod talk;
 pub mod textbook;
 pub mod trajectory;
 pub mod truth;

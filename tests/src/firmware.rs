@@ -29,6 +29,22 @@ pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, Str
     build_variant(bin, Some((variable, value)))
 }
 
+/// Builds the application for a board, by the board's feature.
+///
+/// # Errors
+/// As [`build`].
+pub fn application(board: &str) -> Result<PathBuf, String> {
+    require_target(TARGET)?;
+    let _one = BUILDING.lock();
+    let folder = root().join("target/firmware");
+    run(cargo()
+        .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", "application"])
+        .args(["--features", board, "--profile", "application", "--target", TARGET])
+        .arg("--target-dir")
+        .arg(&folder))?;
+    keep(&folder, "application", "application", &format!("application-{board}"))
+}
+
 fn build_variant(bin: &str, variable: Option<(&str, &str)>) -> Result<PathBuf, String> {
     require_target(TARGET)?;
     let _one = BUILDING.lock();
@@ -41,9 +57,13 @@ fn build_variant(bin: &str, variable: Option<(&str, &str)>) -> Result<PathBuf, S
         .env_remove("STILLBEAM_METHOD")
         .env_remove("STILLBEAM_FAULT")
         .envs(variable))?;
-    // Variants share a file name: each is kept under one of its own.
-    let built = folder.join(TARGET).join("firmware").join(bin);
     let name = variable.map_or(bin.to_owned(), |(_, value)| format!("{bin}-{value}"));
+    keep(&folder, "firmware", bin, &name)
+}
+
+/// Variants share a file name: each is kept under one of its own.
+fn keep(folder: &Path, profile: &str, bin: &str, name: &str) -> Result<PathBuf, String> {
+    let built = folder.join(TARGET).join(profile).join(bin);
     let kept = folder.join("images").join(name);
     fs::create_dir_all(folder.join("images"))
         .and_then(|()| fs::copy(&built, &kept))

@@ -4,6 +4,7 @@
 
 pub mod emulator;
 pub mod firmware;
+pub mod firmware_page;
 pub mod image;
 pub mod instructions;
 pub mod page;

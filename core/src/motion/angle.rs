@@ -11,6 +11,7 @@ use crate::math::Scalar;
 /// without rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Angle<T> {
     /// Whole turns; wraps after 2³¹.
     pub turns: i32,

@@ -7,6 +7,7 @@ use crate::Error;
 /// Rate, acceleration and jerk are checked when a move is accepted, against the exact peaks of its
 /// profile. Torque depends on the arm's vibration and is checked by whoever has run the move.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
     /// |θ̇|, rad/s.
     pub rate: Option<f64>,

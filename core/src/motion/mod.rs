@@ -12,4 +12,4 @@ pub use limits::{Limits, Peaks};
 pub(crate) use plan::lay;
 pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};
-pub use segment::{Hub, Segment};
+pub use segment::{Braking, Hub, Segment};

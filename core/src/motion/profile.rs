@@ -7,6 +7,7 @@ use crate::Error;
 
 /// The shape of a rest-to-rest move over `s = t/T ∈ 0..1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Profile {
     /// `3s² − 2s³`, the profile that explains the paper's runs. The acceleration jumps at both
     /// ends.
@@ -67,6 +68,7 @@ impl Profile {
 
 /// One entry of the queue of moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Move {
     /// Rest to rest.
     To {

@@ -1,6 +1,10 @@
 //! A piece of the commanded motion in the form that the tick evaluates.
 
+mod braking;
+
 use core::f64::consts::{PI, TAU};
+
+pub use braking::Braking;
 
 use super::Angle;
 use crate::math::Scalar;

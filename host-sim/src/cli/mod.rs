@@ -8,6 +8,8 @@ mod run;
 mod study;
 mod sweep;
 mod tables;
+#[cfg(feature = "talk")]
+mod talk;
 
 use std::process::ExitCode;
 
@@ -43,6 +45,9 @@ enum Command {
     Pareto(pareto::ParetoArgs),
     /// Fill the tables in README.md, or check them
     Tables(tables::TablesArgs),
+    /// Talk to the firmware in QEMU or on a board, and compare all it sends with the host's own run
+    #[cfg(feature = "talk")]
+    Talk(talk::TalkArgs),
     /// List the embedded scenes
     Scenes,
 }
@@ -60,6 +65,8 @@ impl Cli {
             Some(Command::Merge(args)) => args.execute(),
             Some(Command::Pareto(args)) => args.execute(),
             Some(Command::Tables(args)) => args.execute(),
+            #[cfg(feature = "talk")]
+            Some(Command::Talk(args)) => args.execute(),
             Some(Command::Scenes) => {
                 for (name, about) in scenes::list() {
                     println!("{name:<20} {about}");

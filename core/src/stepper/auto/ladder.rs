@@ -70,7 +70,7 @@ pub(super) fn expected(distance: f64, floor: f64) -> f64 {
 ///
 /// The expansion's error shows as the distance of the twins; the modes beyond the third make
 /// `1e-4 w`; the steps, of second order, a third of what quartering the finest rung's made. 1.6 times
-/// the first two held for all but 2 of 145 random arms with `w` of 0.4 to 1.
+/// the first two held for nine in ten of 145 random arms with `w` of 0.4 to 1, 2.7 times for all.
 pub(super) fn floor(finest: &Outcome, twin: &Outcome) -> f64 {
     let w = finest.deflection;
     1.6 * (twin.distance + 1e-4 * w + 2e-6) + finest.distance / 3.0

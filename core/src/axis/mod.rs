@@ -1,0 +1,293 @@
+//! One axis under a policy: what happens when it is switched on and off, stopped, or left alone.
+//! No clock and no bus: firmware calls [`Axis::tick`] in its interrupt and the requests from below.
+//!
+//! | event | what the setpoints do |
+//! |---|---|
+//! | power-up, enable | begin at the measured angle, at rest; no step |
+//! | disable | brake along the path, then off |
+//! | move refused, queue full, not enabled | nothing changes; the reason is returned |
+//! | stop | brake along the path within the limits, then hold; moves are refused until enabled |
+//! | link silent for the patience | as stop |
+//! | late tick | nothing: setpoints count ticks, not seconds |
+//! | missed ticks | the path waits: the next setpoint is the next on the path; beyond the allowed number, as stop |
+//! | new arm (payload) | at rest only; the angle stays, the torque is the new arm's |
+
+mod pace;
+
+use heapless::Deque;
+
+pub use pace::{Pace, Timing};
+
+use crate::drive::Sequence;
+use crate::generator::Arrival;
+use crate::math::Scalar;
+use crate::motion::{Angle, Braking, Limits, Start};
+use crate::stepper::Stepper;
+use crate::{Departure, Error, Generator, Planned, Rejected, Setpoint};
+
+/// What the axis is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Mode {
+    /// The drive is off; setpoints stand still and are not sent.
+    Disabled,
+    /// Follows moves, or holds.
+    Enabled,
+    /// Brakes.
+    Stopping,
+    /// Holds after a stop, until enabled again.
+    Stopped,
+}
+
+/// Why the axis stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Cause {
+    /// Asked to.
+    Requested,
+    /// Nothing was heard for longer than the patience.
+    LinkLost,
+    /// More ticks in a row were missed than are allowed.
+    MissedTicks,
+}
+
+/// Why a request is refused. Nothing has changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refused {
+    /// The axis is in that mode; accepted is another.
+    Mode(Mode),
+    /// The hub turns, or moves wait; accepted is a hub at rest.
+    NotAtRest,
+    /// The move cannot be planned.
+    Move(Error),
+    /// The move cannot be taken.
+    Queue(Rejected),
+}
+
+/// What the policy needs to know.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Policy {
+    /// Moves beyond are refused; stops keep within. The acceleration must be limited.
+    pub limits: Limits,
+    /// Ticks without a word from the host until the axis stops; 0 waits for ever.
+    pub patience: u32,
+    /// Ticks missed in a row that are made up for by waiting.
+    pub missed: u32,
+}
+
+/// One tick's outcome.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Tick<T> {
+    /// The tick's number, from 0.
+    pub number: u32,
+    /// The mode at this tick.
+    pub mode: Mode,
+    /// The setpoint.
+    pub setpoint: Setpoint<T>,
+}
+
+impl<T> Tick<T> {
+    /// The number as it travels with a payload.
+    pub fn sequence(&self) -> Sequence {
+        Sequence(self.number as u16)
+    }
+}
+
+/// A generator and its policy.
+pub struct Axis<S: Stepper, const QUEUE: usize = 8> {
+    generator: Generator<S, QUEUE>,
+    policy: Policy,
+    braking: Braking<S::Scalar>,
+    mode: Mode,
+    cause: Option<Cause>,
+    /// A stop that ends with the drive off.
+    then_off: bool,
+    /// Ticks made: the number of the next.
+    clock: u32,
+    /// Ticks since the host was heard.
+    silence: u32,
+    moves: Deque<Accepted, QUEUE>,
+}
+
+/// A move that was taken and is not over.
+#[derive(Clone, Copy, Debug)]
+struct Accepted {
+    /// Number of its first tick.
+    begin: u32,
+    /// Number of the tick at which the hub is at `end`.
+    arrival: u32,
+    end: Start,
+}
+
+impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
+    /// A disabled axis that stands at `angle`.
+    pub fn new(stepper: S, angle: Angle<S::Scalar>, policy: Policy) -> Result<Self, Error> {
+        let braking = Braking::new(&policy.limits, stepper.tick())?;
+        let mut generator = Generator::new(stepper, 0.0)?;
+        generator.limit(policy.limits)?;
+        generator.restart(angle);
+        Ok(Self {
+            generator,
+            policy,
+            braking,
+            mode: Mode::Disabled,
+            cause: None,
+            then_off: false,
+            clock: 0,
+            silence: 0,
+            moves: Deque::new(),
+        })
+    }
+
+    /// The next setpoint. The tick path: no allocation, no panic, no `Result`.
+    #[inline(always)]
+    pub fn tick(&mut self) -> Tick<S::Scalar> {
+        if self.mode == Mode::Enabled && self.policy.patience > 0 {
+            self.silence = self.silence.saturating_add(1);
+            if self.silence > self.policy.patience {
+                self.stop(Cause::LinkLost);
+            }
+        }
+        let setpoint = self.generator.tick();
+        let number = self.clock;
+        self.clock = self.clock.wrapping_add(1);
+        while self.moves.front().is_some_and(|first| !before(number, first.arrival)) {
+            self.moves.pop_front();
+        }
+        if self.mode == Mode::Stopping && self.generator.is_holding() {
+            self.mode = if self.then_off { Mode::Disabled } else { Mode::Stopped };
+        }
+        Tick { number, mode: self.mode, setpoint }
+    }
+
+    /// So many ticks did not take place before the coming one.
+    #[inline(always)]
+    pub fn missed(&mut self, ticks: u32) {
+        if ticks > self.policy.missed {
+            self.stop(Cause::MissedTicks);
+        }
+    }
+
+    /// A valid word from the host.
+    pub fn heard(&mut self) {
+        self.silence = 0;
+    }
+
+    /// Switches on. A disabled axis begins at the measured angle, a stopped one goes on where it
+    /// holds.
+    pub fn enable(&mut self, measured: Angle<S::Scalar>) -> Result<(), Refused> {
+        match self.mode {
+            Mode::Disabled => self.generator.restart(measured),
+            Mode::Stopped | Mode::Enabled => {}
+            Mode::Stopping => return Err(Refused::Mode(self.mode)),
+        }
+        self.mode = Mode::Enabled;
+        self.cause = None;
+        self.silence = 0;
+        Ok(())
+    }
+
+    /// Switches off, after a stop if the hub turns.
+    pub fn disable(&mut self) {
+        if self.mode == Mode::Disabled {
+            return;
+        }
+        self.stop(Cause::Requested);
+        self.then_off = true;
+        if self.mode == Mode::Stopped {
+            self.mode = Mode::Disabled;
+        }
+    }
+
+    /// Brakes and holds.
+    #[cold]
+    pub fn stop(&mut self, cause: Cause) {
+        if self.mode != Mode::Enabled {
+            return;
+        }
+        self.then_off = false;
+        self.cause = Some(cause);
+        self.generator.brake(&self.braking, self.arrival());
+        self.moves.clear();
+        let rests = self.generator.is_holding();
+        self.mode = if rests { Mode::Stopped } else { Mode::Stopping };
+    }
+
+    /// Where a move begins that is planned now; for [`Departure::plan`], outside of the tick.
+    pub fn departure(&self) -> Result<Departure, Refused> {
+        match self.mode {
+            Mode::Enabled => Ok(self.generator.departure()),
+            mode => Err(Refused::Mode(mode)),
+        }
+    }
+
+    /// Takes a planned move and returns the number of its first tick.
+    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<u32, Refused> {
+        if self.mode != Mode::Enabled {
+            return Err(Refused::Mode(self.mode));
+        }
+        if self.moves.is_full() {
+            return Err(Refused::Queue(Rejected::QueueFull { needed: 1, free: 0 }));
+        }
+        self.generator.take(planned).map_err(Refused::Queue)?;
+        let begin = self.moves.back().map_or(self.clock, |last| last.arrival);
+        let arrival = begin.wrapping_add(planned.outline().ticks);
+        // There is room: just asked.
+        let end = self.generator.end();
+        let _ = self.moves.push_back(Accepted { begin, arrival, end });
+        Ok(begin)
+    }
+
+    /// Another arm on the same hub: a payload taken up or put down. At rest only.
+    pub fn replace(&mut self, stepper: S) -> Result<(), Refused> {
+        if !self.rests() {
+            return Err(Refused::NotAtRest);
+        }
+        self.generator.replace(stepper);
+        Ok(())
+    }
+
+    /// At rest with no move waiting.
+    pub fn rests(&self) -> bool {
+        self.generator.is_holding() && self.generator.hub().rate == S::Scalar::ZERO
+    }
+
+    /// The mode.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// Why the axis stopped, if it did.
+    pub fn cause(&self) -> Option<Cause> {
+        self.cause
+    }
+
+    /// Number of the next tick.
+    pub fn clock(&self) -> u32 {
+        self.clock
+    }
+
+    /// The generator.
+    pub fn generator(&self) -> &Generator<S, QUEUE> {
+        &self.generator
+    }
+
+    /// Where the move under way comes to rest, if it does.
+    fn arrival(&self) -> Option<Arrival> {
+        let current = self.moves.front()?;
+        let latest = self.clock.wrapping_sub(1);
+        let under_way = !before(latest, current.begin);
+        let ticks = current.arrival.wrapping_sub(latest);
+        (under_way && current.end.rate == 0.0).then_some(Arrival { ticks, end: current.end })
+    }
+}
+
+/// Whether tick number `a` comes before `b`; numbers wrap after 497 days at 10 ms.
+fn before(a: u32, b: u32) -> bool {
+    b.wrapping_sub(a) as i32 > 0
+}

@@ -1,0 +1,61 @@
+//! A demand as bytes for a drive: one file a protocol. Pure: no bus, no clock.
+//!
+//! All protocols are little-endian; scaled integers are rounded to nearest, and saturation is
+//! reported. What is not finite is not encoded: several drives take a NaN for a command of its own.
+//!
+//! | protocol | position | velocity | torque | bytes |
+//! |---|---|---|---|---|
+//! | [`odrive`] CAN simple | f32 turns | i16 × 0.001 turn/s | i16 × 0.001 N m | 8, classic CAN |
+//! | [`cia402`] CSP | i32 increments | i32 increments/s | i16 ‰ of rated torque | 10, or two PDOs |
+//! | [`moteus`] | f32 turns | f32 turns/s | f32 N m | 24, CAN FD |
+//!
+//! None of them has room for a count of its own, so a [`Sequence`] travels beside each payload: to the
+//! task that sends it, in the stamp of a captured frame, as the counter of CANopen's SYNC.
+
+pub mod cia402;
+mod counts;
+mod frame;
+pub mod moteus;
+pub mod odrive;
+mod resolution;
+mod sequence;
+
+pub use frame::ClassicFrame;
+pub use resolution::{Coarse, TorquePeak};
+pub use sequence::{Freshness, Sequence};
+
+use crate::motion::Angle;
+
+/// Which of the values did not fit its format and was sent as the nearest that does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Saturated {
+    /// Position.
+    pub position: bool,
+    /// Velocity feed-forward.
+    pub velocity: bool,
+    /// Torque feed-forward.
+    pub torque: bool,
+}
+
+impl Saturated {
+    /// Any of them.
+    pub fn any(self) -> bool {
+        self.position || self.velocity || self.torque
+    }
+}
+
+/// A payload and what did not fit into it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Encoded<P> {
+    /// The payload.
+    pub payload: P,
+    /// What was cut to the nearest value.
+    pub saturated: Saturated,
+}
+
+/// Turns in one f32 as an angle, if they are finite and below 2²¹.
+fn turns(position: f32) -> Option<Angle<f32>> {
+    let within = position > -2_097_152.0 && position < 2_097_152.0;
+    within.then(|| Angle { turns: 0, part: 0.0 }.plus(position))
+}

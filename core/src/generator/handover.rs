@@ -1,0 +1,116 @@
+//! Planning beside the tick: a move is planned where nothing is urgent, from a copy of what a plan
+//! needs to know, and handed over in a few hundred instructions.
+
+use heapless::Vec;
+
+use super::Generator;
+use crate::Error;
+use crate::math::Scalar;
+use crate::motion::{Angle, Hub, Limits, MAX_SEGMENTS, Move, Outline, Segment, Start, lay};
+use crate::stepper::Stepper;
+
+/// Where the next move of a generator begins, and what it may do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    start: Start,
+    limits: Limits,
+    tick: f64,
+}
+
+/// A move ready for the generator that its [`Departure`] came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned<T> {
+    segments: Vec<Segment<T>, MAX_SEGMENTS>,
+    start: Start,
+    outline: Outline,
+}
+
+impl<T> Planned<T> {
+    /// What the move comes to.
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
+}
+
+/// A planned move that cannot be taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rejected {
+    /// The queue has not enough free segments.
+    QueueFull {
+        /// Segments that the move takes.
+        needed: usize,
+        /// Segments that are free.
+        free: usize,
+    },
+    /// The hub's motion has changed since the departure was copied: plan again.
+    Stale,
+}
+
+impl Departure {
+    /// Plans `motion` from here. Runs in f64.
+    pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<Planned<T>, Error> {
+        let mut segments = Vec::new();
+        let outline = lay(motion, self.start, &self.limits, self.tick, &mut |segment| {
+            // No move has more.
+            let _ = segments.push(segment.cast());
+        })?;
+        Ok(Planned { segments, start: self.start, outline })
+    }
+}
+
+impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
+    /// Where a move that is planned now begins.
+    pub fn departure(&self) -> Departure {
+        Departure { start: self.next_start(), limits: self.limits, tick: self.stepper.tick() }
+    }
+
+    /// Puts a planned move behind the others. Either the whole move is taken or nothing changes.
+    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<(), Rejected> {
+        let start = self.next_start();
+        // A hub that turns has turned on meanwhile; its moves are relative.
+        let turned = start.angle.in_turns() - planned.start.angle.in_turns();
+        if start.rate != planned.start.rate || (turned != 0.0 && start.rate == 0.0) {
+            return Err(Rejected::Stale);
+        }
+        let (needed, free) = (planned.segments.len(), QUEUE - self.queue.len());
+        if needed > free {
+            return Err(Rejected::QueueFull { needed, free });
+        }
+        for segment in &planned.segments {
+            // There is room: just counted.
+            let _ = self.queue.push_back(segment.shifted(S::Scalar::from_f64(turned)));
+        }
+        if self.holding {
+            self.current = self.current.cut(self.next_k());
+        }
+        let end = planned.outline.end;
+        self.end = Start { angle: end.angle.plus(turned), rate: end.rate };
+        self.tail = super::hold(self.end, self.stepper.tick());
+        Ok(())
+    }
+
+    /// Where the queue ends.
+    pub(crate) fn end(&self) -> Start {
+        self.end
+    }
+
+    /// Begins anew, at rest and in static equilibrium at `angle`; no move waits.
+    pub fn restart(&mut self, angle: Angle<S::Scalar>) {
+        self.hub = Hub { angle, ..Hub::ZERO };
+        if self.stepper.is_directed() {
+            (self.hub.sin, self.hub.cos) = angle.sin_cos();
+        }
+        self.landing = S::Scalar::ZERO;
+        self.state = self.stepper.equilibrium(&self.hub);
+        self.rest_at(angle);
+        self.current = self.tail;
+        self.k = 0;
+        self.holding = true;
+    }
+
+    /// Another arm on the same hub, from the angle where it rests.
+    pub fn replace(&mut self, stepper: S) {
+        self.stepper = stepper;
+        self.restart(self.hub.angle);
+    }
+}

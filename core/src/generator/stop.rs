@@ -1,0 +1,76 @@
+//! Coming to rest before the moves are done, in the tick if need be: no f64 planning, no panic.
+
+use super::Generator;
+use crate::math::Scalar;
+use crate::motion::{Angle, Braking, Segment, Start};
+use crate::stepper::Stepper;
+
+/// Where the move under way comes to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Arrival {
+    /// Ticks from the latest setpoint.
+    pub(crate) ticks: u32,
+    /// Its end, at rest.
+    pub(crate) end: Start,
+}
+
+impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
+    /// Brakes along the path from the next tick on and holds; no move waits any more.
+    ///
+    /// A move that would be over before the hub could be stopped is finished: that is the quickest
+    /// stop on its path, and within the limits it was accepted for.
+    pub(crate) fn brake(&mut self, braking: &Braking<S::Scalar>, arrival: Option<Arrival>) {
+        if self.hub.rate == S::Scalar::ZERO {
+            self.queue.clear();
+            self.rest_at(self.hub.angle);
+            // Over at the next tick, so that the acceleration of a move that was about to begin goes.
+            self.current = self.tail.cut(0);
+            self.k = 0;
+            self.holding = true;
+            return;
+        }
+        let (segment, rest) = braking.stop(&self.hub);
+        if let Some(arrival) = arrival
+            && passes(self.hub.angle, rest, arrival.end.angle.cast())
+        {
+            self.finish(arrival);
+            return;
+        }
+        self.queue.clear();
+        self.rest_at(rest);
+        self.current = segment;
+        // Wraps to the segment's tick 0 at the next tick.
+        self.k = u32::MAX;
+        self.holding = false;
+    }
+
+    /// Drops what lies behind the arrival.
+    fn finish(&mut self, arrival: Arrival) {
+        let under_way = self.current.count().saturating_sub(self.k);
+        let mut waiting = self.queue.iter().fold(0u32, |n, s| n.saturating_add(s.count()));
+        let keep = arrival.ticks.saturating_sub(under_way);
+        while waiting > keep
+            && let Some(last) = self.queue.pop_back()
+        {
+            waiting = waiting.saturating_sub(last.count());
+        }
+        self.end = arrival.end;
+        self.tail = Segment::rest(arrival.end.angle.cast());
+    }
+
+    /// What follows the queue is rest at `angle`.
+    pub(super) fn rest_at(&mut self, angle: Angle<S::Scalar>) {
+        let exact = Angle { turns: angle.turns, part: angle.part.to_f64() };
+        self.end = Start { angle: exact, rate: 0.0 };
+        self.tail = Segment::rest(angle);
+    }
+}
+
+/// Whether `rest` lies at or beyond `end` as seen from `from`.
+fn passes<T: Scalar>(from: Angle<T>, rest: Angle<T>, end: Angle<T>) -> bool {
+    let turns = |to: Angle<T>| {
+        f64::from(to.turns.wrapping_sub(from.turns)) + (to.part.to_f64() - from.part.to_f64())
+    };
+    let (rest, end) = (turns(rest), turns(end));
+    if end < 0.0 { rest <= end } else { rest >= end }
+}

@@ -1,0 +1,157 @@
+//! From a turning hub to rest, planned in the tick's own precision: a stop cannot wait for set-up.
+
+use super::{Hub, Segment, Shape};
+use crate::Error;
+use crate::math::Scalar;
+use crate::motion::{Angle, Limits};
+
+/// What a stop may use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Braking<T> {
+    acceleration: T,
+    rate: Option<T>,
+    jerk: Option<T>,
+    tick: T,
+    /// Turns in `rad/s × s`.
+    turns: T,
+}
+
+/// A chord: `√(1 + x) ≥ 1 + (√2 − 1) x` on 0..1, so `2(1 − x) + 2√(1 + x)` is at least
+/// `4 − 1.1716 x`.
+const CHORD: f64 = 1.171_572_875_253_81;
+
+/// Longest stop, ticks: counts up to here are exact in an f32.
+const LONGEST: u32 = 1 << 20;
+
+impl<T: Scalar> Braking<T> {
+    /// Needs a limit of acceleration; those of rate and jerk are kept where they are set. `tick` in
+    /// s.
+    pub fn new(limits: &Limits, tick: f64) -> Result<Self, Error> {
+        let limits = limits.validate()?;
+        let unlimited = limits.acceleration.unwrap_or(f64::INFINITY);
+        let acceleration = Error::check("limits.acceleration", unlimited, 1e-9, 1e12, "rad/s^2")?;
+        Ok(Self {
+            acceleration: T::from_f64(acceleration),
+            rate: limits.rate.map(T::from_f64),
+            jerk: limits.jerk.map(T::from_f64),
+            tick: T::from_f64(tick),
+            turns: T::from_f64(tick / core::f64::consts::TAU),
+        })
+    }
+
+    /// The segment from `hub`, which is turning, to rest, and the angle it ends at. Its first tick
+    /// is the one after `hub`'s.
+    ///
+    /// `θ̇(s) = (1 − s)²[v + s(2v + aT)]`, `s = t/T`: from rate `v` and acceleration `a` to rest with
+    /// no acceleration, never turning back. With `β = 6v/T` its peak is `(2a + β)²/4(3a + β)`, so
+    /// `T = 1.5 v/A` while slowing down and at most 2.12 v/A while speeding up stays within the limit
+    /// `A`; the jerk limit stretches it. Where a hub that speeds up would pass the limit of rate on
+    /// its way, its acceleration drops to zero at once, as it jumps at the ends of a cubic. Order of
+    /// precedence: angle and rate without a step, acceleration, rate, jerk.
+    pub(crate) fn stop(&self, hub: &Hub<T>) -> (Segment<T>, Angle<T>) {
+        let sign = if hub.rate < T::ZERO { -T::ONE } else { T::ONE };
+        let (v, mut a) = (sign * hub.rate, sign * hub.acceleration);
+        if a > T::ZERO && self.rate.is_some_and(|limit| self.peak_rate(v, a) > limit) {
+            a = T::ZERO;
+        }
+        let mut ticks = self.ticks(v, a);
+        let three = T::TWO + T::ONE;
+        if a < T::ZERO && three * v + a * T::from_u32(ticks) * self.tick < T::ZERO {
+            a = T::ZERO;
+            ticks = self.ticks(v, a);
+        }
+        self.segment(hub, sign * a, ticks)
+    }
+
+    /// `T` that the acceleration allows, s.
+    fn duration(&self, v: T, a: T) -> T {
+        let x = if a > T::ZERO { a / self.acceleration } else { T::ZERO };
+        let x = if x > T::ONE { T::ONE } else { x };
+        let six = T::from_u32(6);
+        six * v / (self.acceleration * (T::from_u32(4) - T::from_f64(CHORD) * x))
+    }
+
+    /// Peak of the rate while it still grows, `a > 0`.
+    fn peak_rate(&self, v: T, a: T) -> T {
+        let duration = T::from_u32(self.ticks(v, a)) * self.tick;
+        let s = a / ((T::TWO + T::ONE) * a + T::from_u32(6) * v / duration);
+        (T::ONE - s) * (T::ONE - s) * (v + s * (T::TWO * v + a * duration))
+    }
+
+    /// Whole ticks, at least two, that acceleration and jerk allow.
+    fn ticks(&self, v: T, a: T) -> u32 {
+        let mut ticks = ceil(self.duration(v, a) / self.tick).clamp(2, LONGEST);
+        // 1.25^64 = 1.6e6: by then it is as long as it may be.
+        for _ in 0..64 {
+            let duration = T::from_u32(ticks) * self.tick;
+            let steady = T::from_u32(6) * v / duration;
+            let (first, last) = (T::from_u32(4) * a + steady, T::TWO * a + steady);
+            let fits = |jerk: T| {
+                let bound = jerk * duration;
+                -bound <= first && first <= bound && last <= bound
+            };
+            if self.jerk.is_none_or(fits) || ticks >= LONGEST {
+                break;
+            }
+            ticks = (ticks + ticks / 4 + 1).min(LONGEST);
+        }
+        ticks
+    }
+
+    /// The rate's cubic as a quartic of the angle about the segment's middle.
+    fn segment(&self, hub: &Hub<T>, a: T, ticks: u32) -> (Segment<T>, Angle<T>) {
+        let n = T::from_u32(ticks);
+        // vT and aT², turns.
+        let p = hub.rate * self.turns * n;
+        let q = a * self.turns * self.tick * n * n;
+        let (four, six) = (T::from_u32(4), T::from_u32(6));
+        let c1 = (four * p + q) / T::from_u32(16);
+        let c2 = -(six * p + q) / T::from_u32(32);
+        let c3 = -q / T::from_u32(48);
+        let c4 = (T::TWO * p + q) / T::from_u32(64);
+        let half = T::HALF * n * self.tick;
+        let origin = hub.angle.plus(c1 - c2 + c3 - c4);
+        let tau = T::from_f64(core::f64::consts::TAU);
+        let segment = Segment {
+            origin,
+            count: ticks - 1,
+            offset: T::TWO / n - T::ONE,
+            advance: T::TWO / n,
+            rate_scale: tau / half,
+            acceleration_scale: T::TWO * tau / (half * half),
+            landing: T::ZERO,
+            shape: Shape::Quintic([c1, c2, c3, c4, T::ZERO]),
+        };
+        (segment, origin.plus(c1 + c2 + c3 + c4))
+    }
+}
+
+impl<T: Scalar> Segment<T> {
+    /// At rest at `angle` for as long as ticks can be counted.
+    pub(crate) fn rest(angle: Angle<T>) -> Self {
+        Self {
+            origin: angle,
+            count: u32::MAX,
+            offset: T::ZERO,
+            advance: T::ZERO,
+            rate_scale: T::ZERO,
+            acceleration_scale: T::ZERO,
+            landing: T::ZERO,
+            shape: Shape::Cruise { rate: T::ZERO, step: 0 },
+        }
+    }
+
+    /// The same segment that many turns on.
+    pub(crate) fn shifted(self, by: T) -> Self {
+        Self { origin: self.origin.plus(by), ..self }
+    }
+}
+
+/// The least whole number from `x` on, for `0 ≤ x`, with 1e-4 for rounding; `LONGEST` above that.
+fn ceil<T: Scalar>(x: T) -> u32 {
+    if !(x < T::from_u32(LONGEST)) {
+        return LONGEST;
+    }
+    let (whole, rest) = x.split();
+    whole.max(0) as u32 + u32::from(rest > T::from_f64(1e-4))
+}

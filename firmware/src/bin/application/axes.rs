@@ -1,0 +1,94 @@
+//! What hangs on this machine: arms, gears, drives. To be edited for another one.
+
+use stillbeam::axis::{self, Policy};
+use stillbeam::beam::OneElement;
+use stillbeam::motor::{Direction, Joint, Ratio};
+use stillbeam::stepper::Newmark;
+use stillbeam::{Damping, Error, Hub, Limits, Link, Payload, Scene};
+
+/// Number of axes in one tick.
+pub const AXES: usize = 2;
+
+/// h, s.
+pub const TICK: f64 = 0.010;
+
+/// The stepper, the same for every axis, and its name on the wire.
+pub type Stepper = Newmark<f32, 2, 2>;
+/// See [`Stepper`].
+pub const METHOD: &str = "newmark-1";
+
+/// An axis with room for eight segments: one S-curve and a move more, or eight cubics.
+pub type Axis = axis::Axis<Stepper, 8>;
+
+/// One axis' constants.
+pub struct Configuration {
+    /// The arm at power-up.
+    pub scene: Scene,
+    /// Limits and patience.
+    pub policy: Policy,
+    /// Gear and motor.
+    pub joint: Joint<f64>,
+    /// Which way the motor turns.
+    pub direction: Direction,
+    /// The shaft's angle, turns, where the hub's is 0.
+    pub zero: f64,
+    /// The drive's node id.
+    pub node: u8,
+}
+
+/// The paper's member B with 30 g on a geared motor that is mounted upside down; an aluminium strip
+/// of 0.5 m with 50 g in a vertical plane on a direct drive.
+pub const CONFIGURATIONS: [Configuration; AXES] = [
+    Configuration {
+        scene: Scene {
+            payload: Payload { mass: 0.030, inertia: 0.0 },
+            ..Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 })
+        },
+        policy: policy(5.0, 15.0),
+        joint: Joint {
+            ratio: Ratio { motor: 6, link: 1 },
+            efficiency: 0.9,
+            rotor_inertia: 1e-5,
+            coulomb: 0.01,
+            viscous: 0.001,
+            torque_constant: 0.08,
+        },
+        direction: Direction::Opposite,
+        zero: 0.125,
+        node: 1,
+    },
+    Configuration {
+        scene: Scene {
+            link: Link { length: 0.5, mass: 0.054, bending_stiffness: 0.92 },
+            hub: Hub { radius: 0.03, inertia: 1e-4 },
+            payload: Payload { mass: 0.050, inertia: 0.0 },
+            damping: Damping { alpha: 0.1, beta: 1e-4 },
+            gravity: 9.81,
+        },
+        policy: policy(8.0, 60.0),
+        joint: Joint {
+            ratio: Ratio { motor: 1, link: 1 },
+            efficiency: 1.0,
+            rotor_inertia: 5e-5,
+            coulomb: 0.02,
+            viscous: 0.0,
+            torque_constant: 0.5,
+        },
+        direction: Direction::Same,
+        zero: -0.25,
+        node: 2,
+    },
+];
+
+/// Limits in rad/s and rad/s². Half a second of silence is a lost link; two missed ticks are waited
+/// for.
+const fn policy(rate: f64, acceleration: f64) -> Policy {
+    let limits =
+        Limits { rate: Some(rate), acceleration: Some(acceleration), jerk: None, torque: None };
+    Policy { limits, patience: 50, missed: 2 }
+}
+
+/// The stepper of an arm. Set-up: some 70,000 instructions, never in the tick.
+pub fn stepper(scene: &Scene) -> Result<Stepper, Error> {
+    Newmark::new(&OneElement::consistent(scene)?, TICK)
+}

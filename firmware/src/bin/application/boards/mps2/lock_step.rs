@@ -1,0 +1,54 @@
+//! Lock-step: the host grants every tick.
+
+use embassy_futures::yield_now;
+use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
+use embassy_sync::signal::Signal;
+use semihosting::fs::File;
+use semihosting::io::Read;
+
+use super::serial::UARTS;
+use super::time::time;
+use crate::link::LINK;
+use crate::tick::{TO_DRIVE, TO_HOST};
+
+static TICKED: Signal<CriticalSectionRawMutex, ()> = Signal::new();
+
+/// A tick has been made.
+pub fn ticked() {
+    TICKED.signal(());
+}
+
+/// Holds time after every tick, once its setpoints are out, until the host grants the next one.
+#[embassy_executor::task]
+pub async fn keep_step() {
+    let Ok(mut host) = File::open(c"/dev/stdin") else { return };
+    let mut granted = [0; 2];
+    let mut first = true;
+    let mut awaited = [0u32; 2];
+    loop {
+        TICKED.wait().await;
+        while !(TO_DRIVE.is_empty() && TO_HOST.is_empty() && LINK.try_lock().is_ok()) {
+            yield_now().await;
+        }
+        match host.read_exact(&mut granted) {
+            Ok(()) => first = false,
+            // Nobody there: run free. Gone: over.
+            Err(_) if first => return,
+            Err(_) => semihosting::process::exit(0),
+        }
+        for (awaited, granted) in awaited.iter_mut().zip(granted) {
+            *awaited += u32::from(granted);
+        }
+        time().hold();
+        let all_in = || UARTS.iter().zip(awaited).all(|(u, n)| u.taken() >= n);
+        while !all_in() {
+            // Masked, so that no byte slips in between the look and the sleep; it wakes all the same.
+            cortex_m::interrupt::free(|_| {
+                if !all_in() {
+                    cortex_m::asm::wfi();
+                }
+            });
+        }
+        time().go_on();
+    }
+}

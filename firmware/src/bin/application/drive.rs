@@ -1,0 +1,98 @@
+//! Frames to the drives and from them. ODrive CAN simple; another protocol of `stillbeam::drive`
+//! goes in here.
+
+use stillbeam::Angle;
+use stillbeam::axis::{Mode, Tick};
+use stillbeam::drive::odrive::{Node, TORQUE_STEP};
+use stillbeam::drive::{ClassicFrame, Freshness, Sequence, TorquePeak};
+
+use crate::axes::{AXES, CONFIGURATIONS};
+use crate::board::{BusReader, BusWriter};
+use crate::shared;
+use crate::tick::{Setpoint, TO_DRIVE};
+
+/// What is known of a drive.
+#[derive(Clone, Copy, Default)]
+struct Drive {
+    on: bool,
+    sent: Option<Sequence>,
+    moving: bool,
+    peak: TorquePeak,
+}
+
+/// Sends every setpoint as it comes, and switches the drives.
+#[embassy_executor::task]
+pub async fn send(mut bus: BusWriter) {
+    let mut drives = [Drive::default(); AXES];
+    loop {
+        let Setpoint { axis, tick, .. } = TO_DRIVE.receive().await;
+        let Some(drive) = drives.get_mut(usize::from(axis)) else { continue };
+        let fresh = drive.sent.is_none_or(|last| {
+            matches!(tick.sequence().after(last), Freshness::Next | Freshness::Skipped(_))
+        });
+        if fresh {
+            drive.sent = Some(tick.sequence());
+            one(&mut bus, axis, &tick, drive).await;
+        }
+    }
+}
+
+async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive) {
+    let Some(node) = node(axis) else { return };
+    let train = shared::with(|s| s.joints.get(usize::from(axis)).map(|joint| joint.train));
+    let Some(train) = train else { return };
+    let on = tick.mode != Mode::Disabled;
+    if on {
+        let demand = train.demand(&tick.setpoint);
+        // What is not finite is not sent: the drive's own watchdog is the last resort.
+        let Some(encoded) = node.set_input_pos::<ClassicFrame>(&demand) else { return };
+        bus.send(&encoded.payload, tick.sequence()).await;
+        if encoded.saturated.any() {
+            shared::with(|s| s.counters.saturated += 1);
+            defmt::warn!("axis {}: saturated {}", axis, encoded.saturated);
+        }
+        let moving = tick.setpoint.rate != 0.0;
+        if moving {
+            drive.peak.note(demand.torque);
+        } else if drive.moving
+            && let Some(coarse) = drive.peak.finish(TORQUE_STEP)
+        {
+            defmt::warn!(
+                "axis {}: torque peak {} N m is {} counts of the drive's format, under 100",
+                axis,
+                coarse.peak,
+                coarse.counts
+            );
+        }
+        drive.moving = moving;
+    }
+    if on != drive.on {
+        drive.on = on;
+        defmt::info!("axis {}: {}", axis, tick.mode);
+        if let Some(frame) = node.set_axis_state::<ClassicFrame>(on) {
+            bus.send(&frame, tick.sequence()).await;
+        }
+    }
+}
+
+/// Takes note of what the encoders say.
+#[embassy_executor::task]
+pub async fn receive(mut bus: BusReader) {
+    loop {
+        let frame = bus.receive().await;
+        for (i, configuration) in CONFIGURATIONS.iter().enumerate() {
+            let Ok(node) = Node::new(configuration.node) else { continue };
+            let Some(estimates) = node.estimates(&frame) else { continue };
+            let shaft = Angle { turns: 0, part: 0.0 }.plus(estimates.position);
+            shared::with(|s| {
+                if let Some(joint) = s.joints.get_mut(i) {
+                    joint.measured = Some(shaft);
+                }
+            });
+        }
+    }
+}
+
+fn node(axis: u8) -> Option<Node> {
+    CONFIGURATIONS.get(usize::from(axis)).and_then(|c| Node::new(c.node).ok())
+}

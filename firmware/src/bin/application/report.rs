@@ -1,0 +1,40 @@
+//! A line a second for whoever watches, over defmt.
+
+use core::sync::atomic::Ordering;
+
+use embassy_time::{Duration, Ticker};
+
+use crate::tick::MADE;
+use crate::{board, shared};
+
+// The log is kept in ticks, as everything else.
+defmt::timestamp!("{=u32}", MADE.load(Ordering::Relaxed));
+
+/// What a tick costs, whether ticks come in time, how the axes are.
+#[embassy_executor::task]
+pub async fn run() {
+    let mut ticker = Ticker::every(Duration::from_secs(1));
+    loop {
+        ticker.next().await;
+        let counters = shared::with(|s| s.counters);
+        defmt::info!(
+            "tick: {} {=str} last, {} worst; {} us late at most, {} missed, {} overruns, {} dropped",
+            counters.cost,
+            board::UNIT,
+            counters.worst,
+            board::microseconds(counters.late),
+            counters.missed,
+            counters.overruns,
+            counters.dropped
+        );
+        for axis in 0.. {
+            let state =
+                shared::with(|s| s.joints.get(axis).map(|j| (j.axis.mode(), j.axis.cause())));
+            match state {
+                Some((mode, Some(cause))) => defmt::info!("axis {}: {}, {}", axis, mode, cause),
+                Some((mode, None)) => defmt::info!("axis {}: {}", axis, mode),
+                None => break,
+            }
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! What the tick shares with the tasks below it. Whoever looks at it masks the tick for as long: a
+//! copy in, a copy out, no planning.
+
+use core::cell::RefCell;
+
+use embassy_sync::blocking_mutex::CriticalSectionMutex;
+use heapless::Vec;
+use stillbeam::motor::Drivetrain;
+use stillbeam::{Angle, Error};
+
+use crate::axes::{self, AXES, Axis, CONFIGURATIONS, Configuration};
+
+/// One axis.
+pub struct Joint {
+    /// Generator and policy.
+    pub axis: Axis,
+    /// Link to motor.
+    pub train: Drivetrain<f32>,
+    /// Where the drive says that the shaft is, once it has.
+    pub measured: Option<Angle<f32>>,
+}
+
+/// What is counted.
+#[derive(Clone, Copy)]
+pub struct Counters {
+    /// Cost of the latest tick.
+    pub cost: u32,
+    /// Cost of the worst.
+    pub worst: u32,
+    /// Latest start of a tick, in counts of the board.
+    pub late: u32,
+    /// Ticks that did not take place.
+    pub missed: u32,
+    /// Ticks that were not over when the next was due.
+    pub overruns: u32,
+    /// Setpoints that found a queue full.
+    pub dropped: u32,
+    /// Frames that came in garbled.
+    pub garbled: u32,
+    /// Values that did not fit the drive's format.
+    pub saturated: u32,
+}
+
+/// Everything shared.
+pub struct Shared {
+    /// The axes in their order.
+    pub joints: Vec<Joint, AXES>,
+    /// Counters since power-up.
+    pub counters: Counters,
+}
+
+static SHARED: CriticalSectionMutex<RefCell<Shared>> =
+    CriticalSectionMutex::new(RefCell::new(Shared {
+        joints: Vec::new(),
+        counters: Counters::NONE,
+    }));
+
+impl Counters {
+    const NONE: Self = Self {
+        cost: 0,
+        worst: 0,
+        late: 0,
+        missed: 0,
+        overruns: 0,
+        dropped: 0,
+        garbled: 0,
+        saturated: 0,
+    };
+}
+
+/// Looks at it with the tick masked.
+pub fn with<R>(look: impl FnOnce(&mut Shared) -> R) -> R {
+    SHARED.lock(|shared| look(&mut shared.borrow_mut()))
+}
+
+/// Builds every axis, disabled at angle 0. Set-up, before the tick runs.
+pub fn set_up() -> Result<(), Error> {
+    CONFIGURATIONS.iter().try_for_each(add)
+}
+
+#[inline(never)]
+fn add(configuration: &Configuration) -> Result<(), Error> {
+    let Configuration { scene, policy, joint, direction, zero, .. } = configuration;
+    let origin = Angle { turns: 0, part: 0.0 };
+    let axis = Axis::new(axes::stepper(scene)?, origin, *policy)?;
+    let train = Drivetrain::new(joint, *direction, *zero)?;
+    with(|shared| {
+        // As many as there are configurations.
+        let _ = shared.joints.push(Joint { axis, train, measured: None });
+    });
+    Ok(())
+}

@@ -1,0 +1,55 @@
+//! `talk`: a conversation with the firmware.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use stillbeam_sim::error::Error;
+use stillbeam_sim::output;
+use stillbeam_sim::talk::{self, DEMONSTRATION, Machine, Session, Step};
+
+/// Where cargo puts the application's image.
+const IMAGE: &str = "target/thumbv7em-none-eabihf/application/application";
+
+#[derive(clap::Args)]
+pub struct TalkArgs {
+    /// Steps, each in quotes, e.g. "enable 0" "move 0 quintic 0.8 1.57" rest; a demonstration
+    /// without any
+    steps: Vec<String>,
+    /// The application's image, to be run in QEMU
+    #[arg(long, value_name = "FILE", default_value = IMAGE, conflicts_with = "serial")]
+    image: PathBuf,
+    /// A board's serial port, instead of QEMU
+    #[arg(long, value_name = "PORT")]
+    serial: Option<String>,
+    /// Of the serial port
+    #[arg(long, default_value_t = 921_600)]
+    baud: u32,
+    /// Where a page with the setpoints goes
+    #[arg(long, value_name = "OUT.html")]
+    plot: Option<PathBuf>,
+}
+
+impl TalkArgs {
+    pub fn execute(self) -> Result<ExitCode, Error> {
+        let steps: Vec<&str> = match self.steps.as_slice() {
+            [] => DEMONSTRATION.to_vec(),
+            steps => steps.iter().map(String::as_str).collect(),
+        };
+        // Bad words are refused before anything starts.
+        for text in &steps {
+            text.parse::<Step>()?;
+        }
+        let machine = match &self.serial {
+            Some(port) => Machine::open(port, self.baud)?,
+            None => Machine::emulate(&self.image)?,
+        };
+        let mut session = Session::begin(machine)?;
+        talk::converse(&mut session, &steps, &mut |line| println!("{line}"))?;
+        if let Some(path) = &self.plot {
+            let page = talk::page(&session)?;
+            output::write_whole(path, |file| file.write_all(page.as_bytes()))?;
+            println!("drawn in {}", path.display());
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,222 @@
+//! Every setpoint and every drive frame of the firmware against the host's own.
+
+use std::collections::VecDeque;
+
+use stillbeam::Angle;
+use stillbeam::axis::{Cause, Mode, Tick};
+use stillbeam::drive::{ClassicFrame, Sequence};
+use stillbeam_protocol::{Command, Report, frame, slcan};
+
+use super::drive::Drive;
+use super::{Machine, Replica};
+use crate::error::Error;
+
+/// The axes on both sides.
+#[derive(Default)]
+pub(super) struct Comparison {
+    axes: Vec<Axis>,
+    /// Ticks that came and are not compared, by axis.
+    ticks: Vec<VecDeque<(Tick<f32>, Option<Cause>)>>,
+    bus: slcan::Splitter,
+    frames: VecDeque<(ClassicFrame, u16)>,
+    /// Number of the next tick to be compared.
+    next: u32,
+    /// Setpoints and frames that were equal.
+    equal: [usize; 2],
+}
+
+/// One axis on both sides.
+pub(super) struct Axis {
+    pub(super) replica: Replica,
+    pub(super) drive: Drive,
+    /// What was accepted, with the tick before which it was carried out.
+    accepted: VecDeque<(u32, Command)>,
+    /// Ticks before which the firmware heard the host.
+    heard: VecDeque<u32>,
+    pub(super) history: Vec<Tick<f32>>,
+}
+
+impl Comparison {
+    /// One more axis, its emulated arm at 0.05, 0.1, … turns.
+    pub(super) fn add(&mut self, replica: Replica) {
+        let hub = Angle { turns: 0, part: 0.05 * (1 + self.axes.len()) as f32 };
+        let shaft = replica.train().mapping().to_motor(hub);
+        let drive = Drive::new(replica.node(), shaft.in_turns() as f32);
+        let (accepted, heard) = (VecDeque::new(), VecDeque::new());
+        self.axes.push(Axis { replica, drive, accepted, heard, history: Vec::new() });
+    }
+
+    /// There are so many axes.
+    pub(super) fn expect(&mut self, axes: usize) {
+        if self.ticks.len() < axes {
+            self.ticks.resize_with(axes, VecDeque::new);
+        }
+    }
+
+    /// Number of axes that the firmware has.
+    pub(super) fn expected(&self) -> usize {
+        self.ticks.len()
+    }
+
+    pub(super) fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    pub(super) fn next(&self) -> u32 {
+        self.next
+    }
+
+    pub(super) fn equal(&self) -> [usize; 2] {
+        self.equal
+    }
+
+    /// The firmware has accepted a command, before tick `tick`.
+    pub(super) fn accept(&mut self, axis: u8, tick: u32, command: Command) {
+        if let Some(axis) = self.axes.get_mut(usize::from(axis)) {
+            axis.accepted.push_back((tick, command));
+        }
+    }
+
+    /// The firmware has heard the host, before tick `tick`.
+    pub(super) fn heard(&mut self, tick: u32) {
+        for axis in &mut self.axes {
+            axis.heard.push_back(tick);
+        }
+    }
+
+    /// A setpoint has come.
+    pub(super) fn push(&mut self, axis: u8, tick: Tick<f32>, cause: Option<Cause>) {
+        self.expect(usize::from(axis) + 1);
+        self.ticks[usize::from(axis)].push_back((tick, cause));
+    }
+
+    /// Whether all axes have sent tick `number`.
+    pub(super) fn has(&self, number: u32) -> bool {
+        self.ticks.iter().all(|queue| queue.back().is_some_and(|(tick, _)| tick.number >= number))
+    }
+
+    /// Compares every tick that all axes have made.
+    pub(super) fn compare(&mut self, machine: &mut Machine) -> Result<(), Error> {
+        if !machine.is_emulated() {
+            self.join();
+        }
+        while self.ticks.iter().all(|queue| !queue.is_empty()) {
+            for axis in 0..self.axes.len() {
+                let Some((tick, cause)) = self.ticks[axis].pop_front() else { continue };
+                if tick.number != self.next {
+                    let (number, next) = (tick.number, self.next);
+                    return Err(Error::new(format_args!(
+                        "axis {axis}: tick {number} came where {next} was due"
+                    )));
+                }
+                self.compare_one(machine, axis, &tick, cause)?;
+            }
+            self.next += 1;
+        }
+        Ok(())
+    }
+
+    /// A board has been running before: begins with the tick that has come first.
+    fn join(&mut self) {
+        let first =
+            self.ticks.iter().filter_map(|queue| queue.front()).map(|(tick, _)| tick.number);
+        if let (0, Some(first)) = (self.equal[0], first.max()) {
+            for queue in &mut self.ticks {
+                queue.retain(|(tick, _)| tick.number >= first);
+            }
+            self.next = first;
+        }
+    }
+
+    fn compare_one(
+        &mut self,
+        machine: &mut Machine,
+        number: usize,
+        tick: &Tick<f32>,
+        cause: Option<Cause>,
+    ) -> Result<(), Error> {
+        let emulated = machine.is_emulated();
+        let axis = &mut self.axes[number];
+        while axis.heard.pop_front_if(|heard| *heard <= tick.number).is_some() {
+            axis.replica.heard();
+        }
+        while let Some((_, command)) = axis.accepted.pop_front_if(|(at, _)| *at <= tick.number) {
+            // What the host cannot measure it takes from the setpoint that shows it.
+            let shown = axis.replica.train().mapping().to_motor(tick.setpoint.angle);
+            let shaft = if emulated { axis.drive.shaft() } else { shown };
+            axis.replica.apply(&command, shaft)?;
+        }
+        if !emulated && let (Some(cause), Mode::Enabled) = (cause, axis.replica.mode()) {
+            axis.replica.stop(cause);
+        }
+        let (ours, our_cause) = axis.replica.step();
+        let ours = Tick { number: tick.number, ..ours };
+        let report = |tick, cause| Report::Tick { axis: number as u8, tick, cause };
+        let theirs = encoded(&report(*tick, cause))?;
+        // Before it is enabled, a board's axis stands where the host does not know.
+        let comparable = emulated || tick.mode != Mode::Disabled;
+        if comparable && theirs != encoded(&report(ours, our_cause))? {
+            return Err(Error::new(format_args!(
+                "axis {number}, tick {}: the firmware's setpoint is not the host's: {:?}, {:?} \
+                 against {:?}, {:?}",
+                tick.number, tick, cause, ours, our_cause
+            )));
+        }
+        axis.history.push(*tick);
+        self.equal[0] += 1;
+        if emulated { self.compare_frames(machine, number, tick) } else { Ok(()) }
+    }
+
+    /// The drive frames of a tick: the setpoint, and the switch where the mode has changed.
+    fn compare_frames(
+        &mut self,
+        machine: &mut Machine,
+        number: usize,
+        tick: &Tick<f32>,
+    ) -> Result<(), Error> {
+        let (demand, switched) = self.axes[number].replica.told(tick);
+        let node = self.axes[number].replica.node();
+        let position = demand.and_then(|demand| node.set_input_pos::<ClassicFrame>(&demand));
+        let switch = switched.and_then(|on| node.set_axis_state::<ClassicFrame>(on));
+        let stamp = (u32::from(Sequence(tick.number as u16).0) * 10 % 60_000) as u16;
+        for ours in position.map(|encoded| encoded.payload).into_iter().chain(switch) {
+            let theirs = self.next_frame(machine)?;
+            if theirs != (ours, stamp) {
+                return Err(Error::new(format_args!(
+                    "axis {number}, tick {}: the frame on the bus is not the host's: {theirs:?} \
+                     against {:?}",
+                    tick.number,
+                    (ours, stamp)
+                )));
+            }
+            self.axes[number].drive.hear(&theirs.0);
+            self.equal[1] += 1;
+        }
+        Ok(())
+    }
+
+    fn next_frame(&mut self, machine: &mut Machine) -> Result<(ClassicFrame, u16), Error> {
+        for _ in 0..500 {
+            if let Some(frame) = self.frames.pop_front() {
+                return Ok(frame);
+            }
+            for byte in machine.receive_from_bus()? {
+                if let Some(line) = self.bus.push(byte) {
+                    let text = String::from_utf8_lossy(line).into_owned();
+                    let frame = slcan::decode(line);
+                    let frame = frame
+                        .ok_or_else(|| Error::new(format_args!("bus: \"{text}\" is no frame")))?;
+                    self.frames.push_back(frame);
+                }
+            }
+        }
+        Err(Error::new("bus: no frame for 10 s"))
+    }
+}
+
+/// The report's bytes: equal bytes are equal bits.
+fn encoded(report: &Report<'_>) -> Result<Vec<u8>, Error> {
+    let mut bytes = [0; frame::MAX];
+    let bytes = frame::encode(report, &mut bytes);
+    bytes.map(<[u8]>::to_vec).map_err(|error| Error::new(format_args!("report: {error:?}")))
+}

@@ -1,0 +1,56 @@
+//! The drives on the emulated bus: they follow at once, and say where they are.
+
+use stillbeam::Angle;
+use stillbeam::drive::ClassicFrame;
+use stillbeam::drive::odrive::{EncoderEstimates, Node};
+use stillbeam_protocol::slcan;
+
+/// An ODrive whose shaft is where it was last told to be.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive {
+    node: Node,
+    /// Turns.
+    position: f32,
+    /// Turns/s.
+    velocity: f32,
+    /// Closed-loop control.
+    on: bool,
+}
+
+impl Drive {
+    /// Off, its shaft at `position` turns.
+    pub fn new(node: Node, position: f32) -> Self {
+        Self { node, position, velocity: 0.0, on: false }
+    }
+
+    /// Takes a frame from the bus, if it is this drive's.
+    pub fn hear(&mut self, frame: &ClassicFrame) {
+        if let Some(on) = self.node.axis_state(frame) {
+            self.on = on;
+        }
+        if let Some(demand) = self.node.demand(frame) {
+            self.position = demand.position.in_turns() as f32;
+            self.velocity = demand.velocity;
+        }
+    }
+
+    /// Where the shaft is, as it says on the bus.
+    pub fn estimates(&self) -> Vec<u8> {
+        let velocity = if self.on { self.velocity } else { 0.0 };
+        let estimates = EncoderEstimates { position: self.position, velocity };
+        self.node
+            .estimates_frame(&estimates)
+            .map(|frame| slcan::encode(&frame, 0).bytes().to_vec())
+            .unwrap_or_default()
+    }
+
+    /// Whether it is in closed-loop control.
+    pub fn is_on(&self) -> bool {
+        self.on
+    }
+
+    /// The shaft as the firmware understands it.
+    pub fn shaft(&self) -> Angle<f32> {
+        Angle { turns: 0, part: 0.0 }.plus(self.position)
+    }
+}

@@ -1,0 +1,22 @@
+//! A conversation with the firmware: in QEMU, in lock-step, or on a board behind a serial port.
+//!
+//! A [`Machine`] carries bytes, a [`Session`] requests and setpoints; the host runs every axis
+//! beside it ([`Replica`]) and compares each setpoint and drive frame, bit for bit, as it comes.
+//! [`Step`]s are what a user asks for, [`page()`] draws what came back.
+
+mod comparison;
+mod drive;
+mod emulator;
+mod log;
+mod machine;
+mod page;
+mod replica;
+mod script;
+mod session;
+
+pub use emulator::Emulator;
+pub use machine::Machine;
+pub use page::page;
+pub use replica::Replica;
+pub use script::{DEMONSTRATION, Step, converse};
+pub use session::{Answer, Session};

@@ -1,0 +1,144 @@
+//! An axis on the host, from what the firmware says it is.
+
+use stillbeam::axis::{Axis, Cause, Mode, Policy, Tick};
+use stillbeam::beam::OneElement;
+use stillbeam::drive::odrive::Node;
+use stillbeam::motor::{Demand, Drivetrain};
+use stillbeam::stepper::Newmark;
+use stillbeam::{Angle, Move, Payload, Scene};
+use stillbeam_protocol::{Command, Description};
+
+use crate::error::Error;
+
+type Stepper = Newmark<f32, 2, 2>;
+
+/// The method that this host can run along.
+const METHOD: &str = "newmark-1";
+
+/// The same axis with the same code, on this machine. Its queue is longer, so that what the firmware
+/// accepted is never refused here.
+pub struct Replica {
+    axis: Axis<Stepper, 64>,
+    train: Drivetrain<f32>,
+    scene: Scene,
+    tick: f64,
+    node: Node,
+    /// Whether the drive was on at the last tick.
+    on: bool,
+}
+
+impl Replica {
+    /// The axis as described. `patient`: the host does not know when the firmware hears it, and takes
+    /// its word for a lost link.
+    ///
+    /// # Errors
+    /// The firmware runs another method, or says what no axis can be.
+    pub fn new(description: &Description<'_>, patient: bool) -> Result<Self, Error> {
+        if description.method != METHOD {
+            let method = description.method;
+            return Err(Error::new(format_args!(
+                "method = \"{method}\" in the firmware: accepted is \"{METHOD}\""
+            )));
+        }
+        let Description { scene, tick, policy, joint, direction, zero, node, .. } = *description;
+        let policy = if patient { Policy { patience: 0, ..policy } } else { policy };
+        let axis = Axis::new(stepper(&scene, tick)?, Angle { turns: 0, part: 0.0 }, policy)?;
+        let mut train = Drivetrain::new(&joint, direction, 0.0)?;
+        // To the bit, which the zero in turns need not be.
+        train.home(zero, Angle { turns: 0, part: 0.0 });
+        Ok(Self { axis, train, scene, tick, node: Node::new(node)?, on: false })
+    }
+
+    /// Carries out what the firmware has accepted.
+    ///
+    /// # Errors
+    /// The host's axis refuses it: the two are not in the same state.
+    pub fn apply(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Error> {
+        match *command {
+            Command::Enable => self.axis.enable(self.train.mapping().to_link(shaft)),
+            Command::Disable => {
+                self.axis.disable();
+                Ok(())
+            }
+            Command::Stop => {
+                self.axis.stop(Cause::Requested);
+                Ok(())
+            }
+            Command::Move(motion) => return self.follow(&motion),
+            Command::Payload(payload) => return self.reload(payload),
+            Command::Home(angle) => {
+                self.train.home(shaft, Angle::from_radians(angle).cast());
+                Ok(())
+            }
+            Command::Heartbeat | Command::Describe | Command::Status => Ok(()),
+        }
+        .map_err(apart)
+    }
+
+    fn follow(&mut self, motion: &Move) -> Result<(), Error> {
+        let planned = self.axis.departure().map_err(apart)?.plan(motion)?;
+        self.axis.take(&planned).map(drop).map_err(apart)
+    }
+
+    fn reload(&mut self, payload: Payload) -> Result<(), Error> {
+        self.scene.payload = payload;
+        self.axis.replace(stepper(&self.scene, self.tick)?).map_err(apart)
+    }
+
+    /// A word from the host was heard.
+    pub fn heard(&mut self) {
+        self.axis.heard();
+    }
+
+    /// Takes the firmware's word for a stop that the host cannot foresee.
+    pub fn stop(&mut self, cause: Cause) {
+        self.axis.stop(cause);
+    }
+
+    /// The next tick, with why it stopped.
+    pub fn step(&mut self) -> (Tick<f32>, Option<Cause>) {
+        let tick = self.axis.tick();
+        (tick, self.axis.cause())
+    }
+
+    /// What the drive is told at a tick: the demand while it is on, and whether it is switched.
+    pub fn told(&mut self, tick: &Tick<f32>) -> (Option<Demand<f32>>, Option<bool>) {
+        let on = tick.mode != Mode::Disabled;
+        let switched = (on != self.on).then_some(on);
+        self.on = on;
+        (on.then(|| self.train.demand(&tick.setpoint)), switched)
+    }
+
+    /// The mode.
+    pub fn mode(&self) -> Mode {
+        self.axis.mode()
+    }
+
+    /// At rest, no move waiting.
+    pub fn rests(&self) -> bool {
+        self.axis.rests()
+    }
+
+    /// The drive's node.
+    pub fn node(&self) -> Node {
+        self.node
+    }
+
+    /// h, s.
+    pub fn tick(&self) -> f64 {
+        self.tick
+    }
+
+    /// Link to motor.
+    pub fn train(&self) -> &Drivetrain<f32> {
+        &self.train
+    }
+}
+
+fn stepper(scene: &Scene, tick: f64) -> Result<Stepper, Error> {
+    Ok(Newmark::new(&OneElement::consistent(scene)?, tick)?)
+}
+
+fn apart(refused: stillbeam::axis::Refused) -> Error {
+    Error::new(format_args!("the firmware accepts what the host's axis refuses: {refused:?}"))
+}

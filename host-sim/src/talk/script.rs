@@ -1,0 +1,206 @@
+//! What a user asks of the firmware, one step a word group.
+
+use std::fmt;
+use std::str::FromStr;
+
+use stillbeam::{Move, Payload, Profile};
+use stillbeam_protocol::Command;
+
+use super::{Answer, Session};
+use crate::error::Error;
+
+/// One step of a conversation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// A request to an axis.
+    Ask(u8, Command),
+    /// Go on for a time, s.
+    Wait(f64),
+    /// As wait, without a word to the firmware.
+    Silence(f64),
+    /// Go on until every axis rests.
+    Rest,
+}
+
+/// Every part of the policy once: both axes move, one is stopped on its way, one takes up a payload,
+/// one is asked too much, the link is lost, the drives are switched off.
+pub const DEMONSTRATION: [&str; 20] = [
+    "enable 0",
+    "enable 1",
+    "move 0 quintic 1.7 1.57",
+    "move 1 s-curve 1.0 -0.9",
+    "move 0 cubic 2.0 -0.3",
+    "rest",
+    "payload 1 0.08",
+    "move 1 cycloid 0.8 0.6",
+    "move 0 trapezoid 1.8 1.2",
+    "wait 0.9",
+    "stop 0",
+    "rest",
+    "move 0 cubic 0.5 0",
+    "enable 0",
+    "move 0 cubic 0.1 3",
+    "spin 1 0.5 4",
+    "silence 1.3",
+    "disable 0",
+    "disable 1",
+    "status 0",
+];
+
+/// The words that a step may be.
+const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, spin A DURATION RATE, \
+     dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence \
+     SECONDS, rest";
+
+impl FromStr for Step {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let mut words = text.split_whitespace();
+        let step = match words.next().unwrap_or("") {
+            "rest" => Some(Self::Rest),
+            "wait" => number(words.next()).map(Self::Wait),
+            "silence" => number(words.next()).map(Self::Silence),
+            verb => {
+                let axis = words.next().and_then(|word| word.parse().ok());
+                axis.zip(command(verb, &mut words)).map(|(axis, command)| Self::Ask(axis, command))
+            }
+        };
+        step.filter(|_| words.next().is_none())
+            .ok_or_else(|| Error::new(format_args!("step = \"{text}\": accepted is {ACCEPTED}")))
+    }
+}
+
+fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<Command> {
+    Some(match verb {
+        "enable" => Command::Enable,
+        "disable" => Command::Disable,
+        "stop" => Command::Stop,
+        "status" => Command::Status,
+        "home" => Command::Home(number(words.next())?),
+        "move" => {
+            let profile = Profile::named(words.next()?)?;
+            let (duration, to) = (number(words.next())?, number(words.next())?);
+            Command::Move(Move::To { profile, duration, to })
+        }
+        "spin" => {
+            let (duration, rate) = (number(words.next())?, number(words.next())?);
+            Command::Move(Move::SpinUp { duration, rate })
+        }
+        "dwell" => Command::Move(Move::Dwell { duration: number(words.next())? }),
+        "payload" => {
+            let mass = number(words.next())?;
+            let inertia = words.next().map_or(Some(0.0), |word| number(Some(word)))?;
+            Command::Payload(Payload { mass, inertia })
+        }
+        _ => return None,
+    })
+}
+
+/// Any number; what it may be is the firmware's to say. Times of our own are checked when they pass.
+fn number(word: Option<&str>) -> Option<f64> {
+    word?.parse().ok()
+}
+
+impl Step {
+    /// Takes the step and says what came of it.
+    ///
+    /// # Errors
+    /// The firmware is gone, or does otherwise than the host. A refusal is none.
+    pub fn take(&self, session: &mut Session) -> Result<String, Error> {
+        match *self {
+            Self::Ask(axis, command) => session.ask(axis, command).map(|answer| said(&answer)),
+            Self::Wait(seconds) => {
+                session.wait(ticks(seconds, session)?)?;
+                Ok(String::new())
+            }
+            Self::Silence(seconds) => {
+                session.keep_silent(ticks(seconds, session)?)?;
+                Ok(modes(session))
+            }
+            Self::Rest => {
+                session.rest()?;
+                Ok(modes(session))
+            }
+        }
+    }
+}
+
+/// Takes steps one by one and hands out what came of each, line by line: when it began, what was
+/// asked, the answer; below it what the firmware logged.
+///
+/// # Errors
+/// The first word group that is no step, before any is taken; else as [`Step::take`].
+pub fn converse(
+    session: &mut Session,
+    steps: &[&str],
+    print: &mut dyn FnMut(&str),
+) -> Result<(), Error> {
+    let parsed: Vec<Step> = steps.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
+    print(&format!("{} axes, a tick of {} ms", session.axes(), 1e3 * session.tick()));
+    for (text, step) in steps.iter().zip(parsed) {
+        let begin = f64::from(session.now()) * session.tick();
+        let said = step.take(session)?;
+        print(format!("{begin:5.2} s  {text:<24} {said}").trim_end());
+        logged(session, print);
+    }
+    session.wait(1)?;
+    logged(session, print);
+    let [setpoints, frames] = session.compared();
+    let what = format!("{setpoints} setpoints and {frames} drive frames");
+    print(&format!("{what}, all equal to the host's to the bit"));
+    Ok(())
+}
+
+/// Prints what the firmware has logged.
+fn logged(session: &mut Session, print: &mut dyn FnMut(&str)) {
+    let h = session.tick();
+    for (made, line) in session.log() {
+        print(format!("{:5.2} s  | {line}", f64::from(made) * h).trim_end());
+    }
+}
+
+fn ticks(seconds: f64, session: &Session) -> Result<u32, Error> {
+    if (0.0..=3600.0).contains(&seconds) {
+        Ok((seconds / session.tick()).round() as u32)
+    } else {
+        Err(Error::new(format_args!("wait = {seconds} s: accepted is 0 to 3600 s")))
+    }
+}
+
+fn said(answer: &Answer) -> String {
+    match answer {
+        Answer::Accepted(tick) => format!("accepted before tick {tick}"),
+        Answer::Refused(why) => format!("refused: {why}"),
+        Answer::Status(status) => format!(
+            "{:?}; a tick costs {} instructions, {} at worst; {} us late at most, {} missed, {} \
+             dropped, {} garbled; stack {} bytes",
+            status.mode,
+            status.cost,
+            status.worst,
+            status.late,
+            status.missed,
+            status.dropped,
+            status.garbled,
+            status.stack
+        ),
+    }
+}
+
+fn modes(session: &Session) -> String {
+    let modes = (0..session.axes()).filter_map(|axis| {
+        let replica = session.replica(axis)?;
+        let angle = session.history(axis).last()?.setpoint.angle.radians();
+        Some(format!("axis {axis} {} at {angle:.4} rad", Mode(replica)))
+    });
+    modes.collect::<Vec<_>>().join(", ")
+}
+
+/// Mode in lower case.
+struct Mode<'a>(&'a super::Replica);
+
+impl fmt::Display for Mode<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&format!("{:?}", self.0.mode()).to_lowercase())
+    }
+}

@@ -1,0 +1,270 @@
+//! Requests and answers, tick by tick, with everything that comes back compared.
+
+use std::collections::VecDeque;
+
+use stillbeam::axis::Tick;
+use stillbeam_protocol::frame::{self, Splitter, decode};
+use stillbeam_protocol::{Command, Report, Request, Status};
+
+use super::comparison::Comparison;
+use super::{Machine, Replica};
+use crate::error::Error;
+
+/// Ticks between two heartbeats.
+const HEARTBEAT: u32 = 10;
+
+/// The firmware's answer to a request.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// Carried out before the tick of that number.
+    Accepted(u32),
+    /// Refused, and why.
+    Refused(String),
+    /// How it is.
+    Status(Status),
+}
+
+/// A conversation.
+pub struct Session {
+    machine: Machine,
+    link: Splitter,
+    sequence: u16,
+    /// Sequence numbers of requests that are not answered.
+    open: VecDeque<u16>,
+    answers: VecDeque<(u16, Answer)>,
+    comparison: Comparison,
+    /// Number of the next tick to be made, where time is granted.
+    upcoming: u32,
+    silent: bool,
+}
+
+impl Session {
+    /// Asks every axis what it is. The emulated arms stand at 0.05, 0.1, … turns.
+    ///
+    /// # Errors
+    /// The firmware does not answer, or is none that this host can run along with.
+    pub fn begin(machine: Machine) -> Result<Self, Error> {
+        let mut session = Self {
+            machine,
+            link: Splitter::new(),
+            sequence: 0,
+            open: VecDeque::new(),
+            answers: VecDeque::new(),
+            comparison: Comparison::default(),
+            // The first tick needs no grant.
+            upcoming: 1,
+            silent: false,
+        };
+        let mut axis = 0;
+        let mut axes = 1;
+        while axis < axes {
+            session.send(axis, Command::Describe)?;
+            axes = session.wait_for_description(axis)?;
+            axis += 1;
+        }
+        // The drives say where they are.
+        session.wait(1)?;
+        Ok(session)
+    }
+
+    /// Sends a request and goes on until it is answered.
+    ///
+    /// # Errors
+    /// The firmware is gone, or does otherwise than the host.
+    pub fn ask(&mut self, axis: u8, command: Command) -> Result<Answer, Error> {
+        let sequence = self.send(axis, command)?;
+        while self.open.contains(&sequence) {
+            self.exchange()?;
+        }
+        let place = self.answers.iter().position(|(of, _)| *of == sequence);
+        let (_, answer) = place
+            .and_then(|place| self.answers.remove(place))
+            .ok_or_else(|| Error::new("firmware: an answer without content"))?;
+        if let Answer::Accepted(tick) = answer {
+            self.comparison.accept(axis, tick, command);
+        }
+        self.comparison.compare(&mut self.machine)?;
+        Ok(answer)
+    }
+
+    /// Goes on for so many ticks, heard by the firmware.
+    ///
+    /// # Errors
+    /// As [`Session::ask`].
+    pub fn wait(&mut self, ticks: u32) -> Result<(), Error> {
+        let end = self.comparison.next().saturating_add(ticks);
+        while self.comparison.next() < end {
+            if !self.silent
+                && self.open.is_empty()
+                && self.comparison.next().is_multiple_of(HEARTBEAT)
+            {
+                self.send(0, Command::Heartbeat)?;
+            }
+            self.exchange()?;
+            self.comparison.compare(&mut self.machine)?;
+            self.answers.clear();
+        }
+        Ok(())
+    }
+
+    /// As [`Session::wait`], without a word.
+    ///
+    /// # Errors
+    /// As [`Session::ask`].
+    pub fn keep_silent(&mut self, ticks: u32) -> Result<(), Error> {
+        self.silent = true;
+        let outcome = self.wait(ticks);
+        self.silent = false;
+        outcome
+    }
+
+    /// Goes on until every axis rests.
+    ///
+    /// # Errors
+    /// As [`Session::ask`], or no rest within a minute.
+    pub fn rest(&mut self) -> Result<(), Error> {
+        for _ in 0..6000 {
+            if self.comparison.axes().iter().all(|axis| axis.replica.rests()) {
+                return Ok(());
+            }
+            self.wait(1)?;
+        }
+        Err(Error::new("rest: an axis still turns after 6000 ticks; accepted is a spin to rate 0"))
+    }
+
+    /// Sends anything at all to the firmware, as a bad line would.
+    ///
+    /// # Errors
+    /// The line is broken.
+    pub fn disturb(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.machine.send(bytes)
+    }
+
+    /// Number of axes.
+    pub fn axes(&self) -> u8 {
+        self.comparison.axes().len() as u8
+    }
+
+    /// The host's side of an axis.
+    pub fn replica(&self, axis: u8) -> Option<&Replica> {
+        self.comparison.axes().get(usize::from(axis)).map(|axis| &axis.replica)
+    }
+
+    /// Whether the emulated drive of an axis is on.
+    pub fn drive_is_on(&self, axis: u8) -> Option<bool> {
+        self.comparison.axes().get(usize::from(axis)).map(|axis| axis.drive.is_on())
+    }
+
+    /// Every tick of an axis so far.
+    pub fn history(&self, axis: u8) -> &[Tick<f32>] {
+        self.comparison.axes().get(usize::from(axis)).map_or(&[], |axis| &axis.history)
+    }
+
+    /// Setpoints and drive frames that were compared, all of them equal.
+    pub fn compared(&self) -> [usize; 2] {
+        self.comparison.equal()
+    }
+
+    /// Number of the next tick.
+    pub fn now(&self) -> u32 {
+        self.comparison.next()
+    }
+
+    /// h, s.
+    pub fn tick(&self) -> f64 {
+        self.comparison.axes().first().map_or(0.0, |axis| axis.replica.tick())
+    }
+
+    /// Lines that the firmware logged before the latest tick and since it was last asked, each with
+    /// the number of ticks made until then. What it logs after a tick's setpoints shows with the
+    /// next.
+    pub fn log(&mut self) -> Vec<(u32, String)> {
+        self.machine.log(self.comparison.next())
+    }
+
+    fn send(&mut self, axis: u8, command: Command) -> Result<u16, Error> {
+        self.sequence = self.sequence.wrapping_add(1);
+        let request = Request { sequence: self.sequence, axis, command };
+        let mut bytes = [0; frame::MAX];
+        let bytes = frame::encode(&request, &mut bytes)
+            .map_err(|error| Error::new(format_args!("request: {error:?}")))?;
+        self.machine.send(bytes)?;
+        self.open.push_back(self.sequence);
+        Ok(self.sequence)
+    }
+
+    /// One more tick, and all that comes with it.
+    fn exchange(&mut self) -> Result<(), Error> {
+        if !self.machine.is_emulated() {
+            return self.take_in();
+        }
+        for axis in self.comparison.axes() {
+            self.machine.send_to_bus(&axis.drive.estimates());
+        }
+        let all_sent = self.machine.grant()?;
+        if all_sent && !self.open.is_empty() {
+            self.comparison.heard(self.upcoming);
+        }
+        // Answers come before the tick that was granted.
+        while (all_sent && !self.open.is_empty()) || !self.comparison.has(self.upcoming) {
+            self.take_in()?;
+        }
+        self.upcoming += 1;
+        Ok(())
+    }
+
+    fn wait_for_description(&mut self, axis: u8) -> Result<u8, Error> {
+        self.machine.grant()?;
+        self.upcoming += 1;
+        while self.comparison.axes().len() <= usize::from(axis) {
+            self.take_in()?;
+        }
+        Ok(self.comparison.expected() as u8)
+    }
+
+    /// Takes in what has come over the link.
+    fn take_in(&mut self) -> Result<(), Error> {
+        for byte in self.machine.receive()? {
+            let Some(frame) = self.link.push(byte) else { continue };
+            let mut bytes = frame.map(|frame| frame.to_vec()).unwrap_or_default();
+            match decode::<Report<'_>>(&mut bytes) {
+                Ok(report) => self.sort(&report)?,
+                // A board's line may begin in the middle of a frame.
+                Err(_) if self.comparison.axes().is_empty() => {}
+                Err(error) => {
+                    return Err(Error::new(format_args!(
+                        "link: a frame came in garbled, {error:?}"
+                    )));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn sort(&mut self, report: &Report<'_>) -> Result<(), Error> {
+        let (sequence, answer) = match *report {
+            Report::Tick { axis, tick, cause } => {
+                self.comparison.push(axis, tick, cause);
+                return Ok(());
+            }
+            Report::Description { sequence, description } => {
+                self.comparison.expect(description.axes.into());
+                let patient = !self.machine.is_emulated();
+                self.comparison.add(Replica::new(&description, patient)?);
+                self.open.retain(|open| *open != sequence);
+                return Ok(());
+            }
+            Report::Accepted { sequence, tick } => (sequence, Answer::Accepted(tick)),
+            Report::Refused { sequence, refusal } => {
+                (sequence, Answer::Refused(refusal.to_string()))
+            }
+            Report::Status { sequence, status } => (sequence, Answer::Status(status)),
+        };
+        let known = self.open.contains(&sequence);
+        self.open.retain(|open| *open != sequence);
+        if known {
+            self.answers.push_back((sequence, answer));
+        }
+        Ok(())
+    }
+}

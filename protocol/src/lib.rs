@@ -1,0 +1,21 @@
+#![no_std]
+#![forbid(unsafe_code)]
+//! What a host and the firmware say to each other over a serial line.
+//!
+//! A [`Request`] or a [`Report`] in [postcard](https://postcard.jamesmunns.com/wire-format), its
+//! CRC-32 behind it, both COBS-encoded, a zero byte at the end: [`frame`]. A frame has at most
+//! [`frame::MAX`] bytes; what is garbled is dropped whole and decoding never panics.
+//!
+//! The firmware answers every request with one report that carries the request's sequence number,
+//! in the order in which they came. In between it sends, for every tick and axis, the setpoint
+//! ([`Report::Tick`]).
+//!
+//! [`slcan`] is the text form of CAN frames, for a bus that is captured.
+
+pub mod frame;
+mod message;
+mod refusal;
+pub mod slcan;
+
+pub use message::{Command, Description, Report, Request, Status};
+pub use refusal::Refusal;

@@ -1,0 +1,141 @@
+//! Requests and reports.
+
+use serde::{Deserialize, Serialize};
+use stillbeam::axis::{Cause, Mode, Policy, Tick};
+use stillbeam::motor::{Direction, Joint};
+use stillbeam::{Angle, Move, Payload, Scene};
+
+use crate::Refusal;
+
+/// From the host.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Request {
+    /// Chosen by the host; comes back in the answer.
+    pub sequence: u16,
+    /// Which axis, from 0.
+    pub axis: u8,
+    /// What to do.
+    pub command: Command,
+}
+
+/// What an axis can be asked.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Command {
+    /// Nothing. Any request, to any axis, shows all of them that the host is alive.
+    Heartbeat,
+    /// Begin at the measured angle; after a stop, take moves again.
+    Enable,
+    /// Stop, then off.
+    Disable,
+    /// Brake along the path, then hold.
+    Stop,
+    /// One more move behind the others.
+    Move(Move),
+    /// The payload is another; at rest only.
+    Payload(Payload),
+    /// The angle where the arm stands, rad, is this one from now on; disabled only.
+    Home(f64),
+    /// Say what the axis is.
+    Describe,
+    /// Say how it is.
+    Status,
+}
+
+/// From the firmware.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Report<'a> {
+    /// The request is carried out, between two ticks. A move begins with this tick, or behind the
+    /// moves before it.
+    Accepted {
+        /// The request's.
+        sequence: u16,
+        /// Number of the tick after it.
+        tick: u32,
+    },
+    /// The request changes nothing.
+    Refused {
+        /// The request's.
+        sequence: u16,
+        /// Why.
+        #[serde(borrow)]
+        refusal: Refusal<'a>,
+    },
+    /// Answer to [`Command::Describe`].
+    Description {
+        /// The request's.
+        sequence: u16,
+        /// What the axis is.
+        #[serde(borrow)]
+        description: Description<'a>,
+    },
+    /// Answer to [`Command::Status`].
+    Status {
+        /// The request's.
+        sequence: u16,
+        /// How it is.
+        status: Status,
+    },
+    /// A setpoint, as it goes to the drive.
+    Tick {
+        /// Which axis.
+        axis: u8,
+        /// Number, mode, setpoint.
+        tick: Tick<f32>,
+        /// Why the axis stopped, if it did.
+        cause: Option<Cause>,
+    },
+}
+
+/// All that a host needs to run the same axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Description<'a> {
+    /// Number of axes.
+    pub axes: u8,
+    /// The stepper, as in the list of methods, e.g. `newmark-1`.
+    pub method: &'a str,
+    /// h, s.
+    pub tick: f64,
+    /// The arm as it is now.
+    pub scene: Scene,
+    /// Limits and patience.
+    pub policy: Policy,
+    /// Gear and motor.
+    pub joint: Joint<f64>,
+    /// Which way the motor turns.
+    pub direction: Direction,
+    /// The shaft's angle where the hub's is 0.
+    pub zero: Angle<f32>,
+    /// The drive's node id.
+    pub node: u8,
+}
+
+/// How an axis and the firmware are.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Status {
+    /// The axis' mode.
+    pub mode: Mode,
+    /// Why it stopped, if it did.
+    pub cause: Option<Cause>,
+    /// Number of the next tick.
+    pub clock: u32,
+    /// Where the drive says the shaft is.
+    pub measured: Angle<f32>,
+    /// Cost of the latest tick of all axes, in the board's counts (instructions or cycles).
+    pub cost: u32,
+    /// Cost of the worst tick.
+    pub worst: u32,
+    /// Latest start of a tick after its time, µs.
+    pub late: u32,
+    /// Ticks that did not take place.
+    pub missed: u32,
+    /// Ticks that were not over when the next was due.
+    pub overruns: u32,
+    /// Setpoints that the drive or the host was too slow for.
+    pub dropped: u32,
+    /// Frames that came in garbled.
+    pub garbled: u32,
+    /// Values that did not fit the drive's format.
+    pub saturated: u32,
+    /// Deepest stack so far, bytes.
+    pub stack: u32,
+}

@@ -1,0 +1,116 @@
+//! Why a request is refused: the field, its value and what is accepted, without text formatting on
+//! the target.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+use stillbeam::axis::{Mode, Refused};
+use stillbeam::{Error, Rejected};
+
+/// A refusal. Displays as one line.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Refusal<'a> {
+    /// A value outside of what is accepted.
+    Range {
+        /// The field, e.g. `move.duration`, or the limit, e.g. `limits.rate`.
+        parameter: &'a str,
+        /// What was given or is needed.
+        value: f64,
+        /// Least accepted.
+        min: f64,
+        /// Greatest accepted.
+        max: f64,
+        /// Unit of all three.
+        unit: &'a str,
+    },
+    /// The move queue has not enough room.
+    Queue {
+        /// Segments that the move takes.
+        needed: u32,
+        /// Segments that are free.
+        free: u32,
+    },
+    /// Not in this mode.
+    Mode(Mode),
+    /// The hub turns, or moves wait.
+    NotAtRest,
+    /// The axis has stopped while the move was planned.
+    Stale,
+    /// The drive has not said where the shaft is.
+    NotMeasured,
+    /// There are only so many axes.
+    Axis(u8),
+}
+
+impl From<Error> for Refusal<'static> {
+    fn from(error: Error) -> Self {
+        let range =
+            |parameter, value, min, max, unit| Self::Range { parameter, value, min, max, unit };
+        match error {
+            Error::OutOfRange { parameter, value, min, max, unit } => {
+                range(parameter, value, min, max, unit)
+            }
+            Error::LimitExceeded { parameter, limit, needed, unit } => {
+                range(parameter, needed, 0.0, limit, unit)
+            }
+            Error::TooFast { rate, max } => range("move: peak rate", rate, 0.0, max, "rad/s"),
+            Error::NotAtRest { rate } => range("move: rate at its start", rate, 0.0, 0.0, "rad/s"),
+            Error::QueueFull { needed, free } => {
+                Self::Queue { needed: needed as u32, free: free as u32 }
+            }
+            Error::Buckles { gravity } => {
+                range("gravity.acceleration on this payload", gravity, 0.0, 0.0, "m/s^2")
+            }
+            Error::DegreesOfFreedom { given, needed } => {
+                let needed = needed as f64;
+                range("elements: degrees of freedom", given as f64, needed, needed, "")
+            }
+        }
+    }
+}
+
+impl From<Refused> for Refusal<'static> {
+    fn from(refused: Refused) -> Self {
+        match refused {
+            Refused::Mode(mode) => Self::Mode(mode),
+            Refused::NotAtRest => Self::NotAtRest,
+            Refused::Move(error) => error.into(),
+            Refused::Queue(Rejected::QueueFull { needed, free }) => {
+                Self::Queue { needed: needed as u32, free: free as u32 }
+            }
+            Refused::Queue(Rejected::Stale) => Self::Stale,
+        }
+    }
+}
+
+impl fmt::Display for Refusal<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Range { parameter, value, min, max, unit } => {
+                let space = if unit.is_empty() { "" } else { " " };
+                write!(
+                    f,
+                    "{parameter} = {value}{space}{unit}: accepted is {min} to {max}{space}{unit}"
+                )
+            }
+            Self::Queue { needed, free } => {
+                write!(f, "move takes {needed} segments of the queue: accepted is up to {free} now")
+            }
+            Self::Mode(mode) => {
+                let accepted = match mode {
+                    Mode::Disabled => "accepted after enable",
+                    Mode::Enabled => "accepted after disable",
+                    Mode::Stopping => "accepted once it is at rest",
+                    Mode::Stopped => "accepted after enable",
+                };
+                write!(f, "mode = {mode:?}: {accepted}")
+            }
+            Self::NotAtRest => write!(f, "hub = turning: accepted at rest with no move waiting"),
+            Self::Stale => write!(f, "move = planned before a stop: accepted when sent again"),
+            Self::NotMeasured => {
+                write!(f, "drive = silent: accepted once it has reported an encoder angle")
+            }
+            Self::Axis(axes) => write!(f, "axis: accepted is 0 to {}", axes.saturating_sub(1)),
+        }
+    }
+}

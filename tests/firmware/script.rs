@@ -1,0 +1,29 @@
+//! What a user may ask of the firmware in words.
+
+use stillbeam::{Move, Payload, Profile};
+use stillbeam_protocol::Command;
+use stillbeam_sim::talk::{DEMONSTRATION, Step};
+
+#[test]
+fn words_are_steps() {
+    let step = |text: &str| text.parse::<Step>().unwrap();
+    let profile = Profile::SCurve;
+    let motion = Move::To { profile, duration: 0.8, to: -1.5 };
+    assert_eq!(step(" move 1  s-curve 0.8 -1.5 "), Step::Ask(1, Command::Move(motion)));
+    let payload = Payload { mass: 0.05, inertia: 0.0 };
+    assert_eq!(step("payload 0 0.05"), Step::Ask(0, Command::Payload(payload)));
+    assert_eq!(step("wait 0.35"), Step::Wait(0.35));
+    assert_eq!(step("stop 3"), Step::Ask(3, Command::Stop));
+    for text in DEMONSTRATION {
+        step(text);
+    }
+}
+
+#[test]
+fn what_is_no_step_is_named_with_what_is_accepted() {
+    for bad in ["", "jump 0", "move", "move 0 cubic 1", "move x cubic 1 1", "stop 300", "rest 1"] {
+        let error = bad.parse::<Step>().unwrap_err().to_string();
+        assert!(error.starts_with(&format!("step = \"{bad}\": accepted is enable A,")), "{error}");
+        assert!(!error.contains('\n'));
+    }
+}

@@ -1,0 +1,199 @@
+//! The application in QEMU, in lock-step with the host: every setpoint and every drive frame is
+//! compared bit for bit. The board it is built for and has not run on.
+
+use std::path::Path;
+
+use stillbeam::axis::Mode;
+use stillbeam_protocol::{Command, Status};
+use stillbeam_sim::talk::{Answer, DEMONSTRATION, Machine, Session, Step};
+use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
+
+/// Whole application on the emulated board.
+const FLASH: u64 = 64 * 1024;
+const RAM: u64 = 16 * 1024;
+
+/// Instructions of a tick of 10 ms at 64 ns each.
+const TICK: u32 = 156_250;
+
+fn begin() -> Session {
+    let image = firmware::application("mps2").unwrap_or_else(|error| panic!("{error}"));
+    Machine::emulate(&image).and_then(Session::begin).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[track_caller]
+fn take(session: &mut Session, text: &str) -> String {
+    let step: Step = text.parse().unwrap_or_else(|error| panic!("{error}"));
+    step.take(session).unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+#[track_caller]
+fn status(session: &mut Session) -> Status {
+    match session.ask(0, Command::Status) {
+        Ok(Answer::Status(status)) => status,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The demonstration, what came of each step, and what was logged.
+fn demonstration() -> (Session, Vec<String>) {
+    let mut session = begin();
+    let mut lines = Vec::new();
+    for text in DEMONSTRATION {
+        lines.push(format!("{text}: {}", take(&mut session, text)));
+    }
+    (session, lines)
+}
+
+#[test]
+fn the_firmware_and_the_host_agree_to_the_bit_through_the_whole_policy() {
+    let (mut session, lines) = demonstration();
+    let [setpoints, frames] = session.compared();
+    assert!(setpoints > 800 && frames > 800, "{setpoints} setpoints, {frames} frames");
+    let outcome = |text: &str| {
+        let line = lines.iter().find(|line| line.starts_with(text));
+        line.unwrap_or_else(|| panic!("{text} in {lines:#?}"))
+    };
+    let refused = [
+        ("move 0 cubic 0.5 0", "mode = Stopped: accepted after enable"),
+        ("move 0 cubic 0.1 3", "accepted is 0 to 5 rad/s"),
+    ];
+    for (text, why) in refused {
+        assert!(outcome(text).contains("refused") && outcome(text).contains(why), "{lines:#?}");
+    }
+    let accepted = lines.iter().filter(|line| line.contains("accepted before tick")).count();
+    assert_eq!(accepted, 13, "{lines:#?}");
+    assert!(outcome("silence").contains("axis 1 stopped"), "{lines:#?}");
+
+    let log = session.log();
+    let logged = |words: &str| log.iter().any(|(_, line)| line.contains(words));
+    assert!(logged("instructions last") && logged("under 100"), "{log:#?}");
+    assert_eq!([session.drive_is_on(0), session.drive_is_on(1)], [Some(false); 2]);
+    for axis in 0..2 {
+        // Switched on where the drive said that it was.
+        let mut history = session.history(axis).iter();
+        let first = history.find(|tick| tick.mode == Mode::Enabled).expect("it was enabled");
+        let measured = 0.05 * f64::from(axis + 1);
+        assert_near("first angle", first.setpoint.angle.in_turns(), measured, 1e-6);
+    }
+    let status = status(&mut session);
+    let faults = [status.missed, status.overruns, status.dropped, status.garbled, status.saturated];
+    assert_eq!(faults, [0; 5], "{status:?}");
+    // A stop out of the tick included, and still far from its 10 ms.
+    assert!(status.worst < TICK / 20, "{status:?}");
+    assert!(status.late < 100, "no planning holds a tick up: {status:?}");
+}
+
+/// In virtual time nothing depends on how fast this machine is.
+#[test]
+fn two_runs_are_the_same_to_the_tick() {
+    let [(one, lines), (other, again)] = [demonstration(), demonstration()];
+    assert_eq!(lines, again);
+    assert_eq!(one.compared(), other.compared());
+    assert_eq!(one.history(1), other.history(1));
+}
+
+#[test]
+fn garbage_on_the_line_is_counted_and_changes_nothing() {
+    let mut session = begin();
+    take(&mut session, "enable 0");
+    take(&mut session, "move 0 quintic 0.8 1.2");
+    session.disturb(&[0xff; 90]).expect("the line takes anything");
+    session.disturb(&[0, 1, 2, 3, 0, 0, 9, 0]).expect("the line takes anything");
+    take(&mut session, "rest");
+    assert_eq!(status(&mut session).garbled, 3);
+    take(&mut session, "move 0 cubic 1.0 0.2");
+    take(&mut session, "rest");
+}
+
+#[test]
+fn an_axis_that_does_not_exist_is_refused() {
+    let mut session = begin();
+    assert_eq!(take(&mut session, "enable 2"), "refused: axis: accepted is 0 to 1");
+}
+
+/// Named angles: the arm stands still while its angle gets another name.
+#[test]
+fn homing_names_the_angle_and_moves_no_shaft() {
+    let mut session = begin();
+    assert!(take(&mut session, "home 0 0.5").contains("accepted"));
+    take(&mut session, "enable 0");
+    take(&mut session, "wait 0.1");
+    let last = session.history(0).last().expect("ticks").setpoint;
+    assert_near("angle", last.angle.radians(), 0.5, 1e-6);
+    assert!(take(&mut session, "home 0 0").contains("refused: mode = Enabled"));
+}
+
+#[test]
+fn the_application_keeps_its_budgets() {
+    let image = firmware::application("mps2").unwrap_or_else(|error| panic!("{error}"));
+    let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
+    let (mut session, _) = demonstration();
+    let stack = u64::from(status(&mut session).stack);
+    println!("{footprint:?}, stack {stack}");
+    assert!(footprint.flash <= FLASH, "{footprint:?}");
+    assert!(stack > 1000, "the paint was really there: {stack}");
+    // Statics grow up, the stack down, in 16 KiB: what is left between them is still painted.
+    assert!(footprint.ram + stack < RAM, "{footprint:?}, stack {stack}");
+}
+
+/// A stop may come out of any tick; no panic may.
+#[test]
+fn no_panic_is_reachable_from_an_axis_tick() {
+    let image = firmware::build("policy").unwrap_or_else(|error| panic!("{error}"));
+    let functions = image::functions(&image).unwrap_or_else(|error| panic!("{error}"));
+    // The ticks are really in there.
+    assert!(functions.iter().any(|name| name.contains("axis")), "{functions:#?}");
+    let error = firmware::build_with("policy", "STILLBEAM_FAULT", "panic").expect_err("a panic");
+    assert!(error.contains("panic-never"), "{error}");
+}
+
+/// Built and measured, not run: there is no such board here, and QEMU has none.
+#[test]
+fn the_nucleo_board_builds_and_fits() {
+    let image = firmware::application("nucleo-g474re").unwrap_or_else(|error| panic!("{error}"));
+    let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
+    println!("{footprint:?}");
+    assert!((20_000..80 * 1024).contains(&footprint.flash), "{footprint:?}");
+    assert!(footprint.ram < 16 * 1024, "{footprint:?}");
+}
+
+/// The page says what happens. Instruction counts and sizes may be off by what a change of the code
+/// makes until the page is written anew; everything else is as it stands there.
+#[test]
+fn the_page_is_what_the_firmware_does() {
+    let path = root().join("docs/firmware.md");
+    let page = std::fs::read_to_string(&path).expect("docs/firmware.md");
+    let blocks = firmware_page::blocks().unwrap_or_else(|error| panic!("{error}"));
+    let written = firmware_page::replace(&page, &blocks).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(without_counts(&page), without_counts(&written), "write it by the command it names");
+    for block in blocks {
+        assert!(page.contains(&format!("<!-- firmware: {} -->", block.name)), "{}", block.name);
+    }
+}
+
+/// Lines that hold counts of instructions or bytes, with every number as `#`.
+fn without_counts(page: &str) -> Vec<String> {
+    let counted = |line: &str| line.contains("instructions") || line.starts_with('|');
+    let masked = |line: &str| {
+        line.split(|c: char| c.is_ascii_digit())
+            .filter(|part| !part.is_empty())
+            .collect::<Vec<_>>()
+            .join("#")
+    };
+    page.lines().map(|line| if counted(line) { masked(line) } else { line.to_owned() }).collect()
+}
+
+#[test]
+fn a_missing_image_is_named_with_how_to_build_it() {
+    let Err(error) = Machine::emulate(Path::new("no-such-image")) else { panic!("it is missing") };
+    let error = error.to_string();
+    assert!(error.contains("no-such-image") && error.contains("--profile application"), "{error}");
+}
+
+/// The golden run has no report: it is not taken for the application.
+#[test]
+fn another_image_is_refused() {
+    let image = firmware::build("golden").unwrap_or_else(|error| panic!("{error}"));
+    let Err(error) = Machine::emulate(&image) else { panic!("it is not the application") };
+    assert!(error.to_string().contains("no defmt strings"), "{error}");
+}
