@@ -6,3 +6,4 @@ pub mod counter;
 pub mod exit;
 pub mod output;
 pub mod stack;
+mod vectors;
