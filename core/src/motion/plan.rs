@@ -204,16 +204,39 @@ fn lay_cubics<T: Scalar>(
 ) {
     let share = pieces.len() as u32;
     let length = T::from_u32(ticks) / T::from_u32(share);
+    let shares = |n: u32| T::from_u32(n) / T::from_u32(share);
     // Borders are multiples of a tick's share, counted in integers: at most 7 × 2²⁴ of them.
-    let (mut first, mut border) = (0, 0);
+    let (mut first, mut border, mut entry) = (0, 0, T::ZERO);
     for piece in pieces {
-        let next = (border + ticks).div_ceil(share);
-        if next > first {
-            let before = T::from_u32(first * share - border) / T::from_u32(share);
-            let shape = Shape::Cubic(piece.cubic.map(|c| T::from_f64(c) * T::from_f64(turn)));
-            let start = start.plus(piece.start * turn);
-            sink(&Segment::new(start, shape, length, before, next - first, tick));
+        let end = border + ticks;
+        let next = end.div_ceil(share);
+        let (before, after) = (shares(first * share - border), shares(next * share - end));
+        let shape = Shape::Cubic(piece.cubic.map(|c| T::from_f64(c) * T::from_f64(turn)));
+        let start = start.plus(piece.start * turn);
+        let mut segment = Segment::new(start, shape, length, before, next - first, tick);
+        let [begin, at_first, at_last] = segment.accelerations();
+        let landing = segment.landing();
+        if next == first {
+            entry += moment(T::ONE - before, T::ONE - after, begin, landing);
+        } else {
+            if before == T::ZERO {
+                entry = T::ZERO;
+            }
+            entry += moment(T::ONE - before, T::ONE, begin, at_first);
+            segment.enter(entry);
+            sink(&segment);
+            // The tick's parabola goes up to the left-hand value at the border.
+            let parabola = T::from_f64(1.0 / 12.0) * (at_last - landing);
+            entry = moment(T::ZERO, T::ONE - after, at_last, landing) - parabola;
         }
-        (first, border) = (next, border + ticks);
+        (first, border) = (next, end);
     }
+}
+
+/// `∫ (½ − x) θ̈ dx` over the part `a..b` of a tick `0..1`, in which θ̈ goes straight from `from` to
+/// `to`.
+fn moment<T: Scalar>(a: T, b: T, from: T, to: T) -> T {
+    let n = T::from_f64;
+    let length = b - a;
+    length * (n(0.25) * (T::ONE - a - b) * (from + to) - n(1.0 / 12.0) * length * (to - from))
 }

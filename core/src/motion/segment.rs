@@ -56,6 +56,9 @@ pub struct Segment<T> {
     acceleration_scale: T,
     /// θ̈ at `u = 1`, from the left.
     landing: T,
+    /// What the tick before the first tick needs to know of the border within it: see
+    /// [`Stepper::shift`](crate::Stepper::shift). Zero where the border is a tick.
+    entry: T,
     shape: Shape<T>,
 }
 
@@ -137,6 +140,25 @@ impl<T: Scalar> Segment<T> {
     /// θ̈ at the segment's end, from the left.
     pub(crate) fn landing(&self) -> T {
         self.landing
+    }
+
+    /// The moment of the border within the tick before, rad/s².
+    pub(crate) fn entry(&self) -> T {
+        self.entry
+    }
+
+    /// Gives the segment that moment.
+    pub(crate) fn enter(&mut self, entry: T) {
+        self.entry = entry;
+    }
+
+    /// θ̈ of a cubic at its beginning, at its first tick and at its last.
+    pub(crate) fn accelerations(&self) -> [T; 3] {
+        let Shape::Cubic([_, c2, c3]) = self.shape else { return [T::ZERO; 3] };
+        let scale = self.acceleration_scale;
+        let (middle, slope) = (c2 * scale, (T::TWO + T::ONE) * c3 * scale);
+        let last = self.offset + T::from_u32(self.count.saturating_sub(1)) * self.advance;
+        [-T::ONE, self.offset, last].map(|u| middle + slope * u)
     }
 
     /// The same segment, ending `count` ticks after its beginning.
@@ -246,6 +268,7 @@ impl<T: Scalar> Segment<T> {
             rate_scale,
             acceleration_scale,
             landing: T::HALF * landing * acceleration_scale,
+            entry: T::ZERO,
             shape,
         }
     }
@@ -262,6 +285,7 @@ impl<T: Scalar> Segment<T> {
             rate_scale: T::ZERO,
             acceleration_scale: T::ZERO,
             landing: T::ZERO,
+            entry: T::ZERO,
             shape: Shape::Cruise { rate: T::from_f64(rate), step },
         }
     }
@@ -298,6 +322,7 @@ impl Segment<f64> {
             rate_scale: f(self.rate_scale),
             acceleration_scale: f(self.acceleration_scale),
             landing: f(self.landing),
+            entry: f(self.entry),
             shape: match self.shape {
                 Shape::Cubic(c) => Shape::Cubic(c.map(f)),
                 Shape::Quintic(c) => Shape::Quintic(c.map(f)),
