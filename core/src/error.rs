@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::math::Scalar;
+
 /// A scene or a move that is not accepted.
 ///
 /// Each variant carries the parameter's full name as it stands in a scene file, the value that was
@@ -81,18 +83,19 @@ pub enum Error {
 }
 
 impl Error {
-    /// `value` if it lies in `min..=max`, else the error that names `parameter`.
-    pub(crate) fn check(
+    /// `value` if it lies in `min..=max`, compared in its own precision, else the error that names
+    /// `parameter`.
+    pub(crate) fn check<T: Scalar>(
         parameter: &'static str,
-        value: f64,
+        value: T,
         min: f64,
         max: f64,
         unit: &'static str,
-    ) -> Result<f64, Self> {
-        if (min..=max).contains(&value) {
+    ) -> Result<T, Self> {
+        if (T::from_f64(min)..=T::from_f64(max)).contains(&value) {
             Ok(value)
         } else {
-            Err(Self::OutOfRange { parameter, value, min, max, unit })
+            Err(Self::OutOfRange { parameter, value: value.to_f64(), min, max, unit })
         }
     }
 }

@@ -121,7 +121,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let outline = lay(motion, start, &self.limits, tick, &mut |segment| {
             needed += 1;
             // A full queue gives it back; told below.
-            let _ = self.queue.push_back(segment.cast());
+            let _ = self.queue.push_back(*segment);
         })?;
         let fits = if needed > free { Err(Error::QueueFull { needed, free }) } else { Ok(()) };
         if let Err(error) = fits.and(self.stepper.admit(&outline.peaks)) {
@@ -210,7 +210,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Where a move that is pushed now begins.
     fn next_start(&self) -> Start {
         if self.queue.is_empty() && self.holding {
-            let angle = self.current.hub(self.next_k()).angle;
+            let angle = self.current.angle(self.next_k());
             let angle = Angle { turns: angle.turns, part: angle.part.to_f64() };
             Start { angle, rate: self.end.rate }
         } else {
@@ -247,13 +247,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     #[cold]
     #[inline(never)]
     fn renewed(&self) -> Segment<S::Scalar> {
-        self.tail.moved(self.current.hub(self.k).angle)
+        self.tail.moved(self.current.angle(self.k))
     }
 }
 
 /// The end of a move, held for as long as ticks can be counted.
 fn hold<T: Scalar>(end: Start, tick: f64) -> Segment<T> {
-    Segment::cruise(end.angle, end.rate, u32::MAX, tick).cast()
+    Segment::cruise(end.angle, end.rate, u32::MAX, tick)
 }
 
 #[inline(always)]

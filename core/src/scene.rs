@@ -3,6 +3,7 @@
 
 use crate::Error;
 use crate::material::{Material, Strip};
+use crate::math::Scalar;
 
 /// An arm: a strip clamped to a motor hub, with a payload at its tip.
 ///
@@ -11,61 +12,64 @@ use crate::material::{Material, Strip};
 ///
 /// Fields are public so that a scene reads like its file; [`Scene::validate`] is called wherever a
 /// model is built from it.
+///
+/// A model computes in the precision of its scene. `f64` is for every model; `f32`, on a processor
+/// without a double-precision unit, makes the set-up of a small one a tenth as long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Scene {
+pub struct Scene<T = f64> {
     /// The flexible link.
-    pub link: Link,
+    pub link: Link<T>,
     /// The rigid hub.
-    pub hub: Hub,
+    pub hub: Hub<T>,
     /// The mass at the tip.
-    pub payload: Payload,
+    pub payload: Payload<T>,
     /// Rayleigh damping.
-    pub damping: Damping,
+    pub damping: Damping<T>,
     /// Gravity along global −Y, m/s²; 0 is a horizontal plane.
-    pub gravity: f64,
+    pub gravity: T,
 }
 
 /// A uniform link: cubic Bernoulli-Euler bending in the plane of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Link {
+pub struct Link<T = f64> {
     /// `L`, clamp to tip, m.
-    pub length: f64,
+    pub length: T,
     /// `m`, whole link, kg.
-    pub mass: f64,
+    pub mass: T,
     /// `EI`, N m².
-    pub bending_stiffness: f64,
+    pub bending_stiffness: T,
 }
 
 /// The motor hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Hub {
+pub struct Hub<T = f64> {
     /// `r`, motor axis to clamp, rigid, m.
-    pub radius: f64,
+    pub radius: T,
     /// `J_h` about the axis, kg m².
-    pub inertia: f64,
+    pub inertia: T,
 }
 
 /// The payload at the tip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Payload {
+pub struct Payload<T = f64> {
     /// `m_p`, kg.
-    pub mass: f64,
+    pub mass: T,
     /// `J_p` about the tip, kg m².
-    pub inertia: f64,
+    pub inertia: T,
 }
 
 /// Rayleigh damping `C = αM + βK`: α on absolute velocity, β on the deformation rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Damping {
+pub struct Damping<T = f64> {
     /// α, 1/s.
-    pub alpha: f64,
+    pub alpha: T,
     /// β, s.
-    pub beta: f64,
+    pub beta: T,
 }
 
 impl Link {
@@ -92,7 +96,9 @@ impl Link {
         }
         .validate()
     }
+}
 
+impl<T: Scalar> Link<T> {
     fn validate(self) -> Result<Self, Error> {
         Error::check("link.length", self.length, 1e-3, 1e3, "m")?;
         Error::check("link.mass", self.mass, 1e-7, 1e5, "kg")?;
@@ -102,14 +108,36 @@ impl Link {
 }
 
 impl Scene {
+    /// The scene rounded to another precision.
+    // Not inlined: the compiler would take the comparisons of `validate` back to f64, which costs
+    // 0.5 kB of code where that is soft.
+    #[inline(never)]
+    pub fn cast<T: Scalar>(&self) -> Scene<T> {
+        let f = T::from_f64;
+        let Self { link, hub, payload, damping, gravity } = *self;
+        Scene {
+            link: Link {
+                length: f(link.length),
+                mass: f(link.mass),
+                bending_stiffness: f(link.bending_stiffness),
+            },
+            hub: Hub { radius: f(hub.radius), inertia: f(hub.inertia) },
+            payload: Payload { mass: f(payload.mass), inertia: f(payload.inertia) },
+            damping: Damping { alpha: f(damping.alpha), beta: f(damping.beta) },
+            gravity: f(gravity),
+        }
+    }
+}
+
+impl<T: Scalar> Scene<T> {
     /// A bare link in the horizontal plane, clamped at the axis, undamped.
-    pub const fn new(link: Link) -> Self {
+    pub const fn new(link: Link<T>) -> Self {
         Self {
             link,
-            hub: Hub { radius: 0.0, inertia: 0.0 },
-            payload: Payload { mass: 0.0, inertia: 0.0 },
-            damping: Damping { alpha: 0.0, beta: 0.0 },
-            gravity: 0.0,
+            hub: Hub { radius: T::ZERO, inertia: T::ZERO },
+            payload: Payload { mass: T::ZERO, inertia: T::ZERO },
+            damping: Damping { alpha: T::ZERO, beta: T::ZERO },
+            gravity: T::ZERO,
         }
     }
 
@@ -127,27 +155,27 @@ impl Scene {
     }
 
     /// `ρA = m/L`, mass per length, kg/m.
-    pub fn mass_per_length(&self) -> f64 {
+    pub fn mass_per_length(&self) -> T {
         self.link.mass / self.link.length
     }
 
     /// `r + L`, axis to tip of the undeformed arm, m.
-    pub fn reach(&self) -> f64 {
+    pub fn reach(&self) -> T {
         self.hub.radius + self.link.length
     }
 
     /// `J_r = ∫ρA(r+x)² dx + m_p(r+L)² + J_p`: inertia of the undeformed link and payload about
     /// the axis, kg m².
-    pub fn rigid_inertia(&self) -> f64 {
+    pub fn rigid_inertia(&self) -> T {
         let (r, l, reach) = (self.hub.radius, self.link.length, self.reach());
-        self.link.mass * (r * r + r * l + l * l / 3.0)
+        self.link.mass * (r * r + r * l + l * l / T::from_f64(3.0))
             + self.payload.mass * reach * reach
             + self.payload.inertia
     }
 
     /// `S = ∫ρA(r+x) dx + m_p(r+L)`: first moment of mass about the axis, kg m.
-    pub fn first_moment(&self) -> f64 {
-        self.link.mass * (self.hub.radius + 0.5 * self.link.length)
+    pub fn first_moment(&self) -> T {
+        self.link.mass * (self.hub.radius + T::HALF * self.link.length)
             + self.payload.mass * self.reach()
     }
 }

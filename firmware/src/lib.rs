@@ -8,3 +8,4 @@ pub mod exit;
 #[cfg(not(feature = "nucleo-g474re"))]
 pub mod output;
 pub mod stack;
+mod vectors;

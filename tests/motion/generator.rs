@@ -1,3 +1,5 @@
+use std::f64::consts::TAU;
+
 use stillbeam::beam::{EightElements, OneElement, Rod};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
@@ -179,4 +181,35 @@ fn an_arm_at_rest_sleeps_and_wakes() {
     let (first, second) = (arm.tick(), arm.tick());
     assert!((first.tip[1] - setpoints[499].tip[1]).abs() < 2e-6 * 0.4, "no jump on waking");
     assert!(second.angle != first.angle && second.tip != first.tip, "awake");
+}
+
+/// What the tick evaluates is planned in the tick's precision: the angle is as exact as one f32
+/// polynomial of the move's turn, rate and acceleration are as exact as their peaks.
+#[test]
+fn a_plan_in_single_precision_is_exact_to_its_rounding() {
+    let scene = scene();
+    for (ticks, turns) in [(7u32, 0.001), (100, 0.3), (12_345, 0.77), (99_997, 250.25)] {
+        let duration = f64::from(ticks) * 0.01;
+        let to = |profile| to(profile, duration, turns * TAU);
+        let spin_up = Move::SpinUp { duration, rate: 2.0 * turns * TAU / duration };
+        for motion in Profile::ALL.map(to).into_iter().chain([spin_up]) {
+            let single = Rigid::<f32>::new(&scene, 0.01).expect("stepper");
+            let double = Rigid::<f64>::new(&scene, 0.01).expect("stepper");
+            let mut single = Generator::<_, 7>::new(single, 0.1).expect("generator");
+            let mut double = Generator::<_, 7>::new(double, 0.1).expect("generator");
+            let peaks = single.push(&motion).expect("move").peaks;
+            double.push(&motion).expect("move");
+            for _ in 0..ticks {
+                let (a, b) = (single.tick(), double.tick());
+                let apart = f64::from(a.angle.turns - b.angle.turns)
+                    + (f64::from(a.angle.part) - b.angle.part);
+                // A remainder of up to half a turn resolves 3e-8 turn.
+                assert_near("angle", apart, 0.0, 2e-7 * turns + 6e-8);
+                assert_near("rate", f64::from(a.rate), b.rate, 5e-7 * peaks.rate);
+                let (a, b) = (f64::from(a.acceleration), b.acceleration);
+                assert_near("acceleration", a, b, 1e-6 * peaks.acceleration);
+            }
+            assert_eq!(single.tick().angle, double.tick().angle.cast(), "{motion:?}");
+        }
+    }
 }

@@ -43,11 +43,11 @@ fn moves() -> impl Strategy<Value = (f64, Move)> {
 }
 
 fn drive<T: Scalar, const N: usize, const W: usize>(
-    scene: &Scene,
+    scene: &Scene<impl Scalar>,
     from: f64,
     motion: &Move,
 ) -> Vec<Setpoint<T>> {
-    let model = Model::<N, W>::consistent(scene).expect("model");
+    let model = Model::<N, W, _>::consistent(scene).expect("model");
     let stepper = Newmark::<T, N, W>::new(&model, 0.01).expect("stepper");
     let mut arm = Generator::<_, 8>::new(stepper, from).expect("generator");
     let ticks = arm.push(motion).expect("move").ticks;
@@ -79,6 +79,22 @@ proptest! {
         let peak = double.iter().map(|s| s.deflection().abs()).fold(1e-3 * reach, f64::max);
         for (a, b) in single.iter().zip(&double) {
             prop_assert!((f64::from(a.deflection()) - b.deflection()).abs() < 2e-3 * peak, "{a:?} {b:?}");
+        }
+    }
+
+    /// A scene in f32 makes the set-up f32. Of 2,000 such runs the median deflection was off by
+    /// 8e-7 of its peak (set-up in f64: 7e-7), the worst by 2e-5 (2e-5); torque 9e-7 and 9e-5. With
+    /// eight elements, 400 runs: 9e-5 (8e-5), worst 1e-3 (8e-4).
+    #[test]
+    fn set_up_in_single_precision_agrees(scene in arms(), (from, motion) in moves()) {
+        let single = drive::<f32, 2, 2>(&scene.cast::<f32>(), from, &motion);
+        let double = drive::<f64, 2, 2>(&scene, from, &motion);
+        let reach = scene.reach();
+        let peak = double.iter().map(|s| s.deflection().abs()).fold(1e-3 * reach, f64::max);
+        let torque = double.iter().map(|s| s.torque.abs()).fold(1e-6, f64::max);
+        for (a, b) in single.iter().zip(&double) {
+            prop_assert!((f64::from(a.deflection()) - b.deflection()).abs() < 1e-4 * peak, "{a:?} {b:?}");
+            prop_assert!((f64::from(a.torque) - b.torque).abs() < 3e-4 * torque, "{a:?} {b:?}");
         }
     }
 

@@ -11,7 +11,7 @@ pub(crate) struct Condensation<const D: usize, const N: usize> {
 
 impl<const D: usize, const N: usize> Condensation<D, N> {
     /// Keeps every deflection, and the tip's rotation where the payload gives it inertia.
-    pub(crate) fn new(chain: &Assembly<D>) -> Self {
+    pub(crate) fn new(chain: &Assembly<f64, D>) -> Self {
         let kept = |i: usize| chain.mass.get(i, i) > 0.0;
         let mut t = [[0.0; N]; D];
         for (column, row) in (0..D).filter(|&i| kept(i)).enumerate() {
@@ -40,7 +40,7 @@ impl<const D: usize, const N: usize> Condensation<D, N> {
     }
 
     /// Degrees of freedom that stay: those with mass.
-    pub(crate) fn kept(chain: &Assembly<D>) -> usize {
+    pub(crate) fn kept(chain: &Assembly<f64, D>) -> usize {
         (0..D).filter(|&i| chain.mass.get(i, i) > 0.0).count()
     }
 

@@ -1,7 +1,8 @@
 //! The beam: cubic Bernoulli-Euler elements behind a rigid hub, assembled in the hub frame.
 //!
 //! Shapes live in types: [`Model`]`<N, W>` has `N` degrees of freedom and matrices `W − 1`
-//! sub-diagonals wide. Everything here is f64 and runs once, at set-up.
+//! sub-diagonals wide. Everything here runs once, at set-up, in f64 or, where the model allows it, in
+//! the precision of the scene.
 
 mod assembly;
 mod element;

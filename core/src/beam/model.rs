@@ -3,49 +3,49 @@
 use super::assembly::{Assembly, CHAIN, MassMatrix};
 use super::lumped::Condensation;
 use crate::Error;
-use crate::math::Band;
+use crate::math::{Band, Scalar};
 use crate::scene::Scene;
 
 /// One consistent element, the paper's choice.
-pub type OneElement = Model<2, 2>;
+pub type OneElement<T = f64> = Model<2, 2, T>;
 /// Two consistent elements.
-pub type TwoElements = Model<4, 4>;
+pub type TwoElements<T = f64> = Model<4, 4, T>;
 /// Four consistent elements.
-pub type FourElements = Model<8, 4>;
+pub type FourElements<T = f64> = Model<8, 4, T>;
 /// Eight consistent elements.
-pub type EightElements = Model<16, 4>;
+pub type EightElements<T = f64> = Model<16, 4, T>;
 
 /// Small deflections `q` of the link in the hub frame:
 ///
 /// `M q̈ + (αM + βK) q̇ + [K + θ̇²G − g sinθ K_P] q = −F(θ̈ + αθ̇) − g cosθ f_g`
 ///
 /// `N` degrees of freedom (deflection `w`, m, and slope `φ`, of each node from clamp to tip),
-/// matrices of band width `W`. SI units, f64, immutable once built.
+/// matrices of band width `W`. SI units, in the precision of the scene, immutable once built.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Model<const N: usize, const W: usize> {
-    scene: Scene,
-    mass: Band<f64, N, W>,
-    stiffness: Band<f64, N, W>,
-    spin: Band<f64, N, W>,
-    tension: Band<f64, N, W>,
-    shortening: Band<f64, N, W>,
-    coupling: [f64; N],
-    weight: [f64; N],
+pub struct Model<const N: usize, const W: usize, T = f64> {
+    scene: Scene<T>,
+    mass: Band<T, N, W>,
+    stiffness: Band<T, N, W>,
+    spin: Band<T, N, W>,
+    tension: Band<T, N, W>,
+    shortening: Band<T, N, W>,
+    coupling: [T; N],
+    weight: [T; N],
     tip: usize,
 }
 
-impl<const N: usize, const W: usize> Model<N, W> {
+impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
     /// The model with consistent mass, `N/2` elements: 1, 2, 4 or 8.
     ///
     /// Use the aliases [`OneElement`] to [`EightElements`]; other shapes do not compile.
-    pub fn consistent(scene: &Scene) -> Result<Self, Error> {
+    pub fn consistent(scene: &Scene<T>) -> Result<Self, Error> {
         const {
             assert!(matches!(N, 2 | 4 | 8 | 16), "1, 2, 4 or 8 elements");
             assert!(W == if N < CHAIN { N } else { CHAIN }, "band width of a chain of elements");
         }
         let scene = scene.validate()?;
-        let chain = Assembly::<N>::new(&scene, MassMatrix::Consistent);
-        let narrow = |a: &Band<f64, N, CHAIN>| {
+        let chain = Assembly::<T, N>::new(&scene, MassMatrix::Consistent);
+        let narrow = |a: &Band<T, N, CHAIN>| {
             let mut band = Band::ZERO;
             for i in 0..N {
                 for j in (i + 1).saturating_sub(W)..=i {
@@ -69,54 +69,54 @@ impl<const N: usize, const W: usize> Model<N, W> {
     }
 
     /// The stiffness at `θ̇` and `θ`: `K + θ̇²G − g sinθ K_P`.
-    pub fn tangent(&self, rate: f64, sin: f64) -> Band<f64, N, W> {
+    pub fn tangent(&self, rate: T, sin: T) -> Band<T, N, W> {
         self.stiffness.plus(rate * rate, &self.spin).plus(-self.scene.gravity * sin, &self.tension)
     }
 
     /// Static equilibrium of a hub at rest at an angle of that sine and cosine:
     /// `[K − g sinθ K_P] q = −g cosθ f_g`.
-    pub fn equilibrium(&self, sin: f64, cos: f64) -> [f64; N] {
+    pub fn equilibrium(&self, sin: T, cos: T) -> [T; N] {
         let load = self.weight.map(|f| -self.scene.gravity * cos * f);
-        self.tangent(0.0, sin).factor().solve(&load)
+        self.tangent(T::ZERO, sin).factor().solve(&load)
     }
 
     /// The scene this was built from.
-    pub fn scene(&self) -> &Scene {
+    pub fn scene(&self) -> &Scene<T> {
         &self.scene
     }
 
     /// `M`, payload included.
-    pub fn mass(&self) -> &Band<f64, N, W> {
+    pub fn mass(&self) -> &Band<T, N, W> {
         &self.mass
     }
 
     /// `K`, bending.
-    pub fn stiffness(&self) -> &Band<f64, N, W> {
+    pub fn stiffness(&self) -> &Band<T, N, W> {
         &self.stiffness
     }
 
     /// `G = K_g − M_t`: centrifugal stiffening less softening, per θ̇².
-    pub fn spin(&self) -> &Band<f64, N, W> {
+    pub fn spin(&self) -> &Band<T, N, W> {
         &self.spin
     }
 
     /// `K_P`: stiffness from the link's own hanging weight, per −g sinθ.
-    pub fn tension(&self) -> &Band<f64, N, W> {
+    pub fn tension(&self) -> &Band<T, N, W> {
         &self.tension
     }
 
     /// `S = ∫N'N'ᵀdx`: the tip's hub-frame X is `r + L − ½ qᵀSq`.
-    pub fn shortening(&self) -> &Band<f64, N, W> {
+    pub fn shortening(&self) -> &Band<T, N, W> {
         &self.shortening
     }
 
     /// `F`: inertia coupling to the hub's angular acceleration.
-    pub fn coupling(&self) -> &[f64; N] {
+    pub fn coupling(&self) -> &[T; N] {
         &self.coupling
     }
 
     /// `f_g`: gravity load per −g cosθ.
-    pub fn weight(&self) -> &[f64; N] {
+    pub fn weight(&self) -> &[T; N] {
         &self.weight
     }
 
@@ -128,10 +128,10 @@ impl<const N: usize, const W: usize> Model<N, W> {
     /// Refuses a link that could not stand upright: its small deflections would have no
     /// equilibrium there.
     fn upright(self) -> Result<Self, Error> {
-        if self.tangent(0.0, 1.0).factor().is_positive() {
+        if self.stiffness.plus(-self.scene.gravity, &self.tension).factor().is_positive() {
             Ok(self)
         } else {
-            Err(Error::Buckles { gravity: self.scene.gravity })
+            Err(Error::Buckles { gravity: self.scene.gravity.to_f64() })
         }
     }
 }
@@ -145,7 +145,7 @@ impl<const N: usize> Model<N, N> {
     pub fn lumped<const D: usize>(scene: &Scene) -> Result<Self, Error> {
         const { assert!(matches!(D, 2 | 4 | 8 | 16), "1, 2, 4 or 8 elements") }
         let scene = scene.validate()?;
-        let chain = Assembly::<D>::new(&scene, MassMatrix::Lumped);
+        let chain = Assembly::<f64, D>::new(&scene, MassMatrix::Lumped);
         let needed = Condensation::<D, N>::kept(&chain);
         if needed != N {
             return Err(Error::DegreesOfFreedom { given: N, needed });

@@ -33,6 +33,12 @@ pub(crate) fn dot<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
 }
 
 /// Rounds a set-up vector to the scalar of the tick.
-pub(crate) fn cast<T: Scalar, const N: usize>(v: &[f64; N]) -> [T; N] {
-    v.map(T::from_f64)
+pub(crate) fn cast<T: Scalar, P: Scalar, const N: usize>(v: &[P; N]) -> [T; N] {
+    v.map(round)
+}
+
+/// Rounds a number of set-up to the scalar of the tick.
+#[inline(always)]
+pub(crate) fn round<T: Scalar, P: Scalar>(value: P) -> T {
+    T::from_f64(value.to_f64())
 }

@@ -1,4 +1,5 @@
-//! Cuts a move into segments. Runs once a move, in f64.
+//! Cuts a move into segments. Runs once a move: where it begins and ends in f64, what the tick
+//! evaluates in the tick's own precision.
 
 use core::f64::consts::TAU;
 
@@ -7,6 +8,7 @@ use heapless::Vec;
 use super::segment::Shape;
 use super::{Angle, Limits, Move, Peaks, Profile, Segment};
 use crate::Error;
+use crate::math::Scalar;
 
 /// Segments of the longest plan, an S-curve.
 pub const MAX_SEGMENTS: usize = 7;
@@ -63,12 +65,12 @@ impl Plan {
 }
 
 /// Plans `motion` and hands its segments to `sink`, first to last; none if it is refused.
-pub(crate) fn lay(
+pub(crate) fn lay<T: Scalar>(
     motion: &Move,
     start: Start,
     limits: &Limits,
     tick: f64,
-    sink: &mut dyn FnMut(&Segment<f64>),
+    sink: &mut dyn FnMut(&Segment<T>),
 ) -> Result<Outline, Error> {
     let ticks = motion.ticks(tick)?;
     let duration = f64::from(ticks) * tick;
@@ -93,7 +95,8 @@ pub(crate) fn lay(
                 acceleration: 2.0 * change.abs() / duration,
                 jerk: TAU * change.abs() / (duration * duration),
             };
-            (Shapes::One(spin_up(turned(start.rate), turned(change))), end, peaks)
+            let (old, change) = (turned(start.rate), turned(change));
+            (Shapes::One(spin_up(T::from_f64(old), T::from_f64(change))), end, peaks)
         }
         Move::Dwell { .. } => {
             let angle = start.angle.plus(turned(start.rate));
@@ -108,7 +111,8 @@ pub(crate) fn lay(
     match shapes {
         Shapes::Hold => sink(&Segment::cruise(start.angle, start.rate, ticks, tick)),
         Shapes::One(shape) => {
-            sink(&Segment::new(start.angle, shape, f64::from(ticks), 0.0, ticks, tick));
+            let length = T::from_u32(ticks);
+            sink(&Segment::new(start.angle, shape, length, T::ZERO, ticks, tick));
         }
         Shapes::Cubics(pieces, turn) => lay_cubics(pieces, turn, start.angle, ticks, tick, sink),
     }
@@ -116,25 +120,39 @@ pub(crate) fn lay(
 }
 
 /// The formulas of a move.
-enum Shapes {
+enum Shapes<T> {
     /// Constant rate, exact over any number of turns.
     Hold,
-    One(Shape<f64>),
+    One(Shape<T>),
     /// Equal shares of the move's time, of a turn by 1, and the turn.
-    Cubics(&'static [[f64; 3]], f64),
+    Cubics(&'static [Piece], f64),
+}
+
+/// A share of a move: where it begins, and its cubic about its middle, `[c₁, c₂, c₃]`.
+struct Piece {
+    start: f64,
+    cubic: [f64; 3],
 }
 
 /// Largest angle and rate that a move may name: 1e6 rad resolve to 1e-10 rad.
 const MAX_ANGLE: f64 = 1e6;
 
 /// Turns by `d`.
-fn rest_to_rest(profile: Profile, d: f64) -> Shapes {
+fn rest_to_rest<T: Scalar>(profile: Profile, d: f64) -> Shapes<T> {
+    let (n, turn) = (T::from_f64, T::from_f64(d));
     match profile {
-        Profile::Cubic => Shapes::Cubics(&[[0.75, 0.0, -0.25]], d),
-        Profile::Quintic => {
-            Shapes::One(Shape::Quintic([15.0, 0.0, -10.0, 0.0, 3.0].map(|c| c * d / 16.0)))
+        Profile::Cubic => {
+            Shapes::Cubics(const { &[Piece { start: 0.0, cubic: [0.75, 0.0, -0.25] }] }, d)
         }
-        Profile::Cycloid => Shapes::One(Shape::Harmonic { c: [0.5 * d, 0.0], a: d / TAU, b: 0.0 }),
+        Profile::Quintic => {
+            let c = [n(0.9375), T::ZERO, n(-0.625), T::ZERO, n(0.1875)];
+            Shapes::One(Shape::Quintic(c.map(|c| c * turn)))
+        }
+        Profile::Cycloid => Shapes::One(Shape::Harmonic {
+            c: [T::HALF * turn, T::ZERO],
+            a: turn / n(TAU),
+            b: T::ZERO,
+        }),
         Profile::Trapezoid => {
             Shapes::Cubics(const { &integrate([(4.5, 0.0), (0.0, 0.0), (-4.5, 0.0)]) }, d)
         }
@@ -150,53 +168,75 @@ const S_CURVE: [(f64, f64); 7] = {
 
 /// Cubics about their middles for `N` equal stretches `(acceleration at its beginning, jerk)`, per
 /// T² and T³, from rest.
-const fn integrate<const N: usize>(stretches: [(f64, f64); N]) -> [[f64; 3]; N] {
+const fn integrate<const N: usize>(stretches: [(f64, f64); N]) -> [Piece; N] {
     let f = 1.0 / N as f64;
-    let mut cubics = [[0.0; 3]; N];
-    let (mut rate, mut i) = (0.0, 0);
+    let mut pieces = [const { Piece { start: 0.0, cubic: [0.0; 3] } }; N];
+    let (mut start, mut rate, mut i) = (0.0, 0.0, 0);
     while i < N {
         let (a, j) = stretches[i];
         // c₁s + c₂s² + c₃s³ about s = ½.
         let (c1, c2, c3) = (rate * f, a * f * f / 2.0, j * f * f * f / 6.0);
-        cubics[i] = [(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0];
+        let cubic = [(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0];
+        pieces[i] = Piece { start, cubic };
+        start += c1 + c2 + c3;
         rate += (a + j * f / 2.0) * f;
         i += 1;
     }
-    cubics
+    pieces
 }
 
 /// `v` turns at the old rate, and half of `dv` more by the end:
 /// `Δ = v s + dv [s²/2 + (cos 2πs − 1)/4π²]`, about `s = ½`.
-fn spin_up(v: f64, dv: f64) -> Shape<f64> {
-    Shape::Harmonic { c: [v / 2.0 + dv / 4.0, dv / 8.0], a: 0.0, b: -dv / (TAU * TAU) }
+fn spin_up<T: Scalar>(v: T, dv: T) -> Shape<T> {
+    let c2 = T::from_f64(0.125) * dv;
+    let b = T::from_f64(-1.0 / (TAU * TAU)) * dv;
+    Shape::Harmonic { c: [T::HALF * v + T::TWO * c2, c2], a: T::ZERO, b }
 }
 
 /// Lays cubics end to end over `ticks` ticks. A stretch that contains no tick is left out.
-fn lay_cubics(
-    pieces: &[[f64; 3]],
+fn lay_cubics<T: Scalar>(
+    pieces: &[Piece],
     turn: f64,
     start: Angle<f64>,
     ticks: u32,
     tick: f64,
-    sink: &mut dyn FnMut(&Segment<f64>),
+    sink: &mut dyn FnMut(&Segment<T>),
 ) {
-    let length = f64::from(ticks) / pieces.len() as f64;
-    let (mut angle, mut first, mut last) = (start, 0.0, None::<Segment<f64>>);
-    for (i, piece) in pieces.iter().enumerate() {
-        let next = first_tick((i + 1) as f64 * length).min(f64::from(ticks));
-        let before = (first - i as f64 * length).max(0.0);
-        let shape = Shape::Cubic(piece.map(|c| c * turn));
-        let segment = Segment::new(angle, shape, length, before, (next - first) as u32, tick);
-        if next > first {
-            let segment = last.map_or(segment, |last| segment.behind(&last, tick));
+    let share = pieces.len() as u32;
+    let length = T::from_u32(ticks) / T::from_u32(share);
+    let shares = |n: u32| T::from_u32(n) / T::from_u32(share);
+    // Borders are multiples of a tick's share, counted in integers: at most 7 × 2²⁴ of them.
+    let (mut first, mut border, mut entry) = (0, 0, T::ZERO);
+    for piece in pieces {
+        let end = border + ticks;
+        let next = end.div_ceil(share);
+        let (before, after) = (shares(first * share - border), shares(next * share - end));
+        let shape = Shape::Cubic(piece.cubic.map(|c| T::from_f64(c) * T::from_f64(turn)));
+        let start = start.plus(piece.start * turn);
+        let mut segment = Segment::new(start, shape, length, before, next - first, tick);
+        let [begin, at_first, at_last] = segment.accelerations();
+        let landing = segment.landing();
+        if next == first {
+            entry += moment(T::ONE - before, T::ONE - after, begin, landing);
+        } else {
+            if before == T::ZERO {
+                entry = T::ZERO;
+            }
+            entry += moment(T::ONE - before, T::ONE, begin, at_first);
+            segment.enter(entry);
             sink(&segment);
-            last = Some(segment);
+            // The tick's parabola goes up to the left-hand value at the border.
+            let parabola = T::from_f64(1.0 / 12.0) * (at_last - landing);
+            entry = moment(T::ZERO, T::ONE - after, at_last, landing) - parabola;
         }
-        (angle, first) = (segment.end(), next);
+        (first, border) = (next, end);
     }
 }
 
-/// The first whole tick at or after `t` ticks, with room for the rounding of thirds and sevenths.
-fn first_tick(t: f64) -> f64 {
-    libm::ceil(t - 1e-6)
+/// `∫ (½ − x) θ̈ dx` over the part `a..b` of a tick `0..1`, in which θ̈ goes straight from `from` to
+/// `to`.
+fn moment<T: Scalar>(a: T, b: T, from: T, to: T) -> T {
+    let n = T::from_f64;
+    let length = b - a;
+    length * (n(0.25) * (T::ONE - a - b) * (from + to) - n(1.0 / 12.0) * length * (to - from))
 }

@@ -122,7 +122,7 @@ impl Move {
             tick * f64::from(MAX_TICKS),
             "s",
         )?;
-        Ok((libm::round(duration / tick) as u32).max(1))
+        Ok(((duration / tick + 0.5) as u32).max(1))
     }
 }
 

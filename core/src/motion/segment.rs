@@ -42,8 +42,8 @@ impl<T: Scalar> Hub<T> {
 /// The first tick that belongs to a segment may lie a fraction of a tick after its beginning: the
 /// thirds of a trapezoid need not be whole ticks.
 ///
-/// Error in f32: angle 1e-7 of the segment's own turn (a cruise: 3e-8 turn, however long), rate
-/// and acceleration 3e-7 of their peaks.
+/// Error in f32: angle 2e-7 of the segment's own turn (a cruise: 3e-8 turn, however long), rate
+/// 5e-7 and acceleration 1e-6 of their peaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment<T> {
     /// Angle at `u = 0`; of a cruise, at its first tick.
@@ -76,7 +76,7 @@ pub(crate) enum Shape<T> {
     /// `c₁u + c₂u² + a sin πu + b (cos πu − 1)`.
     Harmonic { c: [T; 2], a: T, b: T },
     /// Constant rate (rad/s). `step / 2⁶⁴` turns a tick, multiplied out in integers: after 10⁹
-    /// ticks the angle is within 3e-11 turn.
+    /// ticks the angle is within 6e-11 turn.
     Cruise { rate: T, step: i64 },
 }
 
@@ -90,6 +90,14 @@ impl<T: Scalar> Segment<T> {
         self.drive(&mut hub, k);
         (hub.sin, hub.cos) = hub.angle.sin_cos();
         hub
+    }
+
+    /// The hub's angle at the segment's tick `k`, `k < count`.
+    #[inline(never)]
+    pub(crate) fn angle(&self, k: u32) -> Angle<T> {
+        let mut hub = Hub::ZERO;
+        self.drive(&mut hub, k);
+        hub.angle
     }
 
     /// Moves the hub, but for its sine and cosine, to the segment's tick `k`, `k < count`.
@@ -141,6 +149,20 @@ impl<T: Scalar> Segment<T> {
     /// The moment of the border within the tick before, rad/s².
     pub(crate) fn entry(&self) -> T {
         self.entry
+    }
+
+    /// Gives the segment that moment.
+    pub(crate) fn enter(&mut self, entry: T) {
+        self.entry = entry;
+    }
+
+    /// θ̈ of a cubic at its beginning, at its first tick and at its last.
+    pub(crate) fn accelerations(&self) -> [T; 3] {
+        let Shape::Cubic([_, c2, c3]) = self.shape else { return [T::ZERO; 3] };
+        let scale = self.acceleration_scale;
+        let (middle, slope) = (c2 * scale, (T::TWO + T::ONE) * c3 * scale);
+        let last = self.offset + T::from_u32(self.count.saturating_sub(1)) * self.advance;
+        [-T::ONE, self.offset, last].map(|u| middle + slope * u)
     }
 
     /// The same segment, ending `count` ticks after its beginning.
@@ -208,67 +230,72 @@ impl<T: Scalar> Angle<T> {
     }
 }
 
-impl Shape<f64> {
+impl<T: Scalar> Shape<T> {
     /// `Δ(−1)`, `Δ(1)` and `d²Δ/du²(1)`.
-    fn ends(&self) -> [f64; 3] {
+    fn ends(&self) -> [T; 3] {
+        let n = T::from_f64;
         let (odd, even, bend) = match *self {
-            Self::Cubic([c1, c2, c3]) => (c1 + c3, c2, 2.0 * c2 + 6.0 * c3),
+            Self::Cubic([c1, c2, c3]) => (c1 + c3, c2, n(2.0) * c2 + n(6.0) * c3),
             Self::Quintic([c1, c2, c3, c4, c5]) => {
-                (c1 + c3 + c5, c2 + c4, 2.0 * c2 + 6.0 * c3 + 12.0 * c4 + 20.0 * c5)
+                let bend = n(2.0) * c2 + n(6.0) * c3 + n(12.0) * c4 + n(20.0) * c5;
+                (c1 + c3 + c5, c2 + c4, bend)
             }
-            Self::Harmonic { c: [c1, c2], b, .. } => (c1, c2 - 2.0 * b, 2.0 * c2 + PI * PI * b),
-            Self::Cruise { .. } => (0.0, 0.0, 0.0),
+            Self::Harmonic { c: [c1, c2], b, .. } => {
+                (c1, c2 - n(2.0) * b, n(2.0) * c2 + n(PI * PI) * b)
+            }
+            Self::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
         };
         [even - odd, even + odd, bend]
     }
 }
 
-impl Segment<f64> {
+impl<T: Scalar> Segment<T> {
     /// A segment of `length` ticks (not whole in general) that begins `before` ticks, 0 to 1,
     /// before the first tick that belongs to it.
     pub(crate) fn new(
         start: Angle<f64>,
-        shape: Shape<f64>,
-        length: f64,
-        before: f64,
+        shape: Shape<T>,
+        length: T,
+        before: T,
         count: u32,
         tick: f64,
     ) -> Self {
-        let half = 0.5 * length * tick;
-        let mut segment = Self {
-            origin: start,
+        let half = T::HALF * length * T::from_f64(tick);
+        let [begin, _, landing] = shape.ends();
+        let rate_scale = T::from_f64(TAU) / half;
+        let acceleration_scale = T::TWO * rate_scale / half;
+        Self {
+            origin: start.plus(-begin.to_f64()).cast(),
             count,
-            offset: 2.0 * before / length - 1.0,
-            advance: 2.0 / length,
-            rate_scale: TAU / half,
-            acceleration_scale: 2.0 * TAU / (half * half),
-            landing: 0.0,
-            entry: 0.0,
+            offset: T::TWO * before / length - T::ONE,
+            advance: T::TWO / length,
+            rate_scale,
+            acceleration_scale,
+            landing: T::HALF * landing * acceleration_scale,
+            entry: T::ZERO,
             shape,
-        };
-        let [begin, _, landing] = segment.shape.ends();
-        segment.origin = start.plus(-begin);
-        segment.landing = 0.5 * landing * segment.acceleration_scale;
-        segment
+        }
     }
 
     /// Constant `rate` (rad/s) for `count` ticks.
     pub(crate) fn cruise(start: Angle<f64>, rate: f64, count: u32, tick: f64) -> Self {
         // At most ½ turn a tick by the rate check of `Plan`, so the product fits an i64.
-        let step = libm::round(rate * tick / TAU * 18_446_744_073_709_551_616.0) as i64;
+        let step = (rate * tick * (18_446_744_073_709_551_616.0 / TAU)) as i64;
         Self {
-            origin: start,
+            origin: start.cast(),
             count,
-            offset: 0.0,
-            advance: 0.0,
-            rate_scale: 0.0,
-            acceleration_scale: 0.0,
-            landing: 0.0,
-            entry: 0.0,
-            shape: Shape::Cruise { rate, step },
+            offset: T::ZERO,
+            advance: T::ZERO,
+            rate_scale: T::ZERO,
+            acceleration_scale: T::ZERO,
+            landing: T::ZERO,
+            entry: T::ZERO,
+            shape: Shape::Cruise { rate: T::from_f64(rate), step },
         }
     }
+}
 
+impl Segment<f64> {
     /// The hub any real number of ticks after the segment's first, for solvers that choose their
     /// own steps. May be negative down to the segment's true beginning.
     pub fn hub_at(&self, ticks: f64) -> Hub<f64> {
@@ -281,27 +308,6 @@ impl Segment<f64> {
         };
         let (sin, cos) = angle.sin_cos();
         Hub { angle, rate, acceleration, sin, cos }
-    }
-
-    /// Behind `before`, whose last tick is the one before this segment's first, `tick` s apart.
-    ///
-    /// `m = (Δθ − hθ̇₀)/h²`, and of the parabola that the tick takes, up to the left-hand value at
-    /// the border, `ū/2 + (u₀ − u₁)/12`.
-    pub(crate) fn behind(self, before: &Self, tick: f64) -> Self {
-        if self.ticks_before() == 0.0 {
-            return self;
-        }
-        let (from, to) = (before.hub_at(f64::from(before.count) - 1.0), self.hub_at(0.0));
-        let turned = to.angle.radians() - from.angle.radians();
-        let moment = (turned / tick - from.rate) / tick;
-        let mean = (to.rate - from.rate) / tick;
-        let parabola = 0.5 * mean + (from.acceleration - before.landing) / 12.0;
-        Self { entry: moment - parabola, ..self }
-    }
-
-    /// The angle at `u = 1`.
-    pub(crate) fn end(&self) -> Angle<f64> {
-        self.origin.plus(self.shape.ends()[1])
     }
 
     /// Ticks from the segment's true beginning to its first tick, 0 to 1.

@@ -20,7 +20,7 @@
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::Model;
-use crate::math::{Band, Ldl, Scalar, cast, dot};
+use crate::math::{Band, Ldl, Scalar, cast, dot, round};
 use crate::motion::Hub;
 
 /// Newmark stepper for `N` degrees of freedom in bands of width `W`.
@@ -86,46 +86,47 @@ pub struct Vibration<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
-    /// Factors the model for steps of `tick` s. f64 inside, rounded once at the end.
-    pub fn new(model: &Model<N, W>, tick: f64) -> Result<Self, Error> {
+    /// Factors the model for steps of `tick` s. In the model's precision, rounded once at the end.
+    pub fn new<P: Scalar>(model: &Model<N, W, P>, tick: f64) -> Result<Self, Error> {
         let tick = super::check_tick(tick)?;
         let scene = model.scene();
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
-        let per_half = 2.0 / tick;
+        let half = P::from_f64(0.5 * tick);
+        let per_half = P::ONE / half;
         let damping =
             model.mass().scaled(per_half * alpha).plus(per_half * beta, model.stiffness());
         let effective =
-            damping.plus(per_half * per_half, model.mass()).plus(1.0, model.stiffness());
+            damping.plus(per_half * per_half, model.mass()).plus(P::ONE, model.stiffness());
         let turn = model.mass().factor().solve(model.coupling());
         let residual = scene.rigid_inertia() - dot(model.coupling(), &turn);
-        let band = |a: &Band<f64, N, W>| a.map(T::from_f64);
-        let coupling = |scale: f64| cast(&model.coupling().map(|f| scale * f));
+        let band = |a: &Band<P, N, W>| a.map(round);
+        let coupling = |scale: P| cast(&model.coupling().map(|f| scale * f));
         Ok(Self {
             tick,
             terms: Terms {
                 spin: true,
-                gravity: gravity != 0.0,
-                damping: alpha != 0.0 || beta != 0.0,
+                gravity: gravity != P::ZERO,
+                damping: alpha != P::ZERO || beta != P::ZERO,
             },
-            turn: cast(&turn.map(|b| 0.5 * tick * b)),
+            turn: cast(&turn.map(|b| half * b)),
             stiffness: band(model.stiffness()),
             spin: band(model.spin()),
-            factors: effective.factor().map(T::from_f64),
+            factors: effective.factor().map(round),
             effective: band(&effective),
             coupling: coupling(-per_half * per_half),
-            inertia: T::from_f64(scene.hub.inertia + residual),
-            twice_per_half: T::from_f64(2.0 * per_half),
-            reach: T::from_f64(scene.reach()),
+            inertia: round(scene.hub.inertia + residual),
+            twice_per_half: round(P::TWO * per_half),
+            reach: round(scene.reach()),
             shortening: band(model.shortening()),
             tip_last: model.tip() + 1 == N,
             damping: band(&damping),
             drag: coupling(alpha),
             drag_torque: coupling(per_half * alpha),
-            alpha: T::from_f64(alpha),
-            rigid_drag: T::from_f64(alpha * scene.rigid_inertia()),
+            alpha: round(alpha),
+            rigid_drag: round(alpha * scene.rigid_inertia()),
             tension: band(&model.tension().scaled(gravity)),
             weight: cast(&model.weight().map(|f| gravity * f)),
-            moment: T::from_f64(gravity * scene.first_moment()),
+            moment: round(gravity * scene.first_moment()),
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Response, Stepper};
 use crate::Error;
-use crate::math::Scalar;
+use crate::math::{Scalar, round};
 use crate::motion::Hub;
 use crate::scene::Scene;
 
@@ -18,16 +18,16 @@ pub struct Rigid<T> {
 
 impl<T: Scalar> Rigid<T> {
     /// `tick` in s.
-    pub fn new(scene: &Scene, tick: f64) -> Result<Self, Error> {
+    pub fn new<P: Scalar>(scene: &Scene<P>, tick: f64) -> Result<Self, Error> {
         let scene = scene.validate()?;
         let tick = super::check_tick(tick)?;
         let inertia = scene.rigid_inertia();
         Ok(Self {
             tick,
-            inertia: T::from_f64(scene.hub.inertia + inertia),
-            drag: T::from_f64(scene.damping.alpha * inertia),
-            weight: T::from_f64(scene.gravity * scene.first_moment()),
-            reach: T::from_f64(scene.reach()),
+            inertia: round(scene.hub.inertia + inertia),
+            drag: round(scene.damping.alpha * inertia),
+            weight: round(scene.gravity * scene.first_moment()),
+            reach: round(scene.reach()),
         })
     }
 }

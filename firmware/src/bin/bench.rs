@@ -17,6 +17,7 @@ mod functions;
 mod ticks;
 
 stillbeam_firmware::exit_on_panic!();
+stillbeam_firmware::unused_interrupts!();
 
 #[entry]
 fn main() -> ! {

@@ -4,9 +4,9 @@
 #![no_main]
 
 use cortex_m_rt::entry;
-use stillbeam_firmware as _;
 
 stillbeam_firmware::exit_on_panic!();
+stillbeam_firmware::unused_interrupts!();
 
 #[entry]
 fn main() -> ! {

@@ -8,6 +8,7 @@ use stillbeam_firmware::output::Output;
 use stillbeam_golden::{record, run};
 
 stillbeam_firmware::exit_on_panic!();
+stillbeam_firmware::unused_interrupts!();
 
 #[entry]
 fn main() -> ! {

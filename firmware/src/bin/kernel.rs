@@ -11,9 +11,9 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use panic_never as _;
 use stillbeam::Generator;
-// The fault handler.
-use stillbeam_firmware as _;
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
+
+stillbeam_firmware::unused_interrupts!();
 
 struct Ticks(*mut u8);
 

@@ -13,6 +13,8 @@ use stillbeam::axis::{Axis, Cause, Pace};
 use stillbeam_firmware as _;
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 
+stillbeam_firmware::unused_interrupts!();
+
 struct Ticks(*mut u8);
 
 impl Visitor for Ticks {
