@@ -52,6 +52,13 @@ pub enum Error {
         /// Segments that are free.
         free: usize,
     },
+    /// Too short for the arm to arrive at rest.
+    TooShort {
+        /// Duration that was asked for, s.
+        duration: f64,
+        /// 0.9 first periods, s.
+        shortest: f64,
+    },
     /// Gravity exceeds the buckling load of the upright link.
     Buckles {
         /// The gravity that was given, m/s².
@@ -108,6 +115,11 @@ impl fmt::Display for Error {
             Self::QueueFull { needed, free } => write!(
                 f,
                 "moves: this one takes {needed} segments of the queue; accepted is up to {free} now"
+            ),
+            Self::TooShort { duration, shortest } => write!(
+                f,
+                "move.duration = {duration}: too short for the arm to arrive at rest; accepted is \
+                 from {shortest:.6} s, 0.9 first periods"
             ),
             Self::Buckles { gravity } => write!(
                 f,

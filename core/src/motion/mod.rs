@@ -6,9 +6,11 @@ mod limits;
 mod plan;
 mod profile;
 mod segment;
+pub mod still;
 
 pub use angle::Angle;
 pub use limits::{Limits, Peaks};
 pub use plan::{MAX_SEGMENTS, Plan, Start};
 pub use profile::{Move, Profile};
-pub use segment::{Hub, Segment};
+pub use segment::{BULGE, Hub, Segment};
+pub use still::Still;

@@ -5,8 +5,10 @@ use core::f64::consts::TAU;
 use heapless::Vec;
 
 use super::segment::Shape;
+use super::still::{self, Departure, Path};
 use super::{Angle, Limits, Move, Peaks, Profile, Segment};
 use crate::Error;
+use crate::math::cast;
 
 /// Segments of the longest plan, an S-curve.
 pub const MAX_SEGMENTS: usize = 7;
@@ -70,6 +72,17 @@ impl Plan {
                     jerk: TAU * change.abs() / (duration * duration),
                 };
                 (spin_up(turned(start.rate), turned(change)), end, peaks)
+            }
+            Move::Still { to, bulge, .. } => {
+                let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+                if start.rate != 0.0 {
+                    return Err(Error::NotAtRest { rate: start.rate });
+                }
+                let path = Path { from: Departure::at_rest(start.angle), to, ticks, tick };
+                let end = Start { angle: start.angle.plus(path.turn()), rate: 0.0 };
+                let (c, d) = (path.quintic(), bulge.map(|b| b / TAU));
+                let shape = Shape::Bulged { c, d };
+                (Vec::from_iter([(1.0, shape)]), end, still::peaks::<f32>(&cast(&c), &cast(&d), duration))
             }
             // No shapes: a hold, exact over any number of turns.
             Move::Dwell { .. } => {

@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::Peaks;
+use super::{BULGE, Peaks};
 use crate::Error;
 
 /// The shape of a rest-to-rest move over `s = t/T ∈ 0..1`.
@@ -85,6 +85,16 @@ pub enum Move {
         /// Rate at the end, rad/s; 0 brings a turning hub to rest.
         rate: f64,
     },
+    /// Rest to rest by a quintic that bulges: `θ = quintic + (1 − u²)³ Σ bₖuᵏ`, `u = 2t/T − 1`.
+    /// With the bulge that [`Still`](super::Still) plans, the arm arrives without vibration.
+    Still {
+        /// T, s; rounded to the nearest whole tick.
+        duration: f64,
+        /// Angle at the end, rad, counted from the same zero as the hub's.
+        to: f64,
+        /// `b₀ … b₅`, rad.
+        bulge: [f64; BULGE],
+    },
     /// The hub keeps its rate: zero after every move but a spin-up.
     Dwell {
         /// T, s; rounded to the nearest whole tick.
@@ -98,6 +108,7 @@ impl Move {
         match *self {
             Self::To { duration, .. }
             | Self::SpinUp { duration, .. }
+            | Self::Still { duration, .. }
             | Self::Dwell { duration } => duration,
         }
     }

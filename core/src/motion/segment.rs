@@ -57,10 +57,16 @@ pub(crate) enum Shape<T> {
     Quintic([T; 5]),
     /// `c₁u + c₂u² + a sin πu + b (cos πu − 1)`.
     Harmonic { c: [T; 2], a: T, b: T },
+    /// `c₁u + … + c₅u⁵ + (1 − u²)³(d₀ + d₁u + … + d₅u⁵)`: the second term bulges between the ends
+    /// and changes neither angle, rate nor acceleration there.
+    Bulged { c: [T; 5], d: [T; BULGE] },
     /// Constant rate (rad/s). `step / 2⁶⁴` turns a tick, multiplied out in integers: after 10⁹
     /// ticks the angle is within 3e-11 turn.
     Cruise { rate: T, step: i64 },
 }
+
+/// Coefficients of a bulge.
+pub const BULGE: usize = 6;
 
 /// `(Δ, dΔ/du, d²Δ/du²)` of a shape in turns.
 type Derivatives<T> = (T, T, T);
@@ -88,15 +94,10 @@ impl<T: Scalar> Segment<T> {
                 let (c2_2, c3_3) = (T::TWO * c2, (T::TWO + T::ONE) * c3);
                 (((c3 * u + c2) * u + c1) * u, (c3_3 * u + c2_2) * u + c1, T::TWO * c3_3 * u + c2_2)
             }
-            Shape::Quintic([c1, c2, c3, c4, c5]) => {
-                let three = T::TWO + T::ONE;
-                let (d2, d3) = (T::TWO * c2, three * c3);
-                let (d4, d5) = ((three + T::ONE) * c4, (three + T::TWO) * c5);
-                (
-                    ((((c5 * u + c4) * u + c3) * u + c2) * u + c1) * u,
-                    (((d5 * u + d4) * u + d3) * u + d2) * u + c1,
-                    (((three + T::ONE) * d5 * u + three * d4) * u + T::TWO * d3) * u + d2,
-                )
+            Shape::Quintic(c) => quintic(&c, u),
+            Shape::Bulged { c, d } => {
+                let (base, bulge) = (quintic(&c, u), bulge(&d, u));
+                (base.0 + bulge.0, base.1 + bulge.1, base.2 + bulge.2)
             }
             Shape::Harmonic { c: [c1, c2], a, b } => {
                 let (sin, cos) = (T::HALF * u).sin_cos_turns();
@@ -122,6 +123,20 @@ impl<T: Scalar> Segment<T> {
         self.landing
     }
 
+    /// The formula.
+    pub(crate) fn shape(&self) -> &Shape<T> {
+        &self.shape
+    }
+
+    /// The same quintic with another bulge, turns; any other shape as it is.
+    #[inline(always)]
+    pub(crate) fn bulged(mut self, bulge: &[T; BULGE]) -> Self {
+        if let Shape::Bulged { d, .. } = &mut self.shape {
+            *d = *bulge;
+        }
+        self
+    }
+
     /// The same segment, ending `count` ticks after its beginning.
     pub(crate) fn cut(self, count: u32) -> Self {
         Self { count, ..self }
@@ -131,6 +146,42 @@ impl<T: Scalar> Segment<T> {
     pub(crate) fn moved(self, origin: Angle<T>) -> Self {
         Self { origin, ..self }
     }
+}
+
+#[inline(always)]
+fn quintic<T: Scalar>(&[c1, c2, c3, c4, c5]: &[T; 5], u: T) -> Derivatives<T> {
+    let three = T::TWO + T::ONE;
+    let (d2, d3) = (T::TWO * c2, three * c3);
+    let (d4, d5) = ((three + T::ONE) * c4, (three + T::TWO) * c5);
+    (
+        ((((c5 * u + c4) * u + c3) * u + c2) * u + c1) * u,
+        (((d5 * u + d4) * u + d3) * u + d2) * u + c1,
+        (((three + T::ONE) * d5 * u + three * d4) * u + T::TWO * d3) * u + d2,
+    )
+}
+
+/// `w³ Q(u)`, `w = 1 − u²`, `Q = d₀ + d₁u + … + d₅u⁵`.
+#[inline(always)]
+fn bulge<T: Scalar>(d: &[T; BULGE], u: T) -> Derivatives<T> {
+    let (mut q, mut q1, mut q2) = (d[BULGE - 1], T::ZERO, T::ZERO);
+    for i in (0..BULGE - 1).rev() {
+        // q2 is half the second derivative.
+        q2 = q2 * u + q1;
+        q1 = q1 * u + q;
+        q = q * u + d[i];
+    }
+    let [b, b1, b2] = dome(u);
+    (b * q, b1 * q + b * q1, b2 * q + T::TWO * (b1 * q1 + b * q2))
+}
+
+/// `w³` and its derivatives, `w = 1 − u²`.
+#[inline(always)]
+pub(crate) fn dome<T: Scalar>(u: T) -> [T; 3] {
+    let six = T::TWO + T::TWO + T::TWO;
+    let square = u * u;
+    let w = T::ONE - square;
+    let w2 = w * w;
+    [w2 * w, -(six * u * w2), six * w * ((T::TWO + T::TWO) * square - w)]
 }
 
 impl<T: Scalar> Angle<T> {
@@ -153,7 +204,7 @@ impl Shape<f64> {
     fn ends(&self) -> [f64; 3] {
         let (odd, even, bend) = match *self {
             Self::Cubic([c1, c2, c3]) => (c1 + c3, c2, 2.0 * c2 + 6.0 * c3),
-            Self::Quintic([c1, c2, c3, c4, c5]) => {
+            Self::Quintic([c1, c2, c3, c4, c5]) | Self::Bulged { c: [c1, c2, c3, c4, c5], .. } => {
                 (c1 + c3 + c5, c2 + c4, 2.0 * c2 + 6.0 * c3 + 12.0 * c4 + 20.0 * c5)
             }
             Self::Harmonic { c: [c1, c2], b, .. } => (c1, c2 - 2.0 * b, 2.0 * c2 + PI * PI * b),
@@ -250,6 +301,7 @@ impl Segment<f64> {
                 Shape::Cubic(c) => Shape::Cubic(c.map(f)),
                 Shape::Quintic(c) => Shape::Quintic(c.map(f)),
                 Shape::Harmonic { c, a, b } => Shape::Harmonic { c: c.map(f), a: f(a), b: f(b) },
+                Shape::Bulged { c, d } => Shape::Bulged { c: c.map(f), d: d.map(f) },
                 Shape::Cruise { rate, step } => Shape::Cruise { rate: f(rate), step },
             },
         }
