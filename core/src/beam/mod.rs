@@ -4,6 +4,7 @@
 //! sub-diagonals wide. Everything here is f64 and runs once, at set-up.
 
 mod assembly;
+mod chain;
 mod element;
 mod expansion;
 mod lumped;
@@ -11,6 +12,7 @@ mod model;
 mod modes;
 mod rod;
 
+pub(crate) use chain::{Chain, Load};
 pub(crate) use expansion::{
     Even, Expansion, MAX_EVEN, MAX_ODD, Odd, is_even_pair, is_odd_triple,
 };

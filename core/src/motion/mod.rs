@@ -13,4 +13,4 @@ pub use limits::{Limits, Peaks};
 pub use plan::{MAX_SEGMENTS, Plan, Start};
 pub use profile::{Move, Profile};
 pub use segment::{BULGE, Hub, Segment};
-pub use still::Still;
+pub use still::{Departure, Still, StillMove, Survey};

@@ -123,11 +123,6 @@ impl<T: Scalar> Segment<T> {
         self.landing
     }
 
-    /// The formula.
-    pub(crate) fn shape(&self) -> &Shape<T> {
-        &self.shape
-    }
-
     /// The same quintic with another bulge, turns; any other shape as it is.
     #[inline(always)]
     pub(crate) fn bulged(mut self, bulge: &[T; BULGE]) -> Self {
@@ -140,6 +135,11 @@ impl<T: Scalar> Segment<T> {
     /// The same segment, ending `count` ticks after its beginning.
     pub(crate) fn cut(self, count: u32) -> Self {
         Self { count, ..self }
+    }
+
+    /// The same segment, broken off `count` ticks after its beginning.
+    pub(crate) fn broken_off(self, count: u32) -> Self {
+        Self { count, landing: self.hub(count).acceleration, ..self }
     }
 
     /// The same cruise, beginning at another angle.

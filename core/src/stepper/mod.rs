@@ -8,9 +8,10 @@ mod newmark;
 mod oscillator;
 mod rigid;
 
-pub use elastica::{Elastica, ElasticaState, Quality};
+pub use elastica::{Elastica, ElasticaState, Flex, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, Vibration};
+pub(crate) use oscillator::{Drive, Oscillator};
 pub use rigid::Rigid;
 
 use crate::Error;

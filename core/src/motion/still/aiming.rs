@@ -6,15 +6,15 @@ use crate::math::{Scalar, dot};
 /// What was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Found<T> {
-    /// Where to aim, rad.
+    /// Where to aim, of L.
     pub aim: [T; MAX_AIMS],
-    /// Squared miss there, rad².
+    /// Squared miss there.
     pub miss: T,
     /// Evaluations it took.
     pub evaluations: u32,
 }
 
-/// Longest change of an aim in one step, rad.
+/// Longest change of an aim in one step, of L.
 const LONGEST: f64 = 0.3;
 
 /// Looks for `miss(aim) = 0` from `aim = 0`, where the miss of a linear arm would be the aim itself.

@@ -14,7 +14,7 @@ pub(crate) const MAX_AIMS: usize = 6;
 const NODES: usize = 48;
 
 /// Rounds of re-weighting towards the least greatest acceleration.
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 2;
 
 /// The first mode of one arm, as the effort sees it.
 #[derive(Clone, Copy, Debug)]
@@ -25,12 +25,13 @@ pub(crate) struct Oscillation<T> {
     pub damped: f64,
     /// `γ / √(ω² − γ²)`, `ω / √(ω² − γ²)`.
     pub ratio: [T; 2],
-    /// `ψ(L) b/ω`: tip angle to come of an impulse of `θ̇`.
+    /// `∂Y/∂a b/(ω L)`: tip deflection to come of an impulse of `θ̇`, of L.
     pub gain: T,
     pub alpha: T,
 }
 
-/// Amplitudes `(ψa, ψp/ω)` at the end by the linear model, one row an aim, and their dependence on
+/// Amplitudes of the tip's deflection and its rate over ω, of L, at the end by the linear model, one
+/// row an aim, and their dependence on
 /// the bulge.
 pub(crate) struct Linear<T> {
     pub rows: [[T; BULGE]; MAX_AIMS],
@@ -39,7 +40,7 @@ pub(crate) struct Linear<T> {
     pub aims: usize,
 }
 
-/// What the bulge is for any aim: `base + Σ zᵢ vᵢ` (turns) leaves the amplitudes `z` (rad).
+/// What the bulge is for any aim: `base + Σ zᵢ vᵢ` (turns) leaves the amplitudes `z`.
 pub(crate) struct LeastEffort<T> {
     pub base: [T; BULGE],
     pub towards: [[T; BULGE]; MAX_AIMS],
@@ -74,7 +75,7 @@ impl<T: Scalar> Linear<T> {
         Self { rows: [[T::ZERO; BULGE]; MAX_AIMS], offset: [T::ZERO; MAX_AIMS], aims: 0 }
     }
 
-    /// Adds the aims of an arm whose mode begins with tip angles `(ψa, ψp/ω)` rad: both amplitudes
+    /// Adds the aims of an arm whose mode begins with the amplitudes `begin`: both amplitudes
     /// at the end, or with `half` the one in the middle that an odd motion brings to rest by.
     pub fn add(
         &mut self,

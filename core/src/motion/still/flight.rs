@@ -4,85 +4,164 @@ use core::f64::consts::TAU;
 
 use super::effort::Oscillation;
 use crate::Error;
-use crate::beam::Rod;
-use crate::math::{Scalar, sqrt};
+use crate::beam::{Chain, Load, Rod};
+use crate::math::{Scalar, cast, sqrt};
 use crate::motion::{Hub, Segment};
-use crate::stepper::{Elastica, ElasticaState, Quality, Stepper};
+use crate::stepper::{Drive, Flex, Oscillator};
 
-/// One arm that a move is planned for.
+/// The modes of one arm that a move is planned for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arm<T, const K: usize> {
-    pub stepper: Elastica<T, K>,
+    modes: [Oscillator<T>; K],
+    /// `ω²`, `βω²`, `b`.
+    stiffness: [T; K],
+    loss: [T; K],
+    coupling: [T; K],
+    /// The first mode, as the linear part of a plan sees it.
     pub oscillation: Oscillation<T>,
-    omega: f64,
-    /// `ψ(L)`, and it over ω.
-    slope: [T; 2],
+    alpha: T,
+    /// `∂Y/∂a` of the tip over L, of the first mode, and it over ω.
+    swing: [T; 2],
+    /// `ω`.
+    frequency: [T; K],
+}
+
+/// The steps of a flight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pace<T> {
+    /// 1/s.
+    pub per_step: T,
+    pub alpha: T,
 }
 
 impl<T: Scalar, const K: usize> Arm<T, K> {
-    pub fn new(rod: &Rod<K>, tick: f64, bend: f64) -> Result<Self, Error> {
+    /// For steps of `step` s.
+    pub fn new(rod: &Rod<K>, step: f64) -> Result<Self, Error> {
         let damping = rod.scene().damping;
-        let omega = rod.frequency()[0];
-        let decay = 0.5 * (damping.alpha + damping.beta * omega * omega);
-        let damped = sqrt((omega * omega - decay * decay).max(0.01 * omega * omega));
-        let slope = rod.tip_slope()[0];
-        let coupling = rod.kinetics(&[0.0; K]).coupling[0];
+        let omega = *rod.frequency();
+        let swing = rod.tip_swing()[0] / rod.scene().link.length;
+        let first = omega[0];
+        let decay = 0.5 * (damping.alpha + damping.beta * first * first);
+        let damped = sqrt((first * first - decay * decay).max(0.01 * first * first));
+        let coupling = rod.kinetics(&[0.0; K]).coupling;
         let f = T::from_f64;
         Ok(Self {
-            stepper: Elastica::new(rod, tick, Quality::Fine, bend)?,
+            modes: core::array::from_fn(|k| {
+                Oscillator::new(omega[k], damping.alpha, damping.beta, coupling[k], step)
+            }),
+            stiffness: cast(&omega.map(|w| w * w)),
+            loss: cast(&omega.map(|w| damping.beta * w * w)),
+            coupling: cast(&coupling),
             oscillation: Oscillation {
                 decay,
                 damped,
-                ratio: [f(decay / damped), f(omega / damped)],
-                gain: f(slope * coupling / omega),
+                ratio: [f(decay / damped), f(first / damped)],
+                gain: f(swing * coupling[0] / first),
                 alpha: f(damping.alpha),
             },
-            omega,
-            slope: [f(slope), f(slope / omega)],
+            alpha: f(damping.alpha),
+            swing: [f(swing), f(swing / first)],
+            frequency: cast(&omega),
         })
     }
 
+    /// `2π/ω₁`, s.
     pub fn first_period(&self) -> f64 {
-        TAU / self.omega
+        TAU / self.frequency[0].to_f64()
     }
 
-    /// Angle of the tip by the first mode after half of a move from rest, rad.
-    pub fn in_the_middle(&self, curve: &Segment<T>, ticks: u32) -> T {
-        let (state, _) = self.fly(curve, ticks / 2, None);
-        self.slope[0] * state.coordinate[0]
-    }
-
-    /// `ψ (a − a_static)` and `ψ p/ω` of the first mode after the move, rad.
-    pub fn at_the_end(
-        &self,
-        curve: &Segment<T>,
-        ticks: u32,
-        from: Option<&ElasticaState<T, K>>,
-    ) -> [T; 2] {
-        let (state, hub) = self.fly(curve, ticks, from);
-        let rest = self.stepper.equilibrium(&hub);
+    /// Deflection of the tip and its rate over ω, by the first mode, away from `rest`; of L.
+    pub fn amplitudes(&self, at: &Flex<T, K>, rest: &Flex<T, K>) -> [T; 2] {
         [
-            self.slope[0] * (state.coordinate[0] - rest.coordinate[0]),
-            self.slope[1] * state.momentum[0],
+            self.swing[0] * (at.coordinate[0] - rest.coordinate[0]),
+            self.swing[1] * (at.rate[0] - rest.rate[0]),
         ]
     }
 
-    fn fly(
-        &self,
-        curve: &Segment<T>,
-        ticks: u32,
-        from: Option<&ElasticaState<T, K>>,
-    ) -> (ElasticaState<T, K>, Hub<T>) {
-        let mut hub = curve.hub(0);
-        let mut state = match from {
-            Some(state) => *state,
-            None => self.stepper.equilibrium(&hub),
-        };
-        for k in 1..=ticks {
-            let after = curve.hub(k);
-            self.stepper.step(&mut state, &hub, &after);
-            hub = after;
+    /// Static equilibrium with the hub at rest as it is.
+    pub fn rest(&self, chain: &Chain<T, K>, hub: &Hub<T>) -> Flex<T, K> {
+        let still = Hub { rate: T::ZERO, acceleration: T::ZERO, ..*hub };
+        let mut flex = Flex::STRAIGHT;
+        for _ in 0..HALVINGS {
+            let excess = self.excess(chain, &flex, &still);
+            for k in 0..K {
+                let next = excess[k] / self.stiffness[k];
+                flex.coordinate[k] = T::HALF * (flex.coordinate[k] + next);
+            }
         }
-        (state, hub)
+        flex
+    }
+
+    /// The arm after `steps` steps along the curve. `watch` sees the arm at every step.
+    pub fn fly(
+        &self,
+        chain: &Chain<T, K>,
+        pace: &Pace<T>,
+        curve: &Segment<T>,
+        steps: u32,
+        from: &Flex<T, K>,
+        mut watch: impl FnMut(&Flex<T, K>, &Hub<T>),
+    ) -> Flex<T, K> {
+        let mut flex = *from;
+        let mut hub = curve.hub(0);
+        let mut force = self.excess(chain, &flex, &hub);
+        let mut change = [T::ZERO; K];
+        for k in 1..=steps {
+            let after = curve.hub(k);
+            let drive = Drive::between(&hub, &after, pace.per_step, pace.alpha);
+            let mut y = [[T::ZERO; 2]; K];
+            for k in 0..K {
+                let at = [flex.coordinate[k], flex.rate[k]];
+                y[k] = self.modes[k].predict(at, &drive, [T::ZERO, force[k]], [T::ZERO, change[k]]);
+            }
+            let guess = Flex { coordinate: y.map(|y| y[0]), rate: y.map(|y| y[1]) };
+            let next = self.excess(chain, &guess, &after);
+            for k in 0..K {
+                let new = next[k] - force[k];
+                let [a, v] = self.modes[k].correct(y[k], [T::ZERO, new - change[k]]);
+                (flex.coordinate[k], flex.rate[k]) = (a, v);
+                change[k] = new;
+            }
+            (force, hub) = (next, after);
+            watch(&flex, &hub);
+        }
+        flex
+    }
+
+    /// Torque, bending moment and tip.
+    pub fn load(&self, chain: &Chain<T, K>, flex: &Flex<T, K>, hub: &Hub<T>) -> Load<T> {
+        let Flex { coordinate, rate } = flex;
+        let acceleration =
+            chain.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
+        chain.load(coordinate, rate, &acceleration, hub)
+    }
+
+    /// Amplitude of the tip's deflection if the arm rings on about `rest`, all modes in step, m.
+    pub fn ringing(&self, chain: &Chain<T, K>, at: &Flex<T, K>, rest: &Flex<T, K>) -> f64 {
+        let tip = chain.tip_swing();
+        let mut sum = 0.0;
+        for k in 0..K {
+            let a = (at.coordinate[k] - rest.coordinate[k]).to_f64();
+            let v = (at.rate[k] / self.frequency[k]).to_f64();
+            sum += tip[k].to_f64().abs() * sqrt(a * a + v * v);
+        }
+        sum
+    }
+
+    /// `ä` beyond the linear oscillators'.
+    #[inline(always)]
+    fn excess(&self, chain: &Chain<T, K>, flex: &Flex<T, K>, hub: &Hub<T>) -> [T; K] {
+        let Flex { coordinate: a, rate: v } = flex;
+        let exact = chain.acceleration(a, v, hub, &self.stiffness, &self.loss);
+        let drive = hub.acceleration + self.alpha * hub.rate;
+        core::array::from_fn(|k| {
+            exact[k]
+                + self.stiffness[k] * a[k]
+                + (self.alpha + self.loss[k]) * v[k]
+                + self.coupling[k] * drive
+        })
     }
 }
+
+/// Halvings of the distance to an equilibrium.
+const HALVINGS: usize = 30;

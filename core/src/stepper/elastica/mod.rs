@@ -9,7 +9,10 @@
 //! oscillator, advanced exactly, and a remainder of polynomials in `a` and forms in `(p, ω)` that
 //! holds no `θ̈`: where the commanded acceleration jumps, nothing needs care.
 
+mod flex;
 mod remainder;
+
+pub use flex::Flex;
 
 use remainder::{Remainder, Value};
 
