@@ -1,10 +1,12 @@
 //! The one type the firmware drives.
 
+mod redirect;
+
 use heapless::Deque;
 
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::{Angle, Hub, Limits, Move, Plan, Segment, Start};
+use crate::motion::{Angle, Hub, Limits, Move, Outline, Segment, Start, lay};
 use crate::stepper::{Response, Stepper};
 
 /// What the motor controller gets every tick. SI units.
@@ -19,10 +21,24 @@ pub struct Setpoint<T> {
     pub acceleration: T,
     /// Torque into the hub by inverse dynamics, N m.
     pub torque: T,
-    /// The tip in the global frame `(x, y)`, m.
+    /// The tip in the hub frame `(X, Y)`, m: X along the link where it is clamped.
     pub tip: [T; 2],
+}
+
+impl<T: Scalar> Setpoint<T> {
     /// The tip's deflection, its hub-frame Y, m.
-    pub deflection: T,
+    #[inline(always)]
+    pub fn deflection(&self) -> T {
+        self.tip[1]
+    }
+
+    /// The tip in the global frame `(x, y)`, m: the hub's angle turns it, by sine and cosine that
+    /// a tick has no need of.
+    #[inline(always)]
+    pub fn global_tip(&self) -> [T; 2] {
+        let ([x, y], (sin, cos)) = (self.tip, self.angle.sin_cos());
+        [x * cos - y * sin, x * sin + y * cos]
+    }
 }
 
 /// A queue of moves and the arm that follows them: one [`Generator::tick`] a tick.
@@ -61,7 +77,11 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let tail = hold(end, stepper.tick());
         // The hold before the first tick has no length: a move pushed now begins at t = 0.
         let current = tail.cut(0);
-        let hub = current.hub(0);
+        let mut hub = Hub::ZERO;
+        current.drive(&mut hub, 0);
+        if stepper.is_directed() {
+            (hub.sin, hub.cos) = hub.angle.sin_cos();
+        }
         let state = stepper.equilibrium(&hub);
         Ok(Self {
             stepper,
@@ -88,22 +108,26 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ///
     /// Runs in f64 and is not for the tick's interrupt. Either the whole move is taken or nothing
     /// changes.
-    pub fn push(&mut self, motion: &Move) -> Result<Plan, Error> {
-        let plan = Plan::new(motion, self.next_start(), &self.limits, self.stepper.tick())?;
-        let (needed, free) = (plan.segments.len(), QUEUE - self.queue.len());
-        if needed > free {
-            return Err(Error::QueueFull { needed, free });
-        }
-        for segment in &plan.segments {
-            // There is room: just counted.
+    pub fn push(&mut self, motion: &Move) -> Result<Outline, Error> {
+        let (start, tick) = (self.next_start(), self.stepper.tick());
+        let (mut needed, free) = (0, QUEUE - self.queue.len());
+        let outline = lay(motion, start, &self.limits, tick, &mut |segment| {
+            needed += 1;
+            // A full queue gives it back; told below.
             let _ = self.queue.push_back(segment.cast());
+        })?;
+        if needed > free {
+            for _ in 0..free {
+                self.queue.pop_back();
+            }
+            return Err(Error::QueueFull { needed, free });
         }
         if self.holding {
             self.current = self.current.cut(self.next_k());
         }
-        self.end = plan.end;
-        self.tail = hold(plan.end, self.stepper.tick());
-        Ok(plan)
+        self.end = outline.end;
+        self.tail = hold(outline.end, tick);
+        Ok(outline)
     }
 
     /// The next setpoint. Never fails, never allocates; the same operations on host and target.
@@ -111,17 +135,14 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn tick(&mut self) -> Setpoint<S::Scalar> {
         let before = self.hub;
         self.k = self.next_k();
-        let turns_over = self.k >= self.current.count();
-        if turns_over {
-            self.landing = self.current.landing();
-            self.advance();
-        }
-        // A hub at rest stays where it is.
-        if turns_over || !(self.holding && before.rate == S::Scalar::ZERO) {
-            self.hub = self.current.hub(self.k);
-        }
-        if !turns_over {
+        if self.k >= self.current.count() {
+            self.turn_over();
+        } else if !(self.holding && before.rate == S::Scalar::ZERO) {
+            self.current.drive(&mut self.hub, self.k);
             self.landing = self.hub.acceleration;
+            if self.stepper.is_directed() {
+                (self.hub.sin, self.hub.cos) = self.hub.angle.sin_cos();
+            }
         }
         // The first tick too: the arm was at rest before it, and stays so.
         let arrival = Hub { acceleration: self.landing, ..self.hub };
@@ -179,9 +200,11 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
     }
 
-    /// Takes up the next segment, or holds.
-    #[inline(always)]
-    fn advance(&mut self) {
+    /// The tick that takes up the next segment, or holds. Out of the way of the ticks in between,
+    /// which then need not save the registers that it takes to move a segment.
+    #[inline(never)]
+    fn turn_over(&mut self) {
+        self.landing = self.current.landing();
         match self.queue.pop_front() {
             Some(segment) => {
                 self.current = segment;
@@ -194,6 +217,10 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             }
         }
         self.k = 0;
+        self.current.drive(&mut self.hub, 0);
+        if self.stepper.is_directed() {
+            (self.hub.sin, self.hub.cos) = self.hub.angle.sin_cos();
+        }
     }
 
     /// A hold that has run out (after 497 days at 10 ms) goes on from where it is.
@@ -211,13 +238,6 @@ fn hold<T: Scalar>(end: Start, tick: f64) -> Segment<T> {
 
 #[inline(always)]
 fn respond<T: Scalar>(hub: &Hub<T>, response: Response<T>) -> Setpoint<T> {
-    let [x, y] = response.tip;
-    Setpoint {
-        angle: hub.angle,
-        rate: hub.rate,
-        acceleration: hub.acceleration,
-        torque: response.torque,
-        tip: [x * hub.cos - y * hub.sin, x * hub.sin + y * hub.cos],
-        deflection: y,
-    }
+    let Response { torque, tip } = response;
+    Setpoint { angle: hub.angle, rate: hub.rate, acceleration: hub.acceleration, torque, tip }
 }

@@ -26,7 +26,7 @@
 //! // Every 10 ms: one call.
 //! for _ in 0..=60 {
 //!     let setpoint = arm.tick();
-//!     assert!(setpoint.torque.abs() < 0.5 && setpoint.deflection.abs() < 0.08);
+//!     assert!(setpoint.torque.abs() < 0.5 && setpoint.deflection().abs() < 0.08);
 //! }
 //! # Ok::<(), stillbeam::Error>(())
 //! ```
@@ -41,7 +41,7 @@
 //! let scene = Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 });
 //! let stepper = Newmark::<f32, 2, 2>::new(&OneElement::consistent(&scene)?, 0.010)?;
 //! let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
-//! assert_eq!(arm.tick().deflection, 0.0);
+//! assert_eq!(arm.tick().deflection(), 0.0);
 //! # Ok::<(), stillbeam::Error>(())
 //! ```
 

@@ -68,7 +68,7 @@ pub fn compare(a: &[Row], b: &[Row], scene: &SceneFile) -> Result<Comparison, Er
 pub fn residual(rows: &[Row], scene: &SceneFile) -> Result<Option<f64>, Error> {
     let trajectory = scene.trajectory(scene.solver.resolve()?.tick)?;
     let last = trajectory.plans().last();
-    if last.is_none_or(|plan| plan.end.rate != 0.0) {
+    if last.is_none_or(|plan| plan.outline.end.rate != 0.0) {
         return Ok(None);
     }
     let end = trajectory.arrivals().last().unwrap_or(0.0);
@@ -84,7 +84,8 @@ pub fn residual(rows: &[Row], scene: &SceneFile) -> Result<Option<f64>, Error> {
 
 /// Times at which the commanded acceleration jumps, the beginning of the run included.
 fn jumps(trajectory: &Trajectory) -> Vec<f64> {
-    let largest = trajectory.plans().iter().map(|plan| plan.peaks.acceleration).fold(0.0, f64::max);
+    let largest =
+        trajectory.plans().iter().map(|plan| plan.outline.peaks.acceleration).fold(0.0, f64::max);
     let jumps_at = |t: f64| {
         let (left, right) = (trajectory.at(t, Side::Left), trajectory.at(t, Side::Right));
         (left.acceleration - right.acceleration).abs() > 1e-6 * largest

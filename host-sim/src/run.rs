@@ -84,14 +84,15 @@ pub fn each_tick<S: Stepper>(
 
 /// A setpoint in the units of the table.
 pub fn row<T: Real>(t: f64, setpoint: &Setpoint<T>) -> Row {
+    let [x, y] = setpoint.global_tip();
     Row {
         t_s: t,
         hub_angle_rad: setpoint.angle.radians(),
         hub_rate_rad_s: setpoint.rate.to_f64(),
         hub_accel_rad_s2: setpoint.acceleration.to_f64(),
-        tip_x_m: setpoint.tip[0].to_f64(),
-        tip_y_m: setpoint.tip[1].to_f64(),
-        deflection_m: setpoint.deflection.to_f64(),
+        tip_x_m: x.to_f64(),
+        tip_y_m: y.to_f64(),
+        deflection_m: setpoint.deflection().to_f64(),
         torque_nm: setpoint.torque.to_f64(),
     }
 }

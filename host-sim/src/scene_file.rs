@@ -189,9 +189,9 @@ impl SceneFile {
         let report = motions.iter().zip(trajectory.plans()).filter_map(|(motion, plan)| {
             let asked = motion.duration();
             // Not worth a word: what a decimal fraction of a second lacks in binary.
-            (plan.rounded_by.abs() > 1e-9 * asked).then(|| {
+            (plan.outline.rounded_by.abs() > 1e-9 * asked).then(|| {
                 let key = if matches!(motion, Move::Dwell { .. }) { "settle" } else { "duration" };
-                let rounded = f64::from(plan.ticks) * tick;
+                let rounded = f64::from(plan.outline.ticks) * tick;
                 format!(
                     "move.{key} = {asked} s is no multiple of the tick ({tick} s): rounded to \
                      {} s",

@@ -57,7 +57,7 @@ impl Trajectory {
             if !matches!(motion, Move::Dwell { .. }) {
                 trajectory.arrivals.push(k);
             }
-            start = plan.end;
+            start = plan.outline.end;
             trajectory.plans.push(plan);
         }
         Ok(trajectory)

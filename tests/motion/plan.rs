@@ -66,7 +66,7 @@ fn every_profile_is_its_textbook_form_at_every_tick() {
             assert_near(profile.name(), hub.rate, 2.0 * rate, 1e-6);
         }
         assert_eq!(hubs::<f64>(&plan).len(), 100, "{profile:?}");
-        assert_near("end", plan.end.angle.radians(), 2.0, 1e-15);
+        assert_near("end", plan.outline.end.angle.radians(), 2.0, 1e-15);
     }
 }
 
@@ -96,9 +96,9 @@ fn stated_peaks_are_reached_and_not_exceeded() {
         let plan = plan(profile, 1.0, 2.0, 0.0001);
         let most = |of: fn(&Hub<f64>) -> f64| hubs(&plan).iter().map(of).fold(0.0, f64::max);
         let rate = most(|hub| hub.rate.abs());
-        assert_near(profile.name(), rate, plan.peaks.rate, 1e-3 * plan.peaks.rate);
+        assert_near(profile.name(), rate, plan.outline.peaks.rate, 1e-3 * plan.outline.peaks.rate);
         let acceleration = most(|hub| hub.acceleration.abs());
-        let expected = plan.peaks.acceleration;
+        let expected = plan.outline.peaks.acceleration;
         assert_near(profile.name(), acceleration, expected, 1e-3 * expected);
     }
 }
@@ -113,8 +113,8 @@ fn spin_up_is_simo_and_vu_quocs() {
             6.0 / 15.0 * (t * t / 2.0 + (15.0 / TAU).powi(2) * ((TAU * t / 15.0).cos() - 1.0));
         assert_near("angle", hub.angle.radians(), angle, 1e-12);
     }
-    assert_near("end", plan.end.angle.radians(), 45.0, 1e-12);
-    assert_eq!(plan.end.rate, 6.0);
+    assert_near("end", plan.outline.end.angle.radians(), 45.0, 1e-12);
+    assert_eq!(plan.outline.end.rate, 6.0);
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn many_turns_keep_their_fraction_in_f32() {
         assert_near("angle", a.angle.in_turns(), b.angle.in_turns(), 3e-5);
         assert!(a.angle.part.abs() <= 0.5);
     }
-    assert_eq!((plan.end.angle.turns, plan.end.angle.part), (250, 0.25));
+    assert_eq!((plan.outline.end.angle.turns, plan.outline.end.angle.part), (250, 0.25));
 }
 
 /// Days at constant rate lose nothing: the step is summed in integers.
@@ -161,9 +161,9 @@ fn a_cruise_of_a_billion_ticks_is_exact() {
 #[test]
 fn durations_are_rounded_to_the_nearest_tick_and_say_so() {
     let rounded = plan(Profile::Cubic, 0.1234, 0.01, 0.01);
-    assert_eq!(rounded.ticks, 12);
-    assert_near("rounded by", rounded.rounded_by, -0.0034, 1e-12);
-    assert_eq!(plan(Profile::Cubic, 0.006, 0.001, 0.01).ticks, 1);
+    assert_eq!(rounded.outline.ticks, 12);
+    assert_near("rounded by", rounded.outline.rounded_by, -0.0034, 1e-12);
+    assert_eq!(plan(Profile::Cubic, 0.006, 0.001, 0.01).outline.ticks, 1);
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn moves_shorter_than_their_segments_still_arrive() {
             let plan = plan(profile, f64::from(ticks) * 0.01, 0.02, 0.01);
             let total: u32 = plan.segments.iter().map(Segment::count).sum();
             assert_eq!(total, ticks, "{profile:?}");
-            assert_near("end", plan.end.angle.radians(), 0.02, 1e-15);
+            assert_near("end", plan.outline.end.angle.radians(), 0.02, 1e-15);
         }
     }
 }

@@ -25,7 +25,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 fn balance(model: &Model<8, 4>, arm: &Generator<Newmark<f64, 8, 4>, 8>, torque: f64) -> Balance {
     let (hub, state, scene) = (arm.hub(), arm.state(), model.scene());
     let q = &state.deflection;
-    let q_dot = arm.stepper().deflection_rate(state, hub.rate);
+    let q_dot = arm.stepper().deflection_rate(state);
     let omega = hub.rate;
     let carried = 0.5 * scene.rigid_inertia() * omega * omega
         + omega * dot(model.coupling(), &q_dot)

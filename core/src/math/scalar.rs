@@ -45,7 +45,7 @@ pub trait Scalar:
 
     /// The nearest whole number, halves to even, and what is left: `self = whole + rest` exactly.
     ///
-    /// `|self| ≤ 2²²`. Outside of it, and for NaN, both are arbitrary.
+    /// `|self| ≤ 2²¹`. Outside of it, and for NaN, both are arbitrary.
     fn split(self) -> (i32, Self);
 
     /// The signed binary fraction `value / 2⁶⁴`, in `−½ ..= ½`, to the scalar's precision.
@@ -64,7 +64,7 @@ pub trait Scalar:
 }
 
 macro_rules! scalar {
-    ($t:ty, $shift:expr, $fraction:expr, $sin:expr, $cos:expr) => {
+    ($t:ty, $shift:expr, $whole:expr, $fraction:expr, $sin:expr, $cos:expr) => {
         impl Scalar for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -92,8 +92,7 @@ macro_rules! scalar {
                 // Added to 1.5 × 2^(mantissa bits), a number loses what is behind its point, and
                 // the lowest bits are the whole part: four instructions, no branch.
                 let shifted = self + $shift;
-                let whole = shifted.to_bits().wrapping_sub(<$t>::to_bits($shift)) as i32;
-                (whole, self - (shifted - $shift))
+                ($whole(shifted.to_bits()), self + ($shift - shifted))
             }
 
             #[inline(always)]
@@ -154,6 +153,8 @@ const fn quarter_f32<const N: usize>(c: [f32; N], first: u32) -> [f32; N] {
 scalar!(
     f32,
     12_582_912.0,
+    // The 22 bits below the one that 1.5 sets, sign-extended.
+    |bits: u32| ((bits << 10) as i32) >> 10,
     |value: i64| (value >> 32) as i32 as f32 * (1.0 / 4_294_967_296.0),
     const { quarter_f32([core::f32::consts::TAU, -41.341_663, 81.592_54, -75.401_61], 1) },
     const { quarter_f32([-19.739_208, 64.939_37, -85.448_82, 59.424_107], 2) }
@@ -162,6 +163,7 @@ scalar!(
 scalar!(
     f64,
     6_755_399_441_055_744.0,
+    |bits: u64| bits as i32,
     |value: i64| value as f64 * (1.0 / 18_446_744_073_709_551_616.0),
     const {
         quarter(

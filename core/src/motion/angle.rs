@@ -19,7 +19,7 @@ pub struct Angle<T> {
 }
 
 impl<T: Scalar> Angle<T> {
-    /// The angle that many turns from `self`. `|delta|` below 2²² turns.
+    /// The angle that many turns from `self`. `|delta|` below 2²¹ turns.
     #[inline(always)]
     pub fn plus(self, delta: T) -> Self {
         let (whole, part) = (self.part + delta).split();
@@ -44,7 +44,7 @@ impl<T: Scalar> Angle<T> {
 }
 
 impl Angle<f64> {
-    /// From radians; `|radians|` below 2²² turns.
+    /// From radians; `|radians|` below 2²¹ turns.
     pub fn from_radians(radians: f64) -> Self {
         Self { turns: 0, part: 0.0 }.plus(radians / TAU)
     }

@@ -10,7 +10,8 @@ pub mod still;
 
 pub use angle::Angle;
 pub use limits::{Limits, Peaks};
-pub use plan::{MAX_SEGMENTS, Plan, Start};
+pub(crate) use plan::lay;
+pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};
 pub use segment::{BULGE, Hub, Segment};
 pub use still::{Departure, Still, StillMove, Survey};

@@ -11,14 +11,25 @@ use crate::math::Scalar;
 pub struct Hub<T> {
     /// θ.
     pub angle: Angle<T>,
-    /// sin θ.
-    pub sin: T,
-    /// cos θ.
-    pub cos: T,
     /// θ̇, rad/s.
     pub rate: T,
     /// θ̈, rad/s².
     pub acceleration: T,
+    /// sin θ; 0 in the tick of an arm that does not feel where down is.
+    pub sin: T,
+    /// cos θ; 1 likewise.
+    pub cos: T,
+}
+
+impl<T: Scalar> Hub<T> {
+    /// At rest at angle 0.
+    pub(crate) const ZERO: Self = Self {
+        angle: Angle { turns: 0, part: T::ZERO },
+        rate: T::ZERO,
+        acceleration: T::ZERO,
+        sin: T::ZERO,
+        cos: T::ONE,
+    };
 }
 
 /// A stretch of the motion with one formula, `u = −1..1` over its length. About the middle the
@@ -41,7 +52,7 @@ pub struct Segment<T> {
     advance: T,
     /// `4π / D`, turns per `u` to rad/s, `D` the length in seconds.
     rate_scale: T,
-    /// `8π / D²`.
+    /// `16π / D²`, half of `d²Δ/du²` to rad/s².
     acceleration_scale: T,
     /// θ̈ at `u = 1`, from the left.
     landing: T,
@@ -68,49 +79,56 @@ pub(crate) enum Shape<T> {
 /// Coefficients of a bulge.
 pub const BULGE: usize = 6;
 
-/// `(Δ, dΔ/du, d²Δ/du²)` of a shape in turns.
+/// `(Δ, dΔ/du, ½ d²Δ/du²)` of a shape in turns.
 type Derivatives<T> = (T, T, T);
 
 impl<T: Scalar> Segment<T> {
     /// The hub at the segment's tick `k`, `k < count`.
-    #[inline(always)]
     pub fn hub(&self, k: u32) -> Hub<T> {
-        let (angle, rate, acceleration) = match self.shape {
+        let mut hub = Hub::ZERO;
+        self.drive(&mut hub, k);
+        (hub.sin, hub.cos) = hub.angle.sin_cos();
+        hub
+    }
+
+    /// Moves the hub, but for its sine and cosine, to the segment's tick `k`, `k < count`.
+    #[inline(always)]
+    pub(crate) fn drive(&self, hub: &mut Hub<T>, k: u32) {
+        if let Shape::Cubic(c) = self.shape {
+            let u = self.offset + T::from_u32(k) * self.advance;
+            (hub.angle, hub.rate, hub.acceleration) = self.scaled(cubic(c, u));
+        } else {
+            self.drive_otherwise(hub, k);
+        }
+    }
+
+    /// What is no cubic, out of the way of those that are: most ticks are theirs.
+    #[inline(never)]
+    fn drive_otherwise(&self, hub: &mut Hub<T>, k: u32) {
+        (hub.angle, hub.rate, hub.acceleration) = match self.shape {
             Shape::Cruise { rate, step } => (self.origin.cruise(step, k), rate, T::ZERO),
-            _ => {
-                let u = self.offset + T::from_u32(k) * self.advance;
-                let (delta, first, second) = self.derivatives(u);
-                (self.origin.plus(delta), first * self.rate_scale, second * self.acceleration_scale)
-            }
+            _ => self.scaled(self.derivatives(self.offset + T::from_u32(k) * self.advance)),
         };
-        let (sin, cos) = angle.sin_cos();
-        Hub { angle, sin, cos, rate, acceleration }
     }
 
     #[inline(always)]
     fn derivatives(&self, u: T) -> Derivatives<T> {
         match self.shape {
-            Shape::Cubic([c1, c2, c3]) => {
-                let (c2_2, c3_3) = (T::TWO * c2, (T::TWO + T::ONE) * c3);
-                (((c3 * u + c2) * u + c1) * u, (c3_3 * u + c2_2) * u + c1, T::TWO * c3_3 * u + c2_2)
-            }
-            Shape::Quintic(c) => quintic(&c, u),
+            Shape::Cubic(c) => cubic(c, u),
+            Shape::Quintic(c) => quintic(c, u),
             Shape::Bulged { c, d } => {
-                let (base, bulge) = (quintic(&c, u), bulge(&d, u));
+                let (base, bulge) = (quintic(c, u), bulge(&d, u));
                 (base.0 + bulge.0, base.1 + bulge.1, base.2 + bulge.2)
             }
-            Shape::Harmonic { c: [c1, c2], a, b } => {
-                let (sin, cos) = (T::HALF * u).sin_cos_turns();
-                let pi = T::from_f64(PI);
-                let c2_2 = T::TWO * c2;
-                (
-                    (c2 * u + c1) * u + a * sin + b * (cos - T::ONE),
-                    c2_2 * u + c1 + pi * (a * cos - b * sin),
-                    c2_2 - pi * pi * (a * sin + b * cos),
-                )
-            }
+            Shape::Harmonic { c, a, b } => harmonic(c, a, b, u),
             Shape::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
         }
+    }
+
+    #[inline(always)]
+    fn scaled(&self, (delta, first, half_second): Derivatives<T>) -> (Angle<T>, T, T) {
+        let rate = first * self.rate_scale;
+        (self.origin.plus(delta), rate, half_second * self.acceleration_scale)
     }
 
     /// Ticks that belong to the segment.
@@ -148,15 +166,42 @@ impl<T: Scalar> Segment<T> {
     }
 }
 
+/// By repeated synthetic division: value, slope and half the curvature out of one chain, without
+/// multiplying coefficients by their powers.
 #[inline(always)]
-fn quintic<T: Scalar>(&[c1, c2, c3, c4, c5]: &[T; 5], u: T) -> Derivatives<T> {
-    let three = T::TWO + T::ONE;
-    let (d2, d3) = (T::TWO * c2, three * c3);
-    let (d4, d5) = ((three + T::ONE) * c4, (three + T::TWO) * c5);
+fn cubic<T: Scalar>([c1, c2, c3]: [T; 3], u: T) -> Derivatives<T> {
+    let p = c3 * u;
+    let p2 = p + c2;
+    let p1 = p2 * u + c1;
+    let q2 = p2 + p;
+    (p1 * u, q2 * u + p1, q2 + p)
+}
+
+/// As [`cubic`].
+#[inline(always)]
+fn quintic<T: Scalar>([c1, c2, c3, c4, c5]: [T; 5], u: T) -> Derivatives<T> {
+    let p = c5 * u;
+    let p4 = p + c4;
+    let p3 = p4 * u + c3;
+    let p2 = p3 * u + c2;
+    let p1 = p2 * u + c1;
+    let q4 = p4 + p;
+    let q3 = q4 * u + p3;
+    let q2 = q3 * u + p2;
+    let r3 = (q4 + p) * u + q3;
+    (p1 * u, q2 * u + p1, r3 * u + q2)
+}
+
+#[inline(always)]
+fn harmonic<T: Scalar>([c1, c2]: [T; 2], a: T, b: T, u: T) -> Derivatives<T> {
+    let (sin, cos) = (T::HALF * u).sin_cos_turns();
+    let (pi, half_pi2) = (T::from_f64(PI), T::from_f64(0.5 * PI * PI));
+    let p2 = c2 * u;
+    let p1 = p2 + c1;
     (
-        ((((c5 * u + c4) * u + c3) * u + c2) * u + c1) * u,
-        (((d5 * u + d4) * u + d3) * u + d2) * u + c1,
-        (((three + T::ONE) * d5 * u + three * d4) * u + T::TWO * d3) * u + d2,
+        p1 * u + a * sin + b * (cos - T::ONE),
+        p1 + p2 + pi * (a * cos - b * sin),
+        c2 - half_pi2 * (a * sin + b * cos),
     )
 }
 
@@ -165,23 +210,22 @@ fn quintic<T: Scalar>(&[c1, c2, c3, c4, c5]: &[T; 5], u: T) -> Derivatives<T> {
 fn bulge<T: Scalar>(d: &[T; BULGE], u: T) -> Derivatives<T> {
     let (mut q, mut q1, mut q2) = (d[BULGE - 1], T::ZERO, T::ZERO);
     for i in (0..BULGE - 1).rev() {
-        // q2 is half the second derivative.
-        q2 = q2 * u + q1;
-        q1 = q1 * u + q;
+        q2 = if i < BULGE - 3 { q2 * u + q1 } else { q1 };
+        q1 = if i < BULGE - 2 { q1 * u + q } else { q };
         q = q * u + d[i];
     }
     let [b, b1, b2] = dome(u);
-    (b * q, b1 * q + b * q1, b2 * q + T::TWO * (b1 * q1 + b * q2))
+    (b * q, b1 * q + b * q1, b2 * q + b1 * q1 + b * q2)
 }
 
-/// `w³` and its derivatives, `w = 1 − u²`.
+/// `w³`, its slope and half its curvature, `w = 1 − u²`.
 #[inline(always)]
 pub(crate) fn dome<T: Scalar>(u: T) -> [T; 3] {
-    let six = T::TWO + T::TWO + T::TWO;
+    let three = T::TWO + T::ONE;
     let square = u * u;
     let w = T::ONE - square;
     let w2 = w * w;
-    [w2 * w, -(six * u * w2), six * w * ((T::TWO + T::TWO) * square - w)]
+    [w2 * w, -(T::TWO * three * u * w2), three * w * ((T::TWO + T::TWO) * square - w)]
 }
 
 impl<T: Scalar> Angle<T> {
@@ -232,13 +276,13 @@ impl Segment<f64> {
             offset: 2.0 * before / length - 1.0,
             advance: 2.0 / length,
             rate_scale: TAU / half,
-            acceleration_scale: TAU / (half * half),
+            acceleration_scale: 2.0 * TAU / (half * half),
             landing: 0.0,
             shape,
         };
         let [begin, _, landing] = segment.shape.ends();
         segment.origin = start.plus(-begin);
-        segment.landing = landing * segment.acceleration_scale;
+        segment.landing = 0.5 * landing * segment.acceleration_scale;
         segment
     }
 
@@ -266,14 +310,10 @@ impl Segment<f64> {
                 let turns = step as f64 / 18_446_744_073_709_551_616.0 * ticks;
                 (self.origin.plus(turns), rate, 0.0)
             }
-            _ => {
-                let u = self.offset + ticks * self.advance;
-                let (delta, first, second) = self.derivatives(u);
-                (self.origin.plus(delta), first * self.rate_scale, second * self.acceleration_scale)
-            }
+            _ => self.scaled(self.derivatives(self.offset + ticks * self.advance)),
         };
         let (sin, cos) = angle.sin_cos();
-        Hub { angle, sin, cos, rate, acceleration }
+        Hub { angle, rate, acceleration, sin, cos }
     }
 
     /// The angle at `u = 1`.

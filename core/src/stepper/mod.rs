@@ -41,6 +41,13 @@ pub trait Stepper {
     /// h, s.
     fn tick(&self) -> f64;
 
+    /// Whether the arm feels where down is. If not, the hubs that `step` and `response` are given
+    /// hold no sine and cosine, which then cost nothing.
+    #[inline(always)]
+    fn is_directed(&self) -> bool {
+        true
+    }
+
     /// Static equilibrium with the hub at rest at `hub.angle`. Set-up only.
     fn equilibrium(&self, hub: &Hub<Self::Scalar>) -> Self::State;
 

@@ -1,10 +1,10 @@
 //! Small deflections in modal coordinates: the tick costs the same for any number of elements.
 
-use super::oscillator::{Drive, Oscillator};
+use super::oscillator::{Drive, contracting};
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::{Model, Modes};
-use crate::math::{Band, Scalar, cast, dot};
+use crate::math::{Band, Scalar, cast, dot, phi_functions};
 use crate::motion::Hub;
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
@@ -12,39 +12,90 @@ use crate::motion::Hub;
 /// `äᵢ + (α + βωᵢ²)ȧᵢ + ωᵢ²aᵢ = −bᵢ(θ̈ + αθ̇) − θ̇²(Γa)ᵢ + g sinθ (Πa)ᵢ − g cosθ fᵢ`
 ///
 /// with `Γ = ΦᵀGΦ`, `Π = ΦᵀK_PΦ`, `b = ΦᵀF`, `f = Φᵀf_g`. Exact for any tick where the right-hand
-/// side's last three terms vanish and `θ̈` is a parabola; they are taken along by an exponential
-/// predictor-corrector of second order with one evaluation a tick. What remains is the
-/// small-deflection model's own error, about 0.1 (w/L)².
+/// side's last three terms, the force, vanish and `θ̈` is a parabola; the force is taken along as a
+/// straight line to its value at the predicted end, of second order with one evaluation a tick.
+/// What remains is the small-deflection model's own error, about 0.1 (w/L)².
 #[derive(Clone, Copy, Debug)]
 pub struct Modal<T, const K: usize> {
     tick: f64,
     terms: Terms,
-    modes: [Oscillator<T>; K],
     per_tick: T,
-    alpha: T,
-    /// `ωᵢ²` and `βωᵢ²`.
-    stiffness: [T; K],
-    loss: [T; K],
-    coupling: [T; K],
-    /// `Γ`, `g Π` and `ΦᵀSΦ`.
+    modes: [Mode<T>; K],
+    /// `Γ` and `ΦᵀSΦ`.
     spin: Band<T, K, K>,
-    tension: Band<T, K, K>,
     shortening: Band<T, K, K>,
-    /// `g f` and `g S`.
-    weight: [T; K],
-    moment: T,
-    hub_inertia: T,
-    /// `J_r − bᵀb`: the inertia that the kept modes do not carry.
-    residual_inertia: T,
-    reach: T,
     /// Tip deflection per modal coordinate.
     tip: [T; K],
+    reach: T,
+    coupling: [T; K],
+    /// `bᵢωᵢ²`.
+    support: [T; K],
+    /// `J_h + J_r − bᵀb`: the hub's, and the inertia that the kept modes do not carry.
+    inertia: T,
+    alpha: T,
+    /// `α(J_r − bᵀb)` and `βbᵢωᵢ²`.
+    drag: T,
+    loss: [T; K],
+    /// `g Π`, `g f` and `g S`.
+    tension: Band<T, K, K>,
+    weight: [T; K],
+    moment: T,
+    /// `ωᵢ²`.
+    stiffness: [T; K],
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Terms {
     spin: bool,
     gravity: bool,
+    damping: bool,
+}
+
+/// One mode over a tick: rows of weights for `aᵢ` and `ȧᵢ`.
+#[derive(Clone, Copy, Debug)]
+struct Mode<T> {
+    /// `exp(hA)`, see [`contracting`].
+    exponential: [[T; 2]; 2],
+    /// Of `u` at the beginning, in the mean and at the end.
+    drive: [[T; 3]; 2],
+    /// `hφ₁`: of the force at the beginning.
+    constant: [T; 2],
+    /// `hφ₂`: of its change.
+    slope: [T; 2],
+}
+
+impl<T: Scalar> Mode<T> {
+    /// For a step of `h` s; `omega` in rad/s, `alpha` in 1/s, `beta` in s, `b` the coupling.
+    fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
+        let stiffness = omega * omega;
+        let a = [[0.0, h], [-h * stiffness, -h * (alpha + beta * stiffness)]];
+        let [exponential, p1, p2, p3] = phi_functions(&a);
+        Self {
+            exponential: contracting(exponential),
+            // u = u₀ + c₁s + c₂s², c₁ = 6ū − 4u₀ − 2u₁, c₂ = 3(u₀ + u₁ − 2ū), s = 0..1:
+            // the response is h(φ₁u₀ + φ₂c₁ + 2φ₃c₂) times the second column.
+            drive: core::array::from_fn(|r| {
+                let (f1, f2, f3) = (h * p1[r][1], h * p2[r][1], h * p3[r][1]);
+                [f1 - 4.0 * f2 + 6.0 * f3, 6.0 * f2 - 12.0 * f3, 6.0 * f3 - 2.0 * f2]
+                    .map(|weight| T::from_f64(-b * weight))
+            }),
+            constant: p1.map(|row| T::from_f64(h * row[1])),
+            slope: p2.map(|row| T::from_f64(h * row[1])),
+        }
+    }
+
+    /// The state after a tick if the force stays what it is.
+    #[inline(always)]
+    fn predict(&self, y: [T; 2], drive: &Drive<T>, force: T) -> [T; 2] {
+        [0, 1].map(|r| {
+            self.exponential[r][0] * y[0]
+                + self.exponential[r][1] * y[1]
+                + self.drive[r][0] * drive.begin
+                + self.drive[r][1] * drive.mean
+                + self.drive[r][2] * drive.end
+                + self.constant[r] * force
+        })
+    }
 }
 
 /// Modal coordinates and their rates.
@@ -54,9 +105,10 @@ pub struct ModalState<T, const K: usize> {
     pub coordinate: [T; K],
     /// `ȧ`.
     pub rate: [T; K],
-    /// Spin and gravity forces, and their change over the last tick.
+    /// Spin and gravity forces.
     force: [T; K],
-    change: [T; K],
+    /// `Γa`; both at the coordinates that the tick predicted.
+    softening: [T; K],
 }
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
@@ -87,26 +139,33 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         };
         let coupling = onto(model.coupling());
         let squared: [f64; K] = core::array::from_fn(|k| modes.frequency[k] * modes.frequency[k]);
+        let support: [f64; K] = core::array::from_fn(|k| coupling[k] * squared[k]);
+        let residual = scene.rigid_inertia() - dot(&coupling, &coupling);
         Ok(Self {
             tick,
-            terms: Terms { spin: true, gravity: gravity != 0.0 },
-            modes: core::array::from_fn(|k| {
-                Oscillator::new(modes.frequency[k], alpha, beta, coupling[k], tick)
-            }),
+            terms: Terms {
+                spin: true,
+                gravity: gravity != 0.0,
+                damping: alpha != 0.0 || beta != 0.0,
+            },
             per_tick: T::from_f64(1.0 / tick),
-            alpha: T::from_f64(alpha),
-            stiffness: cast(&squared),
-            loss: cast(&squared.map(|w2| beta * w2)),
-            coupling: cast(&coupling),
+            modes: core::array::from_fn(|k| {
+                Mode::new(modes.frequency[k], alpha, beta, coupling[k], tick)
+            }),
             spin: between(model.spin(), 1.0),
-            tension: between(model.tension(), gravity),
             shortening: between(model.shortening(), 1.0),
+            tip: core::array::from_fn(|k| T::from_f64(modes.shape[k][model.tip()])),
+            reach: T::from_f64(scene.reach()),
+            coupling: cast(&coupling),
+            support: cast(&support),
+            inertia: T::from_f64(scene.hub.inertia + residual),
+            alpha: T::from_f64(alpha),
+            drag: T::from_f64(alpha * residual),
+            loss: cast(&support.map(|b| beta * b)),
+            tension: between(model.tension(), gravity),
             weight: cast(&onto(model.weight()).map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
-            hub_inertia: T::from_f64(scene.hub.inertia),
-            residual_inertia: T::from_f64(scene.rigid_inertia() - dot(&coupling, &coupling)),
-            reach: T::from_f64(scene.reach()),
-            tip: core::array::from_fn(|k| T::from_f64(modes.shape[k][model.tip()])),
+            stiffness: cast(&squared),
         })
     }
 
@@ -116,13 +175,14 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         self
     }
 
-    /// `−θ̇²Γa + g sinθ Πa − g cosθ f`.
+    /// `(−θ̇²Γa + g sinθ Πa − g cosθ f, Γa)`.
     #[inline(always)]
-    fn force(&self, a: &[T; K], hub: &Hub<T>) -> [T; K] {
-        let mut force = [T::ZERO; K];
+    fn force(&self, a: &[T; K], hub: &Hub<T>) -> [[T; K]; 2] {
+        let (mut force, mut softening) = ([T::ZERO; K], [T::ZERO; K]);
         if self.terms.spin {
             let rate2 = hub.rate * hub.rate;
-            force = self.spin.times(a).map(|f| -(rate2 * f));
+            softening = self.spin.times(a);
+            force = softening.map(|f| -(rate2 * f));
         }
         if self.terms.gravity {
             let tension = self.tension.times(a);
@@ -130,7 +190,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                 force[k] += hub.sin * tension[k] - hub.cos * self.weight[k];
             }
         }
-        force
+        [force, softening]
     }
 }
 
@@ -142,6 +202,11 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         self.tick
     }
 
+    #[inline(always)]
+    fn is_directed(&self) -> bool {
+        self.terms.gravity
+    }
+
     fn equilibrium(&self, hub: &Hub<T>) -> ModalState<T, K> {
         let mut stiffness = self.tension.map(|x| -(hub.sin * x));
         for k in 0..K {
@@ -149,26 +214,32 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         }
         let coordinate = stiffness.factor().solve(&self.weight.map(|f| -(hub.cos * f)));
         let still = Hub { rate: T::ZERO, ..*hub };
-        let force = self.force(&coordinate, &still);
-        ModalState { coordinate, rate: [T::ZERO; K], force, change: [T::ZERO; K] }
+        let [force, softening] = self.force(&coordinate, &still);
+        ModalState { coordinate, rate: [T::ZERO; K], force, softening }
     }
 
     #[inline(always)]
     fn step(&self, state: &mut ModalState<T, K>, before: &Hub<T>, after: &Hub<T>) {
-        let drive = Drive::between(before, after, self.per_tick, self.alpha);
+        let gained = (after.rate - before.rate) * self.per_tick;
+        let mut drive = Drive { begin: before.acceleration, mean: gained, end: after.acceleration };
+        if self.terms.damping {
+            drive = Drive::between(before, after, self.per_tick, self.alpha);
+        }
         let mut y = [[T::ZERO; 2]; K];
         for k in 0..K {
-            let (n, change) = ([T::ZERO, state.force[k]], [T::ZERO, state.change[k]]);
-            y[k] = self.modes[k].predict([state.coordinate[k], state.rate[k]], &drive, n, change);
+            y[k] = [state.coordinate[k], state.rate[k]];
+            y[k] = self.modes[k].predict(y[k], &drive, state.force[k]);
         }
-        let force = self.force(&y.map(|y| y[0]), after);
-        for k in 0..K {
-            let change = force[k] - state.force[k];
-            let excess = change - state.change[k];
-            [state.coordinate[k], state.rate[k]] = self.modes[k].correct(y[k], [T::ZERO, excess]);
-            state.change[k] = change;
+        if self.terms.spin || self.terms.gravity {
+            let [force, softening] = self.force(&y.map(|y| y[0]), after);
+            for k in 0..K {
+                let change = force[k] - state.force[k];
+                y[k] = [0, 1].map(|r| y[k][r] + self.modes[k].slope[r] * change);
+            }
+            (state.force, state.softening) = (force, softening);
         }
-        state.force = force;
+        state.coordinate = y.map(|y| y[0]);
+        state.rate = y.map(|y| y[1]);
     }
 
     /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ
@@ -176,23 +247,29 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     #[inline(always)]
     fn response(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
         let (a, rate) = (&state.coordinate, &state.rate);
-        let u = hub.acceleration + self.alpha * hub.rate;
-        let force = self.force(a, hub);
-        let mut torque = self.hub_inertia * hub.acceleration + self.residual_inertia * u;
-        for k in 0..K {
-            // ä + bu + αȧ: the drive and the drag cancel.
-            torque +=
-                self.coupling[k] * (force[k] - self.stiffness[k] * a[k] - self.loss[k] * rate[k]);
+        let mut u = hub.acceleration;
+        // bᵀ(ä + bu + αȧ): the drive and the drag cancel.
+        let mut torque = self.inertia * u - dot(&self.support, a);
+        if self.terms.damping {
+            u += self.alpha * hub.rate;
+            torque += self.drag * hub.rate - dot(&self.loss, rate);
+        }
+        if self.terms.spin || self.terms.gravity {
+            torque += dot(&self.coupling, &state.force);
         }
         if self.terms.spin {
-            let spin = self.spin.times(a);
-            torque -= u * dot(&spin, a) + T::TWO * hub.rate * dot(&spin, rate);
+            let twice = T::TWO * hub.rate;
+            let mut arm = *a;
+            for k in 0..K {
+                arm[k] = u * a[k] + twice * rate[k];
+            }
+            torque -= dot(&state.softening, &arm);
         }
         if self.terms.gravity {
-            let bent = dot(&self.tension.times(a), a);
-            torque += hub.cos * (self.moment - T::HALF * bent) - hub.sin * dot(&self.weight, a);
+            let bent = self.tension.half_form(a);
+            torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, a);
         }
-        let shortened = T::HALF * dot(&self.shortening.times(a), a);
-        Response { torque, tip: [self.reach - shortened, dot(&self.tip, a)] }
+        let tip = [self.reach - self.shortening.half_form(a), dot(&self.tip, a)];
+        Response { torque, tip }
     }
 }

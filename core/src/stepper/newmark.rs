@@ -9,6 +9,13 @@
 //! The commanded acceleration is gone: it may jump anywhere, inside a tick too, and the step stays
 //! of second order without solving anew from the right-hand value. (It is the same scheme: with
 //! the jumps handled that way, the classical form gives the same figures to four digits.)
+//!
+//! Half a tick long, the velocities are lengths: with `d = ½h q̇` and `c = −¼h² v̇` a tick is
+//!
+//! `d* = d − c − ½hb Δθ̇`, `q* = q + d + d*`, `[4/h² M + 2/h C + K_t] c = K_t q* + 2/h C d* + …`,
+//! `q = q* − c`, `d = d* − c`,
+//!
+//! which needs neither h nor `v` itself, and no difference of large numbers.
 
 use super::{Response, Stepper};
 use crate::Error;
@@ -23,40 +30,40 @@ use crate::motion::Hub;
 pub struct Newmark<T, const N: usize, const W: usize> {
     tick: f64,
     terms: Terms,
-    half: T,
-    /// `4/h²`.
-    per_quarter: T,
-    /// `4/h² M + 2/h (αM + βK) + K`, and its factors for ticks on which nothing is added to it.
-    effective: Band<T, N, W>,
-    factors: Ldl<T, N, W>,
+    /// `½hb` with `b = M⁻¹F`.
+    turn: [T; N],
     stiffness: Band<T, N, W>,
     /// `G`.
     spin: Band<T, N, W>,
-    /// `g K_P`.
-    tension: Band<T, N, W>,
+    /// `4/h² M + 2/h (αM + βK) + K`, and its factors for ticks on which nothing is added to it.
+    effective: Band<T, N, W>,
+    factors: Ldl<T, N, W>,
+    /// `−4/h² F`.
+    coupling: [T; N],
+    /// `J_h + J_r − Fᵀb`: `J_r − Fᵀb` is the part of the rigid inertia that `F` and `v̇` do not
+    /// carry.
+    inertia: T,
+    /// `4/h`.
+    twice_per_half: T,
+    reach: T,
     /// `S`.
     shortening: Band<T, N, W>,
-    /// `C = αM + βK`.
+    /// The tip's deflection is the last degree of freedom, not the last but one.
+    tip_last: bool,
+    /// `2/h (αM + βK)`.
     damping: Band<T, N, W>,
+    /// `αF` and `2/h αF`.
+    drag: [T; N],
+    drag_torque: [T; N],
     alpha: T,
-    /// `b = M⁻¹F`.
-    turn: [T; N],
-    /// `βKb`.
-    turn_damping: [T; N],
-    /// `F`.
-    coupling: [T; N],
+    /// `αJ_r`.
+    rigid_drag: T,
+    /// `g K_P`.
+    tension: Band<T, N, W>,
     /// `g f_g`.
     weight: [T; N],
     /// `g S`, S the first moment.
     moment: T,
-    /// `J_h + J_r − Fᵀb`: `J_r − Fᵀb` is the part of the rigid inertia that `F` and `v̇` do not
-    /// carry.
-    inertia: T,
-    /// `α(J_r − Fᵀb)`.
-    drag: T,
-    reach: T,
-    /// The tip's deflection is the last degree of freedom, not the last but one.
-    tip_last: bool,
 }
 
 /// Terms that the scene needs; the others cost nothing but a branch that never changes.
@@ -67,15 +74,15 @@ struct Terms {
     damping: bool,
 }
 
-/// The arm's state.
+/// The arm's state, in m and slopes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vibration<T, const N: usize> {
     /// `q`: deflection (m) and slope of each node in the hub frame.
     pub deflection: [T; N],
-    /// `v = q̇ + bθ̇`.
-    pub velocity: [T; N],
-    /// `v̇`.
-    pub acceleration: [T; N],
+    /// `½h q̇`: half of what it gains a tick.
+    pub gain: [T; N],
+    /// `−¼h² v̇`.
+    pub restoring: [T; N],
 }
 
 impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
@@ -84,13 +91,15 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         let tick = super::check_tick(tick)?;
         let scene = model.scene();
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
-        let (half, per_quarter) = (0.5 * tick, 4.0 / (tick * tick));
-        let damping = model.mass().scaled(alpha).plus(beta, model.stiffness());
+        let per_half = 2.0 / tick;
+        let damping =
+            model.mass().scaled(per_half * alpha).plus(per_half * beta, model.stiffness());
         let effective =
-            model.stiffness().plus(1.0 / half, &damping).plus(per_quarter, model.mass());
+            damping.plus(per_half * per_half, model.mass()).plus(1.0, model.stiffness());
         let turn = model.mass().factor().solve(model.coupling());
         let residual = scene.rigid_inertia() - dot(model.coupling(), &turn);
         let band = |a: &Band<f64, N, W>| a.map(T::from_f64);
+        let coupling = |scale: f64| cast(&model.coupling().map(|f| scale * f));
         Ok(Self {
             tick,
             terms: Terms {
@@ -98,25 +107,25 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
                 gravity: gravity != 0.0,
                 damping: alpha != 0.0 || beta != 0.0,
             },
-            half: T::from_f64(half),
-            per_quarter: T::from_f64(per_quarter),
-            factors: effective.factor().map(T::from_f64),
-            effective: band(&effective),
+            turn: cast(&turn.map(|b| 0.5 * tick * b)),
             stiffness: band(model.stiffness()),
             spin: band(model.spin()),
-            tension: band(&model.tension().scaled(gravity)),
+            factors: effective.factor().map(T::from_f64),
+            effective: band(&effective),
+            coupling: coupling(-per_half * per_half),
+            inertia: T::from_f64(scene.hub.inertia + residual),
+            twice_per_half: T::from_f64(2.0 * per_half),
+            reach: T::from_f64(scene.reach()),
             shortening: band(model.shortening()),
+            tip_last: model.tip() + 1 == N,
             damping: band(&damping),
+            drag: coupling(alpha),
+            drag_torque: coupling(per_half * alpha),
             alpha: T::from_f64(alpha),
-            turn: cast(&turn),
-            turn_damping: cast(&model.stiffness().times(&turn).map(|f| beta * f)),
-            coupling: cast(model.coupling()),
+            rigid_drag: T::from_f64(alpha * scene.rigid_inertia()),
+            tension: band(&model.tension().scaled(gravity)),
             weight: cast(&model.weight().map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
-            inertia: T::from_f64(scene.hub.inertia + residual),
-            drag: T::from_f64(alpha * residual),
-            reach: T::from_f64(scene.reach()),
-            tip_last: model.tip() + 1 == N,
         })
     }
 
@@ -127,14 +136,10 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         self
     }
 
-    /// `q̇ = v − bθ̇`, the deflection's rate in the hub frame.
-    #[inline(always)]
-    pub fn deflection_rate(&self, state: &Vibration<T, N>, rate: T) -> [T; N] {
-        let mut q_dot = state.velocity;
-        for i in 0..N {
-            q_dot[i] -= self.turn[i] * rate;
-        }
-        q_dot
+    /// `q̇`, the deflection's rate in the hub frame.
+    pub fn deflection_rate(&self, state: &Vibration<T, N>) -> [T; N] {
+        let per_half = T::HALF * self.twice_per_half;
+        state.gain.map(|gain| per_half * gain)
     }
 
     /// `w(L)`.
@@ -144,22 +149,12 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         if self.tip_last { q[N - 1] } else { q[N.saturating_sub(2)] }
     }
 
-    /// `−¼h² v̇` from `[4/h² M + 2/h C + K_t] ¼h² v̇ = −K_t q − Cv + θ̇βKb − g cosθ f_g`, with
+    /// `c` from `[4/h² M + 2/h C + K_t] c = K_t q + 2/h C d + αFθ̇ + g cosθ f_g`, with
     /// `K_t = K + θ̇²G − g sinθ K_P`; the factors of set-up serve while `K_t` is `K`.
     #[inline(always)]
-    fn solve(&self, q: &[T; N], v: &[T; N], hub: &Hub<T>) -> [T; N] {
+    fn solve(&self, q: &[T; N], d: &[T; N], hub: &Hub<T>) -> [T; N] {
         let mut force = self.stiffness.times(q);
-        if self.terms.damping {
-            let damping = self.damping.times(v);
-            for i in 0..N {
-                force[i] += damping[i] - self.turn_damping[i] * hub.rate;
-            }
-        }
-        if self.terms.gravity {
-            for i in 0..N {
-                force[i] += self.weight[i] * hub.cos;
-            }
-        }
+        self.load(&mut force, d, hub);
         let turns = self.terms.spin && hub.rate != T::ZERO;
         if !turns && !self.terms.gravity {
             return self.factors.solve(&force);
@@ -175,6 +170,22 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         }
         self.effective.plus(T::ONE, &change).factor().solve(&force)
     }
+
+    /// Adds the forces that do not depend on `q`.
+    #[inline(always)]
+    fn load(&self, force: &mut [T; N], d: &[T; N], hub: &Hub<T>) {
+        if self.terms.damping {
+            let damping = self.damping.times(d);
+            for i in 0..N {
+                force[i] += damping[i] + self.drag[i] * hub.rate;
+            }
+        }
+        if self.terms.gravity {
+            for i in 0..N {
+                force[i] += self.weight[i] * hub.cos;
+            }
+        }
+    }
 }
 
 impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
@@ -185,52 +196,52 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
         self.tick
     }
 
+    #[inline(always)]
+    fn is_directed(&self) -> bool {
+        self.terms.gravity
+    }
+
     fn equilibrium(&self, hub: &Hub<T>) -> Vibration<T, N> {
         let load = self.weight.map(|f| -hub.cos * f);
         let deflection = self.stiffness.plus(-hub.sin, &self.tension).factor().solve(&load);
-        Vibration { deflection, velocity: [T::ZERO; N], acceleration: [T::ZERO; N] }
+        Vibration { deflection, gain: [T::ZERO; N], restoring: [T::ZERO; N] }
     }
 
     #[inline(always)]
     fn step(&self, state: &mut Vibration<T, N>, before: &Hub<T>, after: &Hub<T>) {
-        // ∫θ̇dt by the same rule as everything else; the remainder of the angle would bring in
-        // rounding noise a hundred times larger.
-        let turned = self.half * (before.rate + after.rate);
+        let gained = after.rate - before.rate;
         let mut q = state.deflection;
-        let mut v = state.velocity;
-        let mut a = state.acceleration;
+        let mut d = state.gain;
         for i in 0..N {
-            let v0 = v[i];
-            v[i] += self.half * a[i];
-            q[i] += self.half * (v0 + v[i]) - self.turn[i] * turned;
+            let d0 = d[i];
+            d[i] = d0 - state.restoring[i] - self.turn[i] * gained;
+            q[i] += d0 + d[i];
         }
-        let back = self.solve(&q, &v, after);
+        let restoring = self.solve(&q, &d, after);
         for i in 0..N {
-            q[i] -= back[i];
-            a[i] = -(self.per_quarter * back[i]);
-            v[i] += self.half * a[i];
+            q[i] -= restoring[i];
+            d[i] -= restoring[i];
         }
-        *state = Vibration { deflection: q, velocity: v, acceleration: a };
+        *state = Vibration { deflection: q, gain: d, restoring };
     }
 
-    /// `τ = J_h θ̈ + (J_r − Fᵀb)(θ̈ + αθ̇) + Fᵀ(v̇ + αv) + g cosθ S − g sinθ f_gᵀq
+    /// `τ = J_h θ̈ + (J_r − Fᵀb)θ̈ + αJ_r θ̇ + Fᵀ(v̇ + αq̇) + g cosθ S − g sinθ f_gᵀq
     /// − (θ̈ + αθ̇) qᵀGq − 2θ̇ qᵀGq̇ − ½ g cosθ qᵀK_P q`, of second order in `q`;
     /// tip `(r + L − ½ qᵀSq, w(L))`.
     #[inline(always)]
     fn response(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
         let q = &state.deflection;
         let mut forced = hub.acceleration;
-        let mut torque = self.inertia * hub.acceleration + dot(&self.coupling, &state.acceleration);
+        let mut torque = self.inertia * hub.acceleration + dot(&self.coupling, &state.restoring);
         if self.terms.damping {
             forced += self.alpha * hub.rate;
-            torque += self.drag * hub.rate + self.alpha * dot(&self.coupling, &state.velocity);
+            torque += self.rigid_drag * hub.rate + dot(&self.drag_torque, &state.gain);
         }
         if self.terms.spin {
-            let q_dot = self.deflection_rate(state, hub.rate);
-            let twice = T::TWO * hub.rate;
+            let twice = self.twice_per_half * hub.rate;
             let mut arm = *q;
             for i in 0..N {
-                arm[i] = forced * q[i] + twice * q_dot[i];
+                arm[i] = forced * q[i] + twice * state.gain[i];
             }
             torque -= dot(&self.spin.times(q), &arm);
         }

@@ -40,6 +40,11 @@ impl<T: Scalar> Stepper for Rigid<T> {
         self.tick
     }
 
+    #[inline(always)]
+    fn is_directed(&self) -> bool {
+        self.weight != T::ZERO
+    }
+
     fn equilibrium(&self, _: &Hub<T>) {}
 
     #[inline(always)]

@@ -4,12 +4,14 @@
 use core::fmt::Write;
 use core::hint::black_box;
 
+use stillbeam::Stepper;
+use stillbeam::motion::{Limits, Plan, Start};
 use stillbeam::{Damping, Error, Generator, Hub, Link, Move, Payload, Profile, Scene, Setpoint};
-use stillbeam::{Stepper, motion::Plan};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 
 const TICK: f64 = 0.010;
+const FROM: f64 = -0.3;
 
 /// Member B with everything a scene can have.
 const FULL: Scene = Scene {
@@ -76,11 +78,11 @@ impl<C: Counter, W: Write> Bench<'_, C, W> {
         let (arm, setup) = self.watch.count(|| set_up::<M>(black_box(scene)));
         let mut arm = arm.expect("the bench's scenes are accepted");
         let (first, planning) = self.watch.count(|| arm.push(&moves[0]));
-        let mut run = Run::default();
-        run.add(&first.expect("the bench's moves are accepted"));
+        first.expect("the bench's moves are accepted");
         for motion in &moves[1..] {
-            run.add(&arm.push(motion).expect("the bench's moves are accepted"));
+            arm.push(motion).expect("the bench's moves are accepted");
         }
+        let run = Run::of(moves);
         let mut counts = [Extremes::NONE; PATHS.len()];
         for k in 0..=run.ticks + 50 {
             let (setpoint, count) = self.watch.count(|| tick(black_box(&mut arm)));
@@ -103,7 +105,7 @@ impl<C: Counter, W: Write> Bench<'_, C, W> {
 
 #[inline(never)]
 fn set_up<M: Method>(scene: &Scene) -> Result<Generator<M::Stepper, 16>, Error> {
-    Generator::new(M::stepper(scene, TICK)?, -0.3)
+    Generator::new(M::stepper(scene, TICK)?, FROM)
 }
 
 /// The call as firmware makes it, with the setpoint written to memory.
@@ -126,12 +128,20 @@ struct Run {
 }
 
 impl Run {
-    fn add(&mut self, plan: &Plan) {
-        for segment in &plan.segments {
-            self.ticks += segment.count();
-            self.ends[self.segments] = self.ticks;
-            self.segments += 1;
+    fn of(moves: &[Move]) -> Self {
+        let mut run = Self::default();
+        let mut start = Start::at_rest(FROM).expect("the bench's moves are accepted");
+        for motion in moves {
+            let plan = Plan::new(motion, start, &Limits::default(), TICK);
+            let plan = plan.expect("the bench's moves are accepted");
+            for segment in &plan.segments {
+                run.ticks += segment.count();
+                run.ends[run.segments] = run.ticks;
+                run.segments += 1;
+            }
+            start = plan.outline.end;
         }
+        run
     }
 
     /// Index in [`PATHS`] of tick `k`.

@@ -188,7 +188,11 @@ impl Plan {
 fn same_durations(a: &Trajectory, b: &Trajectory) -> bool {
     let nanoseconds = |trajectory: &Trajectory| -> Vec<i64> {
         let seconds = |ticks: u32| f64::from(ticks) * trajectory.tick();
-        trajectory.plans().iter().map(|plan| (seconds(plan.ticks) * 1e9).round() as i64).collect()
+        trajectory
+            .plans()
+            .iter()
+            .map(|plan| (seconds(plan.outline.ticks) * 1e9).round() as i64)
+            .collect()
     };
     nanoseconds(a) == nanoseconds(b)
 }

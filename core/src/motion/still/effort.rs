@@ -54,7 +54,7 @@ fn bulges<T: Scalar>(u: T) -> [[T; BULGE]; 2] {
     for k in 0..BULGE {
         let n = T::from_u32(k as u32);
         let (q1, q2) = (n * before, n * (n - T::ONE) * before2);
-        out[0][k] = b2 * power + T::TWO * b1 * q1 + b * q2;
+        out[0][k] = T::TWO * (b2 * power + b1 * q1) + b * q2;
         out[1][k] = b1 * power + b * q1;
         (before2, before, power) = (before, power, power * u);
     }
