@@ -57,8 +57,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         let kept = match place {
             Place::Current(_) => 0,
-            Place::Waiting(index, _) => index + 1,
-            Place::Held(_) => self.queue.len() + 1,
+            Place::Waiting(index, k) => index + usize::from(k > 0),
+            Place::Held(k) => self.queue.len() + usize::from(k > 0),
         };
         let (needed, free) = (1, QUEUE.saturating_sub(kept));
         if needed > free {
@@ -71,6 +71,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
                     *segment = segment.broken_off(k);
                 }
             }
+            Place::Held(0) => {}
             Place::Held(k) => {
                 // There is room: just counted.
                 let _ = self.queue.push_back(self.tail.broken_off(k));

@@ -6,6 +6,7 @@ mod limits;
 mod plan;
 mod profile;
 mod segment;
+mod shaper;
 pub mod still;
 
 pub use angle::Angle;
@@ -14,4 +15,5 @@ pub(crate) use plan::lay;
 pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};
 pub use segment::{BULGE, Hub, Segment};
+pub use shaper::{MAX_PULSES, Pulse, Shaped, Shaper, ShaperKind};
 pub use still::{Departure, Still, StillMove, Survey};

@@ -131,6 +131,28 @@ impl<T: Scalar> Segment<T> {
         (self.origin.plus(delta), rate, half_second * self.acceleration_scale)
     }
 
+    /// The hub any real number of ticks after the segment's first, for solvers that choose their
+    /// own steps. May be negative down to the segment's true beginning.
+    pub fn hub_at(&self, ticks: T) -> Hub<T> {
+        let (angle, rate, acceleration) = match self.shape {
+            Shape::Cruise { rate, step } => {
+                (self.origin.plus(T::from_fraction(step) * ticks), rate, T::ZERO)
+            }
+            _ => self.scaled(self.derivatives(self.offset + ticks * self.advance)),
+        };
+        let (sin, cos) = angle.sin_cos();
+        Hub { angle, rate, acceleration, sin, cos }
+    }
+
+    /// Ticks from the segment's true beginning to its first tick, 0 to 1.
+    pub fn ticks_before(&self) -> T {
+        if self.advance == T::ZERO {
+            T::ZERO
+        } else {
+            (self.offset + T::ONE) / self.advance
+        }
+    }
+
     /// Ticks that belong to the segment.
     pub fn count(&self) -> u32 {
         self.count
@@ -302,28 +324,9 @@ impl Segment<f64> {
         }
     }
 
-    /// The hub any real number of ticks after the segment's first, for solvers that choose their
-    /// own steps. May be negative down to the segment's true beginning.
-    pub fn hub_at(&self, ticks: f64) -> Hub<f64> {
-        let (angle, rate, acceleration) = match self.shape {
-            Shape::Cruise { rate, step } => {
-                let turns = step as f64 / 18_446_744_073_709_551_616.0 * ticks;
-                (self.origin.plus(turns), rate, 0.0)
-            }
-            _ => self.scaled(self.derivatives(self.offset + ticks * self.advance)),
-        };
-        let (sin, cos) = angle.sin_cos();
-        Hub { angle, rate, acceleration, sin, cos }
-    }
-
     /// The angle at `u = 1`.
     pub(crate) fn end(&self) -> Angle<f64> {
         self.origin.plus(self.shape.ends()[1])
-    }
-
-    /// Ticks from the segment's true beginning to its first tick, 0 to 1.
-    pub fn ticks_before(&self) -> f64 {
-        if self.advance == 0.0 { 0.0 } else { (self.offset + 1.0) / self.advance }
     }
 
     /// Rounds to the scalar of the tick.

@@ -3,6 +3,7 @@
 mod compare;
 mod merge;
 mod pareto;
+mod plan;
 mod reference;
 mod run;
 mod study;
@@ -31,6 +32,8 @@ enum Command {
     Study(study::StudyArgs),
     /// Run the core on a scene and write its setpoints
     Run(run::RunArgs),
+    /// Plan a move that arrives still, judge it and draw it
+    Plan(plan::PlanArgs),
     /// How far two runs of a scene are apart
     Compare(compare::CompareArgs),
     /// Solve a scene with a reference solver
@@ -54,6 +57,7 @@ impl Cli {
             None => study::StudyArgs::default().execute(),
             Some(Command::Study(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
+            Some(Command::Plan(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Reference(args)) => args.execute(),
             Some(Command::Sweep(args)) => args.execute(),

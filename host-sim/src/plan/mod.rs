@@ -1,0 +1,9 @@
+//! Still moves on the desk: planned, judged by the reference rod, drawn, and held against other
+//! motions.
+
+pub mod judge;
+pub mod page;
+pub mod request;
+
+pub use judge::Judgement;
+pub use request::{Planned, Request};
