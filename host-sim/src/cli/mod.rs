@@ -6,6 +6,7 @@ mod pareto;
 mod plan;
 mod reference;
 mod run;
+mod still;
 mod study;
 mod sweep;
 mod tables;
@@ -46,6 +47,8 @@ enum Command {
     Pareto(pareto::ParetoArgs),
     /// Fill the tables in README.md, or check them
     Tables(tables::TablesArgs),
+    /// Fill the tables of docs/still.md and draw its picture, or check the tables
+    Still(still::StillArgs),
     /// List the embedded scenes
     Scenes,
 }
@@ -64,6 +67,7 @@ impl Cli {
             Some(Command::Merge(args)) => args.execute(),
             Some(Command::Pareto(args)) => args.execute(),
             Some(Command::Tables(args)) => args.execute(),
+            Some(Command::Still(args)) => args.execute(),
             Some(Command::Scenes) => {
                 for (name, about) in scenes::list() {
                     println!("{name:<20} {about}");

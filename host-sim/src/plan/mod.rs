@@ -1,6 +1,9 @@
 //! Still moves on the desk: planned, judged by the reference rod, drawn, and held against other
 //! motions.
 
+pub mod contest;
+pub mod document;
+pub mod duration;
 pub mod judge;
 pub mod page;
 pub mod request;

@@ -5,6 +5,10 @@ use crate::Error;
 use crate::math::Scalar;
 use crate::motion::{Angle, Limits};
 
+/// A limit that this many first periods do not keep is one that no duration does, e.g. a torque
+/// below what the arm's weight needs.
+const LONGEST: f64 = 300.0;
+
 /// Most durations that are tried on the way up, and on the way back.
 const TRIES: u32 = 16;
 
@@ -43,6 +47,9 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let mut best = attempt(reach);
         for _ in 0..TRIES {
             let Err((_, growth)) = best else { break };
+            if f64::from(reach) * self.tick > LONGEST * self.first_period() {
+                break;
+            }
             failing = reach;
             reach = (reach + 1).max(libm::ceil(f64::from(reach) * growth) as u32);
             best = attempt(reach);
