@@ -242,7 +242,7 @@ fn bulge<T: Scalar>(d: &[T; BULGE], u: T) -> Derivatives<T> {
 
 /// `w³`, its slope and half its curvature, `w = 1 − u²`.
 #[inline(always)]
-pub(crate) fn dome<T: Scalar>(u: T) -> [T; 3] {
+fn dome<T: Scalar>(u: T) -> [T; 3] {
     let three = T::TWO + T::ONE;
     let square = u * u;
     let w = T::ONE - square;

@@ -10,7 +10,6 @@ use stillbeam::{Profile, Scene};
 use super::contest::{self, ERRORS, Entry};
 use super::duration::durations;
 use super::judge::{Judgement, Motion};
-use super::request;
 use crate::error::Error;
 use crate::output;
 use crate::plot::{Axis, Chart, Colour, Dash, Series};
@@ -176,9 +175,10 @@ pub fn picture(path: &Path) -> Result<(), Error> {
     for (name, label, colour, dash) in shown {
         let found = motions.iter().find(|(is, _)| is == name || (name == "robust" && is.contains(name)));
         let Some((_, motion)) = found else { continue };
-        let points = request::ERRORS
-            .par_iter()
-            .map(|&error| Ok((100.0 * error, 100.0 * motion.judge(&arm, error)?.residual.max(1e-5))))
+        let points = (-20..=20)
+            .into_par_iter()
+            .map(|percent| f64::from(percent) / 100.0)
+            .map(|error| Ok((100.0 * error, 100.0 * motion.judge(&arm, error)?.residual.max(1e-5))))
             .collect::<Result<Vec<_>, Error>>()?;
         let width = if dash == Dash::Solid { 3 } else { 2 };
         chart = chart.with(Series::line(label, points).colour(colour).dash(dash).width(width));

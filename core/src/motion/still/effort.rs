@@ -4,8 +4,8 @@
 use core::f64::consts::TAU;
 
 use crate::math::{Band, Scalar, dot};
+use super::peaks;
 use crate::motion::BULGE;
-use crate::motion::segment::dome;
 
 /// Most amplitudes that are aimed at: two of each of three arms.
 pub(crate) const MAX_AIMS: usize = 6;
@@ -35,9 +35,23 @@ pub(crate) struct Oscillation<T> {
 /// the bulge.
 pub(crate) struct Linear<T> {
     pub rows: [[T; BULGE]; MAX_AIMS],
-    /// Without a bulge.
+    /// Without a bulge, less what is aimed at.
     pub offset: [T; MAX_AIMS],
     pub aims: usize,
+}
+
+/// How much more a robust move may peak for its middle arm's sake.
+const PRICE: f64 = 2.0;
+
+/// What a move spares where it can: the greatest of
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Manner {
+    /// the rate,
+    Rate,
+    /// the acceleration,
+    Acceleration,
+    /// the jerk.
+    Jerk,
 }
 
 /// What the bulge is for any aim: `base + Σ zᵢ vᵢ` (turns) leaves the amplitudes `z`.
@@ -46,27 +60,40 @@ pub(crate) struct LeastEffort<T> {
     pub towards: [[T; BULGE]; MAX_AIMS],
 }
 
-/// `d²/du²` and `d/du` of `(1 − u²)³uᵏ`.
-fn bulges<T: Scalar>(u: T) -> [[T; BULGE]; 2] {
-    let [b, b1, b2] = dome(u);
-    let (mut power, mut before, mut before2) = (T::ONE, T::ZERO, T::ZERO);
-    let mut out = [[T::ZERO; BULGE]; 2];
+/// `d/du`, `d²/du²` and `d³/du³` of `(1 − u²)³uᵏ`.
+fn bulges<T: Scalar>(u: T) -> [[T; BULGE]; 3] {
+    let n = |k: u32| T::from_u32(k);
+    let square = u * u;
+    let w = T::ONE - square;
+    let w2 = w * w;
+    let b = w2 * w;
+    let b1 = -(n(6) * u * w2);
+    let b2 = n(6) * w * (n(4) * square - w);
+    let b3 = n(24) * u * (n(3) * w - T::TWO * square);
+    // u^(k−3) … u^k, nothing below u⁰.
+    let mut powers = [T::ZERO, T::ZERO, T::ZERO, T::ONE];
+    let mut out = [[T::ZERO; BULGE]; 3];
     for k in 0..BULGE {
-        let n = T::from_u32(k as u32);
-        let (q1, q2) = (n * before, n * (n - T::ONE) * before2);
-        out[0][k] = T::TWO * (b2 * power + b1 * q1) + b * q2;
-        out[1][k] = b1 * power + b * q1;
-        (before2, before, power) = (before, power, power * u);
+        let k_ = k as u32;
+        let q = powers[3];
+        let q1 = n(k_) * powers[2];
+        let q2 = n(k_ * k_.saturating_sub(1)) * powers[1];
+        let q3 = n(k_ * k_.saturating_sub(1) * k_.saturating_sub(2)) * powers[0];
+        out[0][k] = b1 * q + b * q1;
+        out[1][k] = b2 * q + T::TWO * b1 * q1 + b * q2;
+        out[2][k] = b3 * q + n(3) * (b2 * q1 + b1 * q2) + b * q3;
+        powers = [powers[1], powers[2], powers[3], powers[3] * u];
     }
     out
 }
 
-/// `d²/du²` and `d/du` of the quintic.
-fn quintic<T: Scalar>(c: &[T; 5], u: T) -> [T; 2] {
+/// `d/du`, `d²/du²` and `d³/du³` of the quintic.
+fn quintic<T: Scalar>(c: &[T; 5], u: T) -> [T; 3] {
     let n = |k: u32| T::from_u32(k);
     [
-        ((n(20) * c[4] * u + n(12) * c[3]) * u + n(6) * c[2]) * u + n(2) * c[1],
         (((n(5) * c[4] * u + n(4) * c[3]) * u + n(3) * c[2]) * u + n(2) * c[1]) * u + c[0],
+        ((n(20) * c[4] * u + n(12) * c[3]) * u + n(6) * c[2]) * u + n(2) * c[1],
+        (n(60) * c[4] * u + n(24) * c[3]) * u + n(6) * c[2],
     ]
 }
 
@@ -100,9 +127,9 @@ impl<T: Scalar> Linear<T> {
         let turned = |s: T, c: T| (loss * (s * cos + c * sin), loss * (c * cos - s * sin));
         for node in (1..NODES).rev() {
             (s, c) = turned(s, c);
-            let u = T::from_f64(2.0 / NODES as f64) * T::from_u32(node as u32) - T::ONE;
+            let u = node_at(node);
             let kernel = [mode.ratio[1] * s, c - mode.ratio[0] * s];
-            let ([b2, b1], [q2, q1]) = (bulges(u), quintic(quintic_c, u));
+            let ([b1, b2, _], [q1, q2, _]) = (bulges(u), quintic(quintic_c, u));
             for r in 0..2 {
                 let (second, first) = (second * kernel[r], first * kernel[r]);
                 for k in 0..BULGE {
@@ -135,37 +162,81 @@ impl<T: Scalar> Linear<T> {
         }
     }
 
-    /// Least `∫ weight θ̈² dt`, the weights moved towards the least greatest `|θ̈|`.
-    pub fn least_effort(&self, quintic_c: &[T; 5]) -> LeastEffort<T> {
-        let mut weights = [T::ONE; NODES];
-        let mut found = self.weighted(quintic_c, &weights);
+    /// What the first arm has to keep, for the peak of what is spared to be no more than
+    /// [`PRICE`] times what the other arms alone need. Aims at that from now on.
+    pub fn tolerate(
+        &mut self,
+        each: usize,
+        quintic_c: &[T; 5],
+        manner: Manner,
+        duration: f64,
+    ) -> [T; 2] {
+        let peak = |bulge: &[T; BULGE]| {
+            let peaks = peaks(quintic_c, bulge, duration);
+            match manner {
+                Manner::Rate => peaks.rate,
+                Manner::Acceleration => peaks.acceleration,
+                Manner::Jerk => peaks.jerk,
+            }
+        };
+        let all = self.least_effort(quintic_c, manner).base;
+        let mut others = Self::new();
+        others.aims = self.aims - each;
+        for i in 0..others.aims {
+            (others.rows[i], others.offset[i]) = (self.rows[i + each], self.offset[i + each]);
+        }
+        let alone = others.least_effort(quintic_c, manner).base;
+        let (low, high) = (peak(&alone), peak(&all));
+        let mut kept = [T::ZERO; 2];
+        if high <= PRICE * low {
+            return kept;
+        }
+        // The peak falls about evenly from one to the other.
+        let share = T::from_f64((high - PRICE * low) / (high - low));
+        for i in 0..each {
+            kept[i] = share * (self.offset[i] + dot(&self.rows[i], &alone));
+            self.offset[i] -= kept[i];
+        }
+        kept
+    }
+
+    /// Least `∫ weight x² dt`, the weights moved towards the least greatest `|x|` (Lawson's rule),
+    /// where `x` is what the manner spares.
+    pub fn least_effort(&self, quintic_c: &[T; 5], manner: Manner) -> LeastEffort<T> {
+        let order = manner as usize;
+        let mut weights = [T::ONE; NODES + 1];
+        let mut found = self.weighted(quintic_c, order, &weights);
         for _ in 0..ROUNDS {
             let mut most = T::ZERO;
-            let mut accelerations = [T::ZERO; NODES];
-            for node in 1..NODES {
+            let mut efforts = [T::ZERO; NODES + 1];
+            for node in 0..=NODES {
                 let u = node_at(node);
-                let a = quintic(quintic_c, u)[0] + dot(&found.base, &bulges(u)[0]);
-                accelerations[node] = if a < T::ZERO { -a } else { a };
-                most = if accelerations[node] > most { accelerations[node] } else { most };
+                let x = quintic(quintic_c, u)[order] + dot(&found.base, &bulges(u)[order]);
+                efforts[node] = if x < T::ZERO { -x } else { x };
+                most = if efforts[node] > most { efforts[node] } else { most };
             }
             if most == T::ZERO {
                 break;
             }
-            for node in 1..NODES {
-                let share = accelerations[node] / most;
-                weights[node] = weights[node] * (T::from_f64(0.05) + share);
+            for node in 0..=NODES {
+                weights[node] = weights[node] * (T::from_f64(0.05) + efforts[node] / most);
             }
-            found = self.weighted(quintic_c, &weights);
+            found = self.weighted(quintic_c, order, &weights);
         }
         found
     }
 
-    fn weighted(&self, quintic_c: &[T; 5], weights: &[T; NODES]) -> LeastEffort<T> {
+    fn weighted(
+        &self,
+        quintic_c: &[T; 5],
+        order: usize,
+        weights: &[T; NODES + 1],
+    ) -> LeastEffort<T> {
         let mut normal = Band::<T, BULGE, BULGE>::ZERO;
         let mut right = [T::ZERO; BULGE];
-        for node in 1..NODES {
+        for node in 0..=NODES {
             let u = node_at(node);
-            let (b, q) = (bulges(u)[0], quintic(quintic_c, u)[0]);
+            let (b, q) = (bulges(u)[order], quintic(quintic_c, u)[order]);
             for i in 0..BULGE {
                 let weighted = weights[node] * b[i];
                 right[i] -= weighted * q;

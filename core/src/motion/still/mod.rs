@@ -25,6 +25,7 @@ mod plan;
 mod shortest;
 mod survey;
 
+pub use effort::Manner;
 pub use path::Departure;
 pub(crate) use path::{Path, peaks};
 pub use plan::StillMove;
@@ -42,7 +43,7 @@ use crate::stepper::Flex;
 const MAX_ARMS: usize = 3;
 
 /// Where the outer arms of a robust planner lie, of its spread: nearly a Chebyshev point.
-const OUTER: f64 = 0.87;
+const OUTER: f64 = 0.8;
 
 /// Angle that the highest mode may turn by in a step of a flight.
 const RADIANS_A_STEP: f64 = 1.0;
@@ -50,9 +51,9 @@ const RADIANS_A_STEP: f64 = 1.0;
 /// Plans moves after which an arm is at rest. Set-up takes its time; a plan runs in the tick's
 /// scalar, allocates nothing and ends after a bounded number of flights.
 ///
-/// A robust planner takes the move for three arms at once, with frequencies at `1 − 0.87 δ`, 1 and
-/// `1 + 0.87 δ` of the scene's (moves shorter than 1.75 first periods: the outer two): all of them
-/// arrive at rest, and what lies between nearly so.
+/// A robust planner takes the move for three arms at once, with frequencies at `1 − 0.8 δ`, 1 and
+/// `1 + 0.8 δ` of the scene's. The outer two arrive at rest; the scene's own too where that costs
+/// less than twice the peak, else it keeps as much vibration as that price leaves.
 #[derive(Clone, Debug)]
 pub struct Still<T, const K: usize> {
     chain: Chain<T, K>,
@@ -122,15 +123,8 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         self.scene.gravity == 0.0 && damping.alpha == 0.0 && damping.beta == 0.0
     }
 
-    /// The arms that a move of that many seconds is planned for.
-    fn arms(&self, duration: f64) -> &[Arm<T, K>] {
-        match self.robust {
-            false => &self.arms[..1],
-            true if duration < THREE_ARMS * self.first_period() => &self.arms[1..],
-            true => &self.arms,
-        }
+    /// The arms that a move is planned for.
+    fn arms(&self) -> &[Arm<T, K>] {
+        if self.robust { &self.arms } else { &self.arms[..1] }
     }
 }
-
-/// From this many first periods on three arms can be brought to rest together.
-const THREE_ARMS: f64 = 1.75;

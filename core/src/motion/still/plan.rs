@@ -2,10 +2,10 @@
 
 use core::f64::consts::TAU;
 
-use super::effort::{Linear, MAX_AIMS};
+use super::effort::{Linear, MAX_AIMS, Manner};
 use super::{Departure, Flex, MAX_ARMS, Path, Still, aiming, peaks};
 use crate::Error;
-use crate::math::{Scalar, cast, sqrt};
+use crate::math::{Scalar, cast, dot, sqrt};
 use crate::motion::{Angle, BULGE, Move, Peaks, Segment};
 
 /// Shortest move in first periods: below it the search converges to nothing real.
@@ -36,8 +36,8 @@ pub struct StillMove {
     pub bulge: [f64; BULGE],
     /// Greatest magnitudes of the motion, to 1e-4 of themselves.
     pub peaks: Peaks,
-    /// Amplitude of the first mode that is left by the planner's model, of L; of several arms, the
-    /// root of the sum of squares.
+    /// Amplitude of the first mode that is left by the planner's model, of L. A robust move leaves
+    /// some where the frequency is right, so as to leave less where it is not.
     pub residual: f64,
     /// Flights of each arm that it took to find.
     pub flights: u32,
@@ -79,6 +79,18 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         to: f64,
         duration: f64,
     ) -> Result<StillMove, Error> {
+        self.plan_in(Manner::Acceleration, from, flex, to, duration)
+    }
+
+    /// [`Self::plan_from`], sparing something else than the acceleration.
+    pub fn plan_in(
+        &self,
+        manner: Manner,
+        from: &Departure,
+        flex: Option<&Flex<T, K>>,
+        to: f64,
+        duration: f64,
+    ) -> Result<StillMove, Error> {
         let to = Error::check("move.to", to, -1e6, 1e6, "rad")?;
         let ticks = Move::Dwell { duration }.ticks(self.tick)?;
         let path = Path { from: *from, to, ticks, tick: self.tick };
@@ -90,7 +102,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let c: [T; 5] = cast(&path.quintic());
         let steps = ticks * self.steps;
         let curve = self.fine(&path).segment(&[0.0; BULGE]).cast::<T>();
-        let arms = self.arms(duration);
+        let arms = self.arms();
         let (mut begin, mut rest) = ([Flex::STRAIGHT; MAX_ARMS], [Flex::STRAIGHT; MAX_ARMS]);
         for (n, arm) in arms.iter().enumerate() {
             if self.scene.gravity != 0.0 {
@@ -110,8 +122,14 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             let ringing = arm.amplitudes(&begin[n], &still);
             linear.add(&arm.oscillation, &c, ringing, duration, half);
         }
-        let effort = linear.least_effort(&c);
-        let (each, flown) = if half { (1, steps / 2) } else { (2, steps) };
+        let each = if half { 1 } else { 2 };
+        let tolerated = if arms.len() == MAX_ARMS {
+            linear.tolerate(each, &c, manner, duration)
+        } else {
+            [T::ZERO; 2]
+        };
+        let effort = linear.least_effort(&c, manner);
+        let flown = if half { steps / 2 } else { steps };
         let aimed = if half { [Flex::STRAIGHT; MAX_ARMS] } else { rest };
         let most = if arms.len() == 1 { MOST } else { MOST_OF_SEVERAL };
         let found = aiming::find(linear.aims, T::from_f64(ENOUGH * ENOUGH), most, |aim| {
@@ -122,12 +140,18 @@ impl<T: Scalar, const K: usize> Still<T, K> {
                 let left = arm.amplitudes(&end, &aimed[n]);
                 miss[each * n..each * (n + 1)].copy_from_slice(&left[..each]);
             }
+            for i in 0..each {
+                miss[i] -= tolerated[i];
+            }
             miss
         });
-        let residual = sqrt(found.miss.to_f64()) * if half { 2.0 } else { 1.0 };
-        if residual.is_nan() || residual > TOO_MUCH {
-            return Err(Error::NotStill { duration, residual });
+        // The middle of an odd move misses by half of what its end does.
+        let whole = if half { 2.0 } else { 1.0 };
+        let missed = whole * sqrt(found.miss.to_f64());
+        if missed.is_nan() || missed > TOO_MUCH {
+            return Err(Error::NotStill { duration, residual: missed });
         }
+        let residual = missed + whole * sqrt(dot(&tolerated, &tolerated).to_f64());
         let d = effort.bulge(&found.aim);
         Ok(StillMove {
             from: *from,

@@ -1,6 +1,6 @@
 //! The shortest still move that the drive can make.
 
-use super::{Departure, Flex, Still, StillMove, Survey};
+use super::{Departure, Flex, Manner, Still, StillMove, Survey};
 use crate::Error;
 use crate::math::Scalar;
 use crate::motion::{Angle, Limits};
@@ -21,7 +21,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
 
     /// [`Self::shortest`] from any state of hub and arm.
     ///
-    /// The duration grows as the exceeded limit says, then is halved back: at most 32 plans. The
+    /// The duration grows as the exceeded limit says, then is halved back: at most 64 plans. The
     /// error is the limit that the longest of them exceeded.
     pub fn shortest_from(
         &self,
@@ -31,30 +31,41 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         limits: &Limits,
     ) -> Result<(StillMove, Survey), Error> {
         let limits = limits.validate()?;
-        let attempt = |ticks: u32| -> Result<(StillMove, Survey), (Error, f64)> {
-            // A plan that does not converge, or bends too far, is tried longer.
-            let plan = self
-                .plan_from(from, flex, to, f64::from(ticks) * self.tick)
-                .map_err(|error| (error, 1.1))?;
-            let growth = |error: Error| (error, stretch(&error));
-            limits.admit(&plan.peaks).map_err(growth)?;
+        let in_manner = |ticks: u32, manner: Manner| -> Result<(StillMove, Survey), Error> {
+            let duration = f64::from(ticks) * self.tick;
+            let plan = self.plan_in(manner, from, flex, to, duration)?;
+            limits.admit(&plan.peaks)?;
             let survey = self.survey(&plan, flex);
-            survey.admit(&limits, self.scene.link.length).map_err(growth)?;
+            survey.admit(&limits, self.scene.link.length)?;
             Ok((plan, survey))
+        };
+        let attempt = |ticks: u32| {
+            let found = in_manner(ticks, Manner::Acceleration);
+            let Err(error) = found else { return found };
+            // The same time may do if what is exceeded is spared.
+            match error {
+                Error::LimitExceeded { parameter: "limits.rate", .. } => {
+                    in_manner(ticks, Manner::Rate)
+                }
+                Error::LimitExceeded { parameter: "limits.jerk", .. } => {
+                    in_manner(ticks, Manner::Jerk)
+                }
+                _ => Err(error),
+            }
         };
         let mut failing = libm::ceil(0.9 * self.first_period() / self.tick) as u32;
         let mut reach = failing;
         let mut best = attempt(reach);
         for _ in 0..TRIES {
-            let Err((_, growth)) = best else { break };
+            let Err(error) = best else { break };
             if f64::from(reach) * self.tick > LONGEST * self.first_period() {
                 break;
             }
             failing = reach;
-            reach = (reach + 1).max(libm::ceil(f64::from(reach) * growth) as u32);
+            reach = (reach + 1).max(libm::ceil(f64::from(reach) * stretch(&error)) as u32);
             best = attempt(reach);
         }
-        let mut found = best.map_err(|(error, _)| error)?;
+        let mut found = best?;
         for _ in 0..TRIES {
             let middle = failing + (reach - failing) / 2;
             if middle <= failing || middle >= reach {
