@@ -1,17 +1,22 @@
-//! The rod's momentum form, expanded in its modal coordinates.
+//! The rod's equations of motion, expanded in its modal coordinates.
 //!
-//! With `p = Mȧ + hω`, `G = M⁻¹`, `g = Gh`, `s = hᵀGh − T_θθ` the motion is
-//! `ȧ = Gp − gω`, `ṗ = −∂/∂a [½(pᵀGp − 2ω gᵀp + ω²s) + V]`, and `t = gᵀp − sω` is the angular
-//! momentum about the axis. `G`, `g`, `s` and `X` are even in `a`, `Y` is odd.
+//! With `T = ½vᵀMv + ω hᵀv + ½ω² T_θθ`, `v = ȧ`, the first mode is described by its momentum
+//! `p = ∂T/∂v₁` and the others by their velocities (Routh's function): with `z = (p, v₂, …)`
+//!
+//! `R(a, z, ω) = p v₁ − T + V = ½(zᵀCz − 2ω dᵀz + ω²e) + V`,
+//! `v₁ = ∂R/∂p`, `ṗ = −∂R/∂a₁`, `Pₖ = −∂R/∂vₖ`, `Ṗₖ = −∂R/∂aₖ`,
+//!
+//! and `t = −∂R/∂ω = dᵀz − ωe` is the angular momentum about the axis. Written with `M`, `h`,
+//! `T_θθ`: `C₁₁ = 1/M₁₁`, `Cₖ₁ = −Mₖ₁/M₁₁`, `Cₖⱼ = −(Mₖⱼ − Mₖ₁M₁ⱼ/M₁₁)`, `d₁ = h₁/M₁₁`,
+//! `dₖ = hₖ − Mₖ₁h₁/M₁₁`, `e = h₁²/M₁₁ − T_θθ`. `C`, `d`, `e` and `X` are even in `a`, `Y` is odd.
+//! None of them has a small denominator where the link is bent far, as `M⁻¹` has with a heavy
+//! payload: the polynomials converge up to bends of 1.5 rad.
 
+use super::monomials::{EVEN, MAX_EVEN, MAX_ODD, ODD};
 use super::rod::Rod;
-use crate::math::{Band, LeastSquares, dot};
+use crate::math::{LeastSquares, dot};
 
-/// Most monomials, with three modes: see [`even_monomials`] and [`odd_monomials`].
-pub(crate) const MAX_EVEN: usize = 6;
-pub(crate) const MAX_ODD: usize = 5;
-
-/// Even quantities of three modes: `G`, `g`, `s` and two of `X`.
+/// Even quantities of three modes: `C`, `d`, `e` and two of `X`.
 const MAX_QUANTITIES: usize = 15;
 
 /// Samples along a coordinate: Chebyshev points over `−1..1`, and for the first mode over `0..1`,
@@ -22,11 +27,11 @@ const HALF_SAMPLES: [f64; 4] = [0.195, 0.556, 0.831, 0.981];
 /// What one even monomial multiplies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Even<T, const K: usize> {
-    /// Of `G`.
+    /// Of `C`.
     pub c: [[T; K]; K],
-    /// Of `g`.
+    /// Of `d`.
     pub d: [T; K],
-    /// Of `s`.
+    /// Of `e`.
     pub e: T,
     /// Of `∫ρA X dx + m_p X_L`.
     pub moment: T,
@@ -43,13 +48,13 @@ pub(crate) struct Odd<T> {
     pub tip: T,
 }
 
-/// The expansion; at `a = 0`, `G` is the unit matrix.
+/// The expansion; at `a = 0`, `C` is `diag(1, −1, −1)`.
 #[derive(Clone, Debug)]
 pub(crate) struct Expansion<const K: usize> {
-    /// `b = g(0)`.
+    /// `b = d(0)`.
     pub coupling: [f64; K],
-    /// `s(0)`.
-    pub s: f64,
+    /// `e(0)`.
+    pub e: f64,
     /// X parts at `a = 0`.
     pub moment: f64,
     pub tip: f64,
@@ -57,51 +62,6 @@ pub(crate) struct Expansion<const K: usize> {
     pub linear: [Odd<f64>; K],
     pub even: [Even<f64, K>; MAX_EVEN],
     pub odd: [Odd<f64>; MAX_ODD],
-}
-
-/// Is `aᵢaⱼ`, `i ≤ j`, among the even monomials? All but the third mode's square.
-#[inline(always)]
-pub(crate) const fn is_even_pair(i: usize, j: usize) -> bool {
-    i < 2 || j < 2
-}
-
-/// Is `aᵢaⱼaₖ`, `i ≤ j ≤ k`, among the odd monomials? Those of two modes, and `a₁²a₃`.
-#[inline(always)]
-pub(crate) const fn is_odd_triple(i: usize, j: usize, k: usize) -> bool {
-    k < 2 || (i == 0 && j == 0)
-}
-
-/// Even monomials in their order: `aᵢaⱼ`, `i ≤ j`, row by row, then `a₁⁴`.
-fn even_monomials<const K: usize>(a: &[f64; K]) -> [f64; MAX_EVEN] {
-    let mut m = [0.0; MAX_EVEN];
-    let mut n = 0;
-    for i in 0..K {
-        for j in i..K {
-            if is_even_pair(i, j) {
-                m[n] = a[i] * a[j];
-                n += 1;
-            }
-        }
-    }
-    m[n] = a[0] * a[0] * a[0] * a[0];
-    m
-}
-
-/// Cubic monomials `aᵢaⱼaₖ`, `i ≤ j ≤ k`.
-fn odd_monomials<const K: usize>(a: &[f64; K]) -> [f64; MAX_ODD] {
-    let mut m = [0.0; MAX_ODD];
-    let mut n = 0;
-    for i in 0..K {
-        for j in i..K {
-            for k in j..K {
-                if is_odd_triple(i, j, k) {
-                    m[n] = a[i] * a[j] * a[k];
-                    n += 1;
-                }
-            }
-        }
-    }
-    m
 }
 
 impl<const K: usize> Even<f64, K> {
@@ -133,37 +93,24 @@ impl<const K: usize> Even<f64, K> {
 /// Everything that is expanded, at one shape.
 fn sample<const K: usize>(rod: &Rod<K>, a: &[f64; K]) -> (Even<f64, K>, Odd<f64>) {
     let kinetics = rod.kinetics(a);
-    // M and h of the first two modes; the third, if there is one, cut off.
-    let mut mass = Band::<f64, K, K>::ZERO;
-    let mut coupling = kinetics.coupling;
-    for i in 0..K {
-        for j in 0..=i {
-            match (i < 2, i == j) {
-                (true, _) => mass.add(i, j, kinetics.mass[i][j]),
-                (false, true) => mass.add(i, j, 1.0),
-                (false, false) => {}
-            }
-        }
-        if i >= 2 {
-            coupling[i] = 0.0;
-        }
-    }
-    let factors = mass.factor();
-    let mut d = factors.solve(&coupling);
-    let e = dot(&coupling, &d) - kinetics.inertia;
-    let mut c = core::array::from_fn(|i| {
-        let mut unit = [0.0; K];
-        unit[i] = 1.0;
-        factors.solve(&unit)
-    });
-    for k in 2..K {
-        let mut across = kinetics.mass[k];
-        across[k] = 0.0;
-        d[k] = kinetics.coupling[k] - dot(&across, &d);
-        c[k] = factors.solve(&across).map(|x| -x);
-        c[k][k] = 1.0;
-    }
-    let even = Even { c, d, e, moment: kinetics.moment[0], tip: kinetics.tip[0] };
+    let (m, h) = (&kinetics.mass, &kinetics.coupling);
+    let inverse = 1.0 / m[0][0];
+    let even = Even {
+        c: core::array::from_fn(|i| {
+            core::array::from_fn(|j| match (i, j) {
+                (0, 0) => inverse,
+                (0, k) | (k, 0) => -m[k][0] * inverse,
+                _ => m[i][0] * m[0][j] * inverse - m[i][j],
+            })
+        }),
+        d: core::array::from_fn(|k| match k {
+            0 => h[0] * inverse,
+            _ => h[k] - m[k][0] * h[0] * inverse,
+        }),
+        e: h[0] * h[0] * inverse - kinetics.inertia,
+        moment: kinetics.moment[0],
+        tip: kinetics.tip[0],
+    };
     (even, Odd { moment: kinetics.moment[1], tip: kinetics.tip[1] })
 }
 
@@ -190,19 +137,19 @@ impl<const K: usize> Expansion<K> {
             for (value, at_rest) in change.iter_mut().zip(&straight) {
                 *value -= at_rest;
             }
-            even.add(&even_monomials(unit), &change);
+            even.add(&EVEN.values(unit), &change);
             let beyond = |y: f64, slope: [f64; K]| y - dot(&slope, &a);
             let moment = beyond(y.moment, linear.map(|term| term.moment));
-            odd.add(&odd_monomials(unit), &[moment, beyond(y.tip, linear.map(|term| term.tip))]);
+            odd.add(&ODD.values(unit), &[moment, beyond(y.tip, linear.map(|term| term.tip))]);
         });
         Self {
             coupling: rest.d,
-            s: rest.e,
+            e: rest.e,
             moment: rest.moment,
             tip: rest.tip,
             linear,
-            even: even.solve(&even_monomials(range)).map(Even::from_flat),
-            odd: odd.solve(&odd_monomials(range)).map(|[moment, tip]| Odd { moment, tip }),
+            even: even.solve(&EVEN.values(range)).map(Even::from_flat),
+            odd: odd.solve(&ODD.values(range)).map(|[moment, tip]| Odd { moment, tip }),
         }
     }
 }

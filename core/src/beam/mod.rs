@@ -10,12 +10,11 @@ mod expansion;
 mod lumped;
 mod model;
 mod modes;
+pub(crate) mod monomials;
 mod rod;
 
 pub(crate) use chain::{Chain, Load};
-pub(crate) use expansion::{
-    Even, Expansion, MAX_EVEN, MAX_ODD, Odd, is_even_pair, is_odd_triple,
-};
+pub(crate) use expansion::{Even, Expansion, Odd};
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
 pub use modes::Modes;
 pub use rod::{Kinetics, Rod};

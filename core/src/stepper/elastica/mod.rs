@@ -43,7 +43,6 @@ pub struct Elastica<T, const K: usize> {
     tick: f64,
     quality: Quality,
     per_tick: T,
-    per_step: T,
     quarter: T,
     /// ⅛ tick: Hermite interpolation to the middle.
     eighth_tick: T,
@@ -71,7 +70,7 @@ pub struct ElasticaState<T, const K: usize> {
 impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// Least and greatest tip angle that the expansion is fitted for, rad. Beyond it the
     /// polynomials of a heavy payload are too coarse: 3 of 575 random arms ran away with 1.0 to 1.2.
-    pub const BEND: (f64, f64) = (0.05, 1.0);
+    pub const BEND: (f64, f64) = (0.05, 1.5);
 
     /// For steps of `tick` s and tip angles up to `bend` rad relative to the hub, in
     /// [`Self::BEND`]: see [`Rod::bend`]. f64 inside.
@@ -91,7 +90,6 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             tick,
             quality,
             per_tick: T::from_f64(1.0 / tick),
-            per_step: T::from_f64(1.0 / step),
             quarter: T::from_f64(0.25),
             eighth_tick: T::from_f64(0.125 * tick),
             alpha: T::from_f64(damping.alpha),
@@ -111,16 +109,13 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             let at = [state.coordinate[k], state.momentum[k]];
             y[k] = self.modes[k].predict(at, drive, state.force[k], state.change[k]);
         }
-        let Value { force, mut torque, inertia, lever } =
+        let Value { force, torque, inertia } =
             self.remainder.evaluate(&y.map(|y| y[0]), &y.map(|y| y[1]), end);
         for k in 0..K {
             let change = [0, 1].map(|r| force[k][r] - state.force[k][r]);
             let excess = [0, 1].map(|r| change[r] - state.change[k][r]);
             [state.coordinate[k], state.momentum[k]] = self.modes[k].correct(y[k], excess);
             state.change[k] = change;
-            if k >= Remainder::<T, K>::MOMENTA {
-                torque += lever[k] * change[0] * self.per_step;
-            }
         }
         state.force = force;
         state.torque = torque;

@@ -1,6 +1,7 @@
 //! What the exact kinematics add to the linear oscillators.
 
-use crate::beam::{Even, Expansion, MAX_EVEN, MAX_ODD, Odd, Rod, is_even_pair, is_odd_triple};
+use crate::beam::monomials::{EVEN, MAX_EVEN, MAX_ODD, ODD, Powers};
+use crate::beam::{Even, Expansion, Odd, Rod};
 use crate::math::{Scalar, cast, dot};
 use crate::motion::Hub;
 
@@ -10,9 +11,9 @@ pub(super) struct Remainder<T, const K: usize> {
     even: [Even<T, K>; MAX_EVEN],
     odd: [Odd<T>; MAX_ODD],
     linear: [Odd<T>; K],
-    /// `b = g(0)`, `s(0)`.
+    /// `b = d(0)`, `e(0)`.
     coupling: [T; K],
-    s: T,
+    e: T,
     moment: T,
     tip: T,
     /// `ωᵢ²`, `βωᵢ²`.
@@ -20,37 +21,47 @@ pub(super) struct Remainder<T, const K: usize> {
     loss: [T; K],
     alpha: T,
     gravity: bool,
-    /// Where `a` and `p̃` are clipped.
+    /// Where `a`, the first mode's `p̃` and the second's rate are clipped.
     coordinate_range: [T; K],
-    momentum_range: [T; K],
+    momentum_range: T,
+    rate_range: T,
 }
 
 /// The remainder at one instant.
 pub(super) struct Value<T, const K: usize> {
     /// `(nₐ, n_p)` of each mode.
     pub force: [[T; 2]; K],
-    /// `ṫ + αt + ∂V/∂θ` but for `−s θ̈`.
+    /// `ṫ + αt + ∂V/∂θ` but for what is proportional to θ̈.
     pub torque: T,
-    /// `−s`.
+    /// What is.
     pub inertia: T,
-    /// `g`.
-    pub lever: [T; K],
 }
 
-/// What the monomial `μ` multiplies: `½(p·u − ωt)` is its share of the energy.
+/// `C`, `d`, `e` without their values at `a = 0`, or their rates of change.
+#[derive(Clone, Copy)]
 struct Form<T, const K: usize> {
-    /// `Cp − dω`.
-    u: [T; K],
-    /// `d·p − eω`.
-    t: T,
-    /// `½(p·u − ωt)`, and gravity's `g sinθ` share.
-    energy: T,
+    c: [[T; K]; K],
+    d: [T; K],
+    e: T,
+}
+
+impl<T: Scalar, const K: usize> Form<T, K> {
+    const ZERO: Self = Self { c: [[T::ZERO; K]; K], d: [T::ZERO; K], e: T::ZERO };
+
+    #[inline(always)]
+    fn add(&mut self, mu: T, term: &Even<T, K>) {
+        for i in 0..K {
+            // The third mode's own inertia is the straight link's.
+            for j in 0..=i.min(1) {
+                self.c[i][j] += mu * term.c[i][j];
+            }
+            self.d[i] += mu * term.d[i];
+        }
+        self.e += mu * term.e;
+    }
 }
 
 impl<T: Scalar, const K: usize> Remainder<T, K> {
-    /// Modes that have a momentum; a third one has a velocity.
-    pub(super) const MOMENTA: usize = if K < 2 { K } else { 2 };
-
     pub(super) fn new(rod: &Rod<K>, expansion: &Expansion<K>, range: &[f64; K]) -> Self {
         let f = T::from_f64;
         let scene = rod.scene();
@@ -68,7 +79,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             odd: expansion.odd.map(odd),
             linear: expansion.linear.map(odd),
             coupling: cast(&expansion.coupling),
-            s: f(expansion.s),
+            e: f(expansion.e),
             moment: f(g * expansion.moment),
             tip: f(expansion.tip),
             stiffness: cast(&squared),
@@ -76,7 +87,8 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             alpha: f(scene.damping.alpha),
             gravity: g != 0.0,
             coordinate_range: range.map(|a| f(CLIP * a)),
-            momentum_range: core::array::from_fn(|k| f(CLIP * rod.frequency()[k] * range[k])),
+            momentum_range: f(CLIP * rod.frequency()[0] * range[0]),
+            rate_range: f(CLIP * rod.frequency()[1.min(K - 1)] * range[1.min(K - 1)]),
         }
     }
 
@@ -85,50 +97,72 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         self.stiffness[k]
     }
 
-    /// The remainder for `a`, `p̃` and a hub; hub-frame, SI.
+    /// The remainder for `a`, `p̃ = P − bω` and a hub; hub-frame, SI.
     #[inline(always)]
     pub(super) fn evaluate(&self, a: &[T; K], p_tilde: &[T; K], hub: &Hub<T>) -> Value<T, K> {
         let a: [T; K] = core::array::from_fn(|k| within(a[k], self.coordinate_range[k]));
+        let omega = hub.rate;
         let mut p_tilde = *p_tilde;
-        for k in 0..Self::MOMENTA {
-            p_tilde[k] = within(p_tilde[k], self.momentum_range[k]);
+        p_tilde[0] = within(p_tilde[0], self.momentum_range);
+        let powers = Powers::new(&a);
+
+        let mut form = Form::ZERO;
+        EVEN.each::<K>(|n, e| form.add(powers.of(e), &self.even[n]));
+        // z = (p, v₂, …): v₂ = p̃₂ + (what the form says with v₂ in it).
+        let (c, d) = (&form.c, &form.d);
+        let mut z = p_tilde;
+        z[0] += self.coupling[0] * omega;
+        let mut lighter = T::ONE;
+        if K > 1 {
+            let inertia = T::ONE - c[1][1];
+            lighter =
+                T::ONE / if inertia < T::HALF * T::HALF { T::HALF * T::HALF } else { inertia };
+            z[1] = within((p_tilde[1] + c[1][0] * z[0] - d[1] * omega) * lighter, self.rate_range);
         }
-        let mut p = p_tilde;
-        for k in 0..K {
-            p[k] += self.coupling[k] * hub.rate;
+        let mut u = [T::ZERO; K];
+        u[0] = c[0][0] * z[0] - d[0] * omega;
+        if K > 1 {
+            u[0] += c[1][0] * z[1];
+            u[1] = c[1][0] * z[0] + c[1][1] * z[1] - d[1] * omega;
         }
-        // r: G p − gω beyond the linear; gradient of the energy; g and s themselves.
-        let mut r = [T::ZERO; K];
+        let mut rate: [T; K] =
+            core::array::from_fn(|k| if k == 0 { p_tilde[0] + u[0] } else { z[k] });
+        for k in 2..K {
+            u[k] = c[k][0] * z[0] + c[k][1] * z[1] - d[k] * omega;
+            rate[k] = p_tilde[k] + u[k];
+        }
+
+        // ∂R/∂a, without V's elastic part.
+        let mut products = [T::ZERO; 6];
+        products[0] = T::HALF * (z[0] * z[0]);
+        products[1] = -(omega * z[0]);
+        products[2] = T::HALF * (omega * omega);
+        if K > 1 {
+            products[3] = z[0] * z[1];
+            products[4] = T::HALF * (z[1] * z[1]);
+            products[5] = -(omega * z[1]);
+        }
         let mut gradient = [T::ZERO; K];
-        let (mut g, mut s, mut moment) = (self.coupling, self.s, self.moment);
-        let mut t = [T::ZERO; MAX_EVEN];
-        let mut collect = |n: usize, mu: T| -> T {
+        let mut moment = self.moment;
+        EVEN.each::<K>(|n, e| {
             let term = &self.even[n];
-            let form = self.form(term, &p, hub);
-            for k in 0..K {
-                r[k] += mu * form.u[k];
-                g[k] += mu * term.d[k];
+            let mut energy =
+                products[0] * term.c[0][0] + products[1] * term.d[0] + products[2] * term.e;
+            if K > 1 {
+                energy += products[3] * term.c[1][0]
+                    + products[4] * term.c[1][1]
+                    + products[5] * term.d[1];
             }
-            s += mu * term.e;
-            moment += mu * term.moment;
-            t[n] = form.t;
-            form.energy
-        };
-        let mut n = 0;
-        for i in 0..K {
-            for j in i..K {
-                if is_even_pair(i, j) {
-                    let energy = collect(n, a[i] * a[j]);
-                    gradient[i] += energy * a[j];
-                    gradient[j] += energy * a[i];
-                    n += 1;
+            if self.gravity {
+                energy += hub.sin * term.moment;
+                moment += powers.of(e) * term.moment;
+            }
+            for k in 0..K {
+                if let Some(slope) = powers.slope(e, k) {
+                    gradient[k] += energy * slope;
                 }
             }
-        }
-        let square = a[0] * a[0];
-        let quartic_slope = (T::TWO + T::TWO) * (square * a[0]);
-        gradient[0] += quartic_slope * collect(n, square * square);
-
+        });
         let mut torque = T::ZERO;
         if self.gravity {
             let (y, slope) = self.lateral(&a);
@@ -137,46 +171,50 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
                 gradient[k] += hub.cos * slope[k];
             }
         }
-        // ṫ = g·ṗ + (∇μ·ȧ) t − s θ̈, with αt: the drag in ṗ and αg·p cancel.
-        let rate: [T; K] = core::array::from_fn(|k| p_tilde[k] + r[k]);
-        let mut n = 0;
-        for i in 0..K {
-            for j in i..K {
-                if is_even_pair(i, j) {
-                    torque += (rate[i] * a[j] + a[i] * rate[j]) * t[n];
-                    n += 1;
+
+        // ṫ + αt: the drag in Ṗ and αt cancel but for α times what is proportional to ω̇.
+        let mut change = Form::ZERO;
+        EVEN.each::<K>(|n, e| {
+            let mut risen: Option<T> = None;
+            for k in 0..K {
+                if let Some(slope) = powers.slope(e, k) {
+                    let share = rate[k] * slope;
+                    risen = Some(risen.map_or(share, |sum| sum + share));
                 }
             }
-        }
-        for k in Self::MOMENTA..K {
-            s += g[k] * self.coupling[k];
-            torque += self.alpha * g[k] * r[k];
-        }
-        torque += quartic_slope * rate[0] * t[n];
-        let force = core::array::from_fn(|k| {
-            torque -= g[k] * (gradient[k] + self.stiffness[k] * a[k] + self.loss[k] * rate[k]);
-            [r[k], -gradient[k] - self.loss[k] * r[k]]
+            change.add(risen.unwrap_or(T::ZERO), &self.even[n]);
         });
-        torque -= self.alpha * s * hub.rate;
-        Value { force, torque, inertia: -s, lever: g }
-    }
-
-    #[inline(always)]
-    fn form(&self, term: &Even<T, K>, p: &[T; K], hub: &Hub<T>) -> Form<T, K> {
-        let over = |f: &[T; K], x: &[T; K]| {
-            let mut sum = f[0] * x[0];
-            for k in 1..Self::MOMENTA {
-                sum += f[k] * x[k];
+        let mut inertia = -(self.e + form.e);
+        torque -= change.e * omega;
+        // ṗ, v̇₂, …, and the share of each that is proportional to −ω̇.
+        let mut faster = [T::ZERO; K];
+        let mut jolt = [T::ZERO; K];
+        let mut force = [[T::ZERO; 2]; K];
+        for k in 0..K {
+            let elastic = self.stiffness[k] * a[k] + self.loss[k] * rate[k];
+            force[k] = [u[k], -gradient[k] - self.loss[k] * u[k]];
+            faster[k] = -(gradient[k] + elastic);
+            let lever = if k < 2 { self.coupling[k] + form.d[k] } else { self.coupling[k] };
+            if k > 0 {
+                jolt[k] = lever;
+                faster[k] -= change.d[k] * omega;
+                for j in 0..2.min(K) {
+                    faster[k] += change.c[k][j.min(k)] * z[j];
+                }
+                faster[k] += form.c[k][0] * faster[0];
+                if k > 1 {
+                    faster[k] += form.c[k][1] * faster[1];
+                    jolt[k] += form.c[k][1] * jolt[1];
+                } else {
+                    faster[1] = faster[1] * lighter;
+                    jolt[1] = jolt[1] * lighter;
+                }
             }
-            sum
-        };
-        let u: [T; K] = core::array::from_fn(|k| over(&term.c[k], p) - term.d[k] * hub.rate);
-        let t = over(&term.d, p) - term.e * hub.rate;
-        let mut energy = T::HALF * (over(p, &u) - hub.rate * t);
-        if self.gravity {
-            energy += hub.sin * term.moment;
+            torque += lever * faster[k] + if k < 2 { change.d[k] * z[k] } else { T::ZERO };
+            inertia -= lever * jolt[k];
         }
-        Form { u, t, energy }
+        torque += self.alpha * inertia * omega;
+        Value { force, torque, inertia }
     }
 
     /// `g(∫ρA Y dx + m_p Y_L)` and its gradient.
@@ -184,50 +222,29 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
     fn lateral(&self, a: &[T; K]) -> (T, [T; K]) {
         let mut slope = self.linear.map(|term| term.moment);
         let mut y = dot(&slope, a);
-        let mut n = 0;
-        for i in 0..K {
-            for j in i..K {
-                for k in j..K {
-                    if is_odd_triple(i, j, k) {
-                        let c = self.odd[n].moment;
-                        y += c * (a[i] * a[j] * a[k]);
-                        slope[i] += c * (a[j] * a[k]);
-                        slope[j] += c * (a[i] * a[k]);
-                        slope[k] += c * (a[i] * a[j]);
-                        n += 1;
-                    }
+        let powers = Powers::new(a);
+        ODD.each::<K>(|n, e| {
+            let weight = self.odd[n].moment;
+            y += weight * powers.of(e);
+            for k in 0..K {
+                if let Some(rise) = powers.slope(e, k) {
+                    slope[k] += weight * rise;
                 }
             }
-        }
+        });
         (y, slope)
     }
 
     /// The tip `(X, Y)` in the hub frame.
     #[inline(always)]
     pub(super) fn tip(&self, a: &[T; K]) -> [T; 2] {
-        let (mut x, mut n) = (self.tip, 0);
-        for i in 0..K {
-            for j in i..K {
-                if is_even_pair(i, j) {
-                    x += self.even[n].tip * (a[i] * a[j]);
-                    n += 1;
-                }
-            }
+        let powers = Powers::new(a);
+        let (mut x, mut y) = (self.tip, T::ZERO);
+        EVEN.each::<K>(|n, e| x += self.even[n].tip * powers.of(e));
+        for k in 0..K {
+            y += self.linear[k].tip * a[k];
         }
-        let square = a[0] * a[0];
-        x += self.even[n].tip * (square * square);
-        let (mut y, mut n) = (T::ZERO, 0);
-        for i in 0..K {
-            y += self.linear[i].tip * a[i];
-            for j in i..K {
-                for k in j..K {
-                    if is_odd_triple(i, j, k) {
-                        y += self.odd[n].tip * (a[i] * a[j] * a[k]);
-                        n += 1;
-                    }
-                }
-            }
-        }
+        ODD.each::<K>(|n, e| y += self.odd[n].tip * powers.of(e));
         [x, y]
     }
 }

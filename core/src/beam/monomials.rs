@@ -1,0 +1,97 @@
+//! The monomials in the modal coordinates that the exact kinematics are expanded in.
+
+use crate::math::Scalar;
+
+/// Exponents of `a₁, a₂, a₃`.
+pub(crate) type Exponents = [usize; 3];
+
+/// A list of monomials.
+pub(crate) struct Table<const N: usize> {
+    exponents: [Exponents; N],
+}
+
+/// Of what is even in `a`.
+pub(crate) const EVEN: Table<MAX_EVEN> =
+    Table { exponents: [[2, 0, 0], [1, 1, 0], [0, 2, 0], [1, 0, 1], [0, 1, 1], [4, 0, 0]] };
+pub(crate) const MAX_EVEN: usize = 6;
+
+/// Of what is odd in `a`, beyond the linear.
+pub(crate) const ODD: Table<MAX_ODD> =
+    Table { exponents: [[3, 0, 0], [2, 1, 0], [1, 2, 0], [0, 3, 0], [2, 0, 1], [5, 0, 0]] };
+pub(crate) const MAX_ODD: usize = 6;
+
+impl<const N: usize> Table<N> {
+    /// Calls `f` with the place and the exponents of each monomial of the first `K` modes.
+    #[inline(always)]
+    pub(crate) fn each<const K: usize>(&self, mut f: impl FnMut(usize, Exponents)) {
+        for n in 0..N {
+            if of_modes::<K>(self.exponents[n]) {
+                f(n, self.exponents[n]);
+            }
+        }
+    }
+
+    /// The values of the monomials; zero for those that take no part.
+    pub(crate) fn values<const K: usize>(&self, a: &[f64; K]) -> [f64; N] {
+        let powers = Powers::new(a);
+        let mut values = [0.0; N];
+        self.each::<K>(|n, e| values[n] = powers.of(e));
+        values
+    }
+}
+
+/// Highest exponent.
+const DEGREE: usize = 5;
+
+/// Is it a monomial of the first `K` modes?
+#[inline(always)]
+const fn of_modes<const K: usize>(e: Exponents) -> bool {
+    (K > 1 || e[1] == 0) && (K > 2 || e[2] == 0)
+}
+
+/// Powers of the coordinates, from which monomials are made.
+pub(crate) struct Powers<T, const K: usize>([[T; DEGREE + 1]; K]);
+
+impl<T: Scalar, const K: usize> Powers<T, K> {
+    #[inline(always)]
+    pub(crate) fn new(a: &[T; K]) -> Self {
+        Self(a.map(|a| {
+            let mut powers = [T::ONE; DEGREE + 1];
+            powers[1] = a;
+            for e in 2..=DEGREE {
+                powers[e] = powers[e / 2] * powers[e - e / 2];
+            }
+            powers
+        }))
+    }
+
+    /// The monomial.
+    #[inline(always)]
+    pub(crate) fn of(&self, e: Exponents) -> T {
+        let mut product: Option<T> = None;
+        for k in 0..K {
+            if e[k] > 0 {
+                let power = self.0[k][e[k]];
+                product = Some(product.map_or(power, |p| p * power));
+            }
+        }
+        product.unwrap_or(T::ONE)
+    }
+
+    /// Its derivative with respect to `aₖ`; `None` where that is zero for every `a`.
+    #[inline(always)]
+    pub(crate) fn slope(&self, e: Exponents, k: usize) -> Option<T> {
+        let mut lower = e;
+        match e[k] {
+            0 => None,
+            1 => {
+                lower[k] = 0;
+                Some(self.of(lower))
+            }
+            n => {
+                lower[k] = n - 1;
+                Some(T::from_u32(n as u32) * self.of(lower))
+            }
+        }
+    }
+}
