@@ -21,6 +21,13 @@ const TOO_MUCH: f64 = 0.01;
 const MOST: u32 = 12;
 const MOST_OF_SEVERAL: u32 = 24;
 
+/// Whether what the linear move misses is looked after.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Search {
+    None,
+    Bounded,
+}
+
 /// A still move and what its planner expects of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StillMove {
@@ -82,6 +89,12 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         self.plan_in(Manner::Acceleration, from, flex, to, duration)
     }
 
+    /// The move of [`Self::plan`] for an arm that bends by little: without a single correction.
+    pub fn linear(&self, from: f64, to: f64, duration: f64) -> Result<StillMove, Error> {
+        let from = Departure::at_rest(Angle::from_radians(from));
+        self.search(Manner::Acceleration, &from, None, to, duration, Search::None)
+    }
+
     /// [`Self::plan_from`], sparing something else than the acceleration.
     pub fn plan_in(
         &self,
@@ -90,6 +103,18 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         flex: Option<&Flex<T, K>>,
         to: f64,
         duration: f64,
+    ) -> Result<StillMove, Error> {
+        self.search(manner, from, flex, to, duration, Search::Bounded)
+    }
+
+    fn search(
+        &self,
+        manner: Manner,
+        from: &Departure,
+        flex: Option<&Flex<T, K>>,
+        to: f64,
+        duration: f64,
+        search: Search,
     ) -> Result<StillMove, Error> {
         let to = Error::check("move.to", to, -1e6, 1e6, "rad")?;
         let ticks = Move::Dwell { duration }.ticks(self.tick)?;
@@ -131,7 +156,11 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let effort = linear.least_effort(&c, manner);
         let flown = if half { steps / 2 } else { steps };
         let aimed = if half { [Flex::STRAIGHT; MAX_ARMS] } else { rest };
-        let most = if arms.len() == 1 { MOST } else { MOST_OF_SEVERAL };
+        let most = match search {
+            Search::None => 1,
+            Search::Bounded if arms.len() == 1 => MOST,
+            Search::Bounded => MOST_OF_SEVERAL,
+        };
         let found = aiming::find(linear.aims, T::from_f64(ENOUGH * ENOUGH), most, |aim| {
             let curve = curve.bulged(&effort.bulge(aim));
             let mut miss = [T::ZERO; MAX_AIMS];
@@ -148,7 +177,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         // The middle of an odd move misses by half of what its end does.
         let whole = if half { 2.0 } else { 1.0 };
         let missed = whole * sqrt(found.miss.to_f64());
-        if missed.is_nan() || missed > TOO_MUCH {
+        if search == Search::Bounded && (missed.is_nan() || missed > TOO_MUCH) {
             return Err(Error::NotStill { duration, residual: missed });
         }
         let residual = missed + whole * sqrt(dot(&tolerated, &tolerated).to_f64());
