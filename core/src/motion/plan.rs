@@ -5,10 +5,8 @@ use core::f64::consts::TAU;
 use heapless::Vec;
 
 use super::segment::Shape;
-use super::still::{self, Departure, Path};
 use super::{Angle, Limits, Move, Peaks, Profile, Segment};
 use crate::Error;
-use crate::math::cast;
 
 /// Segments of the longest plan, an S-curve.
 pub const MAX_SEGMENTS: usize = 7;
@@ -97,16 +95,15 @@ pub(crate) fn lay(
             };
             (Shapes::One(spin_up(turned(start.rate), turned(change))), end, peaks)
         }
-        Move::Still { to, bulge, .. } => {
+        Move::Still { to, bulge, peaks, .. } => {
             let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
             if start.rate != 0.0 {
                 return Err(Error::NotAtRest { rate: start.rate });
             }
-            let path = Path { from: Departure::at_rest(start.angle), to, ticks, tick };
-            let end = Start { angle: start.angle.plus(path.turn()), rate: 0.0 };
-            let (c, d) = (path.quintic(), bulge.map(|b| b / TAU));
-            let peaks = still::peaks::<f32>(&cast(&c), &cast(&d), duration);
-            (Shapes::One(Shape::Bulged { c, d }), end, peaks)
+            let delta = to / TAU - start.angle.in_turns();
+            let end = Start { angle: start.angle.plus(delta), rate: 0.0 };
+            let shape = Shape::Bulged { c: quintic(delta), d: bulge.map(|b| b / TAU) };
+            (Shapes::One(shape), end, peaks)
         }
         Move::Dwell { .. } => {
             let angle = start.angle.plus(turned(start.rate));
@@ -141,11 +138,16 @@ enum Shapes {
 const MAX_ANGLE: f64 = 1e6;
 
 /// Turns by `d`.
+fn quintic(d: f64) -> [f64; 5] {
+    [15.0, 0.0, -10.0, 0.0, 3.0].map(|c| c * d / 16.0)
+}
+
+/// Turns by `d`.
 fn rest_to_rest(profile: Profile, d: f64) -> Shapes {
     match profile {
         Profile::Cubic => Shapes::Cubics(&[[0.75, 0.0, -0.25]], d),
         Profile::Quintic => {
-            Shapes::One(Shape::Quintic([15.0, 0.0, -10.0, 0.0, 3.0].map(|c| c * d / 16.0)))
+            Shapes::One(Shape::Quintic(quintic(d)))
         }
         Profile::Cycloid => Shapes::One(Shape::Harmonic { c: [0.5 * d, 0.0], a: d / TAU, b: 0.0 }),
         Profile::Trapezoid => {

@@ -94,6 +94,9 @@ pub enum Move {
         to: f64,
         /// `b₀ … b₅`, rad.
         bulge: [f64; BULGE],
+        /// Greatest magnitudes, as the planner found them: to find them again would take code that
+        /// every program would carry.
+        peaks: Peaks,
     },
     /// The hub keeps its rate: zero after every move but a spin-up.
     Dwell {

@@ -58,7 +58,8 @@ impl StillMove {
 
     /// To be pushed behind moves that end where it begins, at rest.
     pub fn motion(&self) -> Move {
-        Move::Still { duration: self.duration(), to: self.to, bulge: self.bulge }
+        let Self { to, bulge, peaks, .. } = *self;
+        Move::Still { duration: self.duration(), to, bulge, peaks }
     }
 
     /// The curve.
