@@ -116,11 +116,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             // A full queue gives it back; told below.
             let _ = self.queue.push_back(segment.cast());
         })?;
-        if needed > free {
-            for _ in 0..free {
+        let fits = if needed > free { Err(Error::QueueFull { needed, free }) } else { Ok(()) };
+        if let Err(error) = fits.and(self.stepper.admit(&outline.peaks)) {
+            for _ in 0..needed.min(free) {
                 self.queue.pop_back();
             }
-            return Err(Error::QueueFull { needed, free });
+            return Err(error);
         }
         if self.holding {
             self.current = self.current.cut(self.next_k());
@@ -223,6 +224,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if self.stepper.is_directed() {
             (self.hub.sin, self.hub.cos) = self.hub.angle.sin_cos();
         }
+        self.stepper.shift(&mut self.state, self.current.entry());
     }
 
     /// A hold that has run out (after 497 days at 10 ms) goes on from where it is.

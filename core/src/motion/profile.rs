@@ -116,6 +116,25 @@ impl Move {
         }
     }
 
+    /// The same move in another time, s. A still move is one no longer: its curve is that of the
+    /// time it was planned for.
+    pub fn lasting(self, duration: f64) -> Self {
+        match self {
+            Self::To { profile, to, .. } => Self::To { profile, duration, to },
+            Self::SpinUp { rate, .. } => Self::SpinUp { duration, rate },
+            Self::Still { duration: before, to, bulge, peaks } => {
+                let faster = before / duration;
+                let peaks = Peaks {
+                    rate: peaks.rate * faster,
+                    acceleration: peaks.acceleration * faster * faster,
+                    jerk: peaks.jerk * faster * faster * faster,
+                };
+                Self::Still { duration, to, bulge, peaks }
+            }
+            Self::Dwell { .. } => Self::Dwell { duration },
+        }
+    }
+
     /// Whole ticks nearest to the duration; at least one.
     pub fn ticks(&self, tick: f64) -> Result<u32, Error> {
         let duration = Error::check(

@@ -2,12 +2,14 @@
 //! one tick length. Its state is separate and small, so that a restart is a new state and two runs
 //! can share one stepper.
 
+mod auto;
 mod elastica;
 mod modal;
 mod newmark;
 mod oscillator;
 mod rigid;
 
+pub use auto::{Auto, AutoState, Choice, Rung};
 pub use elastica::{Elastica, ElasticaState, Flex, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, Vibration};
@@ -16,7 +18,7 @@ pub use rigid::Rigid;
 
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::Hub;
+use crate::motion::{Hub, Peaks};
 
 /// The arm's answer at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,11 +50,22 @@ pub trait Stepper {
         true
     }
 
+    /// Whether a move with these peaks is one that the stepper was set up for. Not for the tick.
+    fn admit(&self, _peaks: &Peaks) -> Result<(), Error> {
+        Ok(())
+    }
+
     /// Static equilibrium with the hub at rest at `hub.angle`. Set-up only.
     fn equilibrium(&self, hub: &Hub<Self::Scalar>) -> Self::State;
 
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
     fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
+
+    /// Called before the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks
+    /// between the ticks: `moment` is by how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola
+    /// with the mean and the ends that `step` is given, rad/s², `s` the fraction of the tick. Steppers that take the rates
+    /// only have nothing to do.
+    fn shift(&self, _state: &mut Self::State, _moment: Self::Scalar) {}
 
     /// Hub torque and tip for a state and the hub at the same instant.
     fn response(&self, state: &Self::State, hub: &Hub<Self::Scalar>) -> Response<Self::Scalar>;

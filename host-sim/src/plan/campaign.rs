@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
+use rand::{Rng, SeedableRng};
 use rayon::prelude::*;
 use stillbeam::beam::Rod;
 use stillbeam::motion::{Departure, Still};
@@ -54,7 +54,7 @@ fn kind(error: &CoreError) -> &'static str {
     match error {
         CoreError::TooShort { .. } => "too short",
         CoreError::NotStill { .. } => "rings on",
-        CoreError::BendsTooFar { .. } => "bends too far",
+        CoreError::DeflectsTooFar { .. } | CoreError::BendsTooFar { .. } => "bends too far",
         CoreError::LimitExceeded { parameter, .. } => parameter,
         _ => "other",
     }
@@ -185,10 +185,13 @@ impl Case {
         let duration = self.period * rng.random_range(1.5..4.0);
         let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
         let peaks = profile.peaks(to, duration);
-        let bend = self.rod.bend(2.0 * peaks.acceleration).clamp(0.05, 1.0);
+        let bend = self.rod.bend(2.0 * peaks.acceleration).clamp(0.05, 1.5);
         let stepper = Elastica::<f32, 2>::new(&self.rod, self.tick, Quality::Fine, bend)?;
         let mut generator = Generator::<_, 8>::new(stepper, 0.0)?;
-        let outline = generator.push(&Move::To { profile, duration, to })?;
+        // A first move that the stepper itself refuses is nothing to interrupt.
+        let Ok(outline) = generator.push(&Move::To { profile, duration, to }) else {
+            return Ok(Interruption { outcome: Err("first move bends too far") });
+        };
         // Before its end, or shortly after it with the arm still ringing.
         let when = rng.random_range(1..outline.ticks + outline.ticks / 4);
         for _ in 0..=when {

@@ -28,7 +28,7 @@ impl Survey {
         limits.admit_moment(self.moment)?;
         let (deflection, most) = (self.deflection, Self::MOST_BEND * length);
         if deflection > most {
-            return Err(Error::BendsTooFar { deflection, most });
+            return Err(Error::DeflectsTooFar { deflection, most });
         }
         Ok(())
     }

@@ -92,6 +92,12 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         }
     }
 
+    /// Is there gravity?
+    #[inline(always)]
+    pub(super) fn is_directed(&self) -> bool {
+        self.gravity
+    }
+
     /// `ωᵢ²`.
     pub(super) fn stiffness(&self, k: usize) -> T {
         self.stiffness[k]
