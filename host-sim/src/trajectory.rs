@@ -40,8 +40,14 @@ impl Trajectory {
     /// Plans the moves from rest at `from` rad. At least one move.
     pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, Error> {
         let mut start = Start::at_rest(from)?;
-        let mut trajectory =
-            Self { pieces: Vec::new(), plans: Vec::new(), arrivals: Vec::new(), tick, ticks: 0, shaper: None };
+        let mut trajectory = Self {
+            pieces: Vec::new(),
+            plans: Vec::new(),
+            arrivals: Vec::new(),
+            tick,
+            ticks: 0,
+            shaper: None,
+        };
         for motion in moves {
             let plan = Plan::new(motion, start, limits, tick)?;
             let mut k = trajectory.ticks;

@@ -30,12 +30,17 @@ fn tables_leave_what_their_names_say() {
                 let (nominal, aside) = (at(0.0), at(0.05));
                 match kind {
                     ShaperKind::Zv | ShaperKind::Mzv => {
-                        assert!(nominal < 1e-9 || kind == ShaperKind::Mzv && nominal < 0.01, "{nominal}");
+                        assert!(
+                            nominal < 1e-9 || kind == ShaperKind::Mzv && nominal < 0.01,
+                            "{nominal}"
+                        );
                         assert!(aside > 0.02);
                     }
                     ShaperKind::Zvd => assert!(nominal < 1e-9 && aside < 0.01, "{nominal} {aside}"),
                     ShaperKind::Ei => assert!((nominal - 0.05).abs() < 0.01 && aside < 0.05),
-                    ShaperKind::TwoHumpEi => assert!(nominal < 0.06 && at(0.15) < 0.06, "{nominal}"),
+                    ShaperKind::TwoHumpEi => {
+                        assert!(nominal < 0.06 && at(0.15) < 0.06, "{nominal}")
+                    }
                 }
                 let period = 1.0 / (frequency * (1.0 - damping * damping).sqrt());
                 assert!((shaper.delay() - kind.periods() * period).abs() < 1e-9 * period);

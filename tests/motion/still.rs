@@ -11,8 +11,7 @@ use stillbeam_sim::plan::judge::Motion;
 const TICK: f64 = 0.01;
 
 fn member_a() -> Scene {
-    let mut scene =
-        Scene::new(Link { length: 0.4, mass: 0.00952, bending_stiffness: 0.0213344 });
+    let mut scene = Scene::new(Link { length: 0.4, mass: 0.00952, bending_stiffness: 0.0213344 });
     scene.payload.mass = 0.03;
     scene
 }
@@ -109,7 +108,8 @@ fn the_shortest_move_keeps_the_limits() {
         assert!(judged.residual < 0.001, "{}", judged.residual);
         let longer = f64::from(plan.ticks - 1) * TICK;
         let before = planner.plan(0.0, PI, longer).expect("plan");
-        let less = limits.admit(&before.peaks).and(planner.survey(&before, None).admit(&limits, 0.4));
+        let less =
+            limits.admit(&before.peaks).and(planner.survey(&before, None).admit(&limits, 0.4));
         assert!(less.is_err(), "{limits:?}: {} ticks would do", plan.ticks - 1);
     }
 }
@@ -140,7 +140,9 @@ fn a_course_can_be_changed_at_any_tick() {
     for when in [1, 7, 12, 19, 24, 31] {
         let stepper = Elastica::<f32, 2>::new(&rod, TICK, Quality::Fine, 0.7).expect("stepper");
         let mut generator = Generator::<_, 8>::new(stepper, 0.0).expect("generator");
-        generator.push(&Move::To { profile: Profile::Cubic, duration: 0.25, to: 1.5 }).expect("move");
+        generator
+            .push(&Move::To { profile: Profile::Cubic, duration: 0.25, to: 1.5 })
+            .expect("move");
         for _ in 0..=when {
             generator.tick();
         }
@@ -152,7 +154,10 @@ fn a_course_can_be_changed_at_any_tick() {
         let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
         let plan = planner.plan_from(&from, Some(&flex), -0.5, 0.3).expect("plan");
         // Not where the hub will be.
-        assert!(matches!(generator.redirect(2, &plan), Err(Error::Elsewhere { .. })) || from.rate == 0.0);
+        assert!(
+            matches!(generator.redirect(2, &plan), Err(Error::Elsewhere { .. }))
+                || from.rate == 0.0
+        );
         generator.redirect(3, &plan).expect("a new course");
         for _ in 0..4 {
             generator.tick();

@@ -35,7 +35,8 @@ fn a_scene_file_plans_its_still_moves() {
     let scene = SceneFile::parse("test", SCENE).expect("a scene");
     let trajectory = scene.trajectory(0.01).expect("a motion");
     let times = truth::times(&trajectory, 0.01);
-    let rows = truth::solve(truth::Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("a run");
+    let rows =
+        truth::solve(truth::Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("a run");
     let left = compare::residual(&rows, &scene).expect("a rest").expect("at rest");
     assert!(left < 0.02, "{left}");
     // After the first two, nothing is left: neither is robust.

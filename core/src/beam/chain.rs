@@ -74,7 +74,8 @@ impl<T: Scalar, const K: usize> Chain<T, K> {
         });
         // Of the interpolation through the points: Σ (2j + 1) w_p P_j(ξ_p) ∫₀^ξ P_j.
         let integral = |p: usize, xi: f64| -> f64 {
-            let (here, there) = (legendre::<{ POINTS + 1 }>(at[p].0), legendre::<{ POINTS + 1 }>(xi));
+            let (here, there) =
+                (legendre::<{ POINTS + 1 }>(at[p].0), legendre::<{ POINTS + 1 }>(xi));
             let sum: f64 = (0..POINTS)
                 .map(|j| match j {
                     0 => xi,
@@ -124,7 +125,8 @@ impl<T: Scalar, const K: usize> Chain<T, K> {
     ) -> [T; K] {
         let points = self.points(a, v, hub);
         let (force, mass) = self.forces(&points);
-        let turning = self.payload_inertia * (hub.acceleration + self.alpha * (hub.rate + dot(&self.tip_slope, v)));
+        let turning = self.payload_inertia
+            * (hub.acceleration + self.alpha * (hub.rate + dot(&self.tip_slope, v)));
         let right: [T; K] = core::array::from_fn(|i| {
             let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
             for p in 0..POINTS {
@@ -142,13 +144,15 @@ impl<T: Scalar, const K: usize> Chain<T, K> {
             points.turn[p] += dot(&self.slope[p], acceleration);
         }
         let (force, _) = self.forces(&points);
-        let spin = dot(&self.tip_slope, acceleration) + self.alpha * (hub.rate + dot(&self.tip_slope, v));
+        let spin =
+            dot(&self.tip_slope, acceleration) + self.alpha * (hub.rate + dot(&self.tip_slope, v));
         let mut moment = self.payload_inertia * (hub.acceleration + spin);
         let mut shear = self.mass * points.root[1];
         let mut tip = [self.radius, T::ZERO];
         for p in 0..POINTS {
             moment += force[p];
-            shear += self.first[p] * (points.turn[p] * points.cos[p] - points.spin[p] * points.sin[p]);
+            shear +=
+                self.first[p] * (points.turn[p] * points.cos[p] - points.spin[p] * points.sin[p]);
             tip[0] += self.to_tip[p] * points.cos[p];
             tip[1] += self.to_tip[p] * points.sin[p];
         }
@@ -180,8 +184,7 @@ impl<T: Scalar, const K: usize> Chain<T, K> {
         };
         let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
         for p in 0..POINTS {
-            (points.sin[p], points.cos[p]) =
-                (per_radian * dot(&self.slope[p], a)).sin_cos_turns();
+            (points.sin[p], points.cos[p]) = (per_radian * dot(&self.slope[p], a)).sin_cos_turns();
             let rate = hub.rate + dot(&self.slope[p], v);
             points.spin[p] = rate * rate;
             points.turn[p] = hub.acceleration + self.alpha * rate;
@@ -201,8 +204,8 @@ impl<T: Scalar, const K: usize> Chain<T, K> {
         }
         let mut force = [T::ZERO; POINTS];
         for p in 0..POINTS {
-            force[p] += self.pairs[p][p] * turn[p]
-                + self.first[p] * (cos[p] * root[1] - sin[p] * root[0]);
+            force[p] +=
+                self.pairs[p][p] * turn[p] + self.first[p] * (cos[p] * root[1] - sin[p] * root[0]);
             for i in 0..K {
                 for j in 0..=i {
                     mass.add(i, j, self.pairs[p][p] * self.slope[p][i] * self.slope[p][j]);
@@ -215,7 +218,8 @@ impl<T: Scalar, const K: usize> Chain<T, K> {
                 force[q] += along * turn[p] - across * spin[p];
                 for i in 0..K {
                     for j in 0..=i {
-                        let both = self.slope[p][i] * self.slope[q][j] + self.slope[q][i] * self.slope[p][j];
+                        let both = self.slope[p][i] * self.slope[q][j]
+                            + self.slope[q][i] * self.slope[p][j];
                         mass.add(i, j, along * both);
                     }
                 }

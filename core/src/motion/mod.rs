@@ -2,6 +2,7 @@
 //! [`Limits`] and cut into [`Segment`]s that cost a few multiplications a tick.
 
 mod angle;
+mod curve;
 mod limits;
 mod plan;
 mod profile;
@@ -10,10 +11,11 @@ mod shaper;
 pub mod still;
 
 pub use angle::Angle;
+pub use curve::BULGE;
 pub use limits::{Limits, Peaks};
 pub(crate) use plan::lay;
 pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};
-pub use segment::{BULGE, Hub, Segment};
+pub use segment::{Hub, Segment};
 pub use shaper::{MAX_PULSES, Pulse, Shaped, Shaper, ShaperKind};
 pub use still::{Departure, Still, StillMove, Survey};

@@ -146,9 +146,7 @@ fn quintic(d: f64) -> [f64; 5] {
 fn rest_to_rest(profile: Profile, d: f64) -> Shapes {
     match profile {
         Profile::Cubic => Shapes::Cubics(&[[0.75, 0.0, -0.25]], d),
-        Profile::Quintic => {
-            Shapes::One(Shape::Quintic(quintic(d)))
-        }
+        Profile::Quintic => Shapes::One(Shape::Quintic(quintic(d))),
         Profile::Cycloid => Shapes::One(Shape::Harmonic { c: [0.5 * d, 0.0], a: d / TAU, b: 0.0 }),
         Profile::Trapezoid => {
             Shapes::Cubics(const { &integrate([(4.5, 0.0), (0.0, 0.0), (-4.5, 0.0)]) }, d)

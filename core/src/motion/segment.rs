@@ -3,6 +3,7 @@
 use core::f64::consts::{PI, TAU};
 
 use super::Angle;
+use super::curve::{BULGE, Derivatives, bulge, cubic, harmonic, quintic};
 use crate::math::Scalar;
 
 /// The hub at one instant. Rate and acceleration in rad/s and rad/s²; where the acceleration
@@ -79,12 +80,6 @@ pub(crate) enum Shape<T> {
     Cruise { rate: T, step: i64 },
 }
 
-/// Coefficients of a bulge.
-pub const BULGE: usize = 6;
-
-/// `(Δ, dΔ/du, ½ d²Δ/du²)` of a shape in turns.
-type Derivatives<T> = (T, T, T);
-
 impl<T: Scalar> Segment<T> {
     /// The hub at the segment's tick `k`, `k < count`.
     pub fn hub(&self, k: u32) -> Hub<T> {
@@ -149,11 +144,7 @@ impl<T: Scalar> Segment<T> {
 
     /// Ticks from the segment's true beginning to its first tick, 0 to 1.
     pub fn ticks_before(&self) -> T {
-        if self.advance == T::ZERO {
-            T::ZERO
-        } else {
-            (self.offset + T::ONE) / self.advance
-        }
+        if self.advance == T::ZERO { T::ZERO } else { (self.offset + T::ONE) / self.advance }
     }
 
     /// Ticks that belong to the segment.
@@ -194,68 +185,6 @@ impl<T: Scalar> Segment<T> {
     pub(crate) fn moved(self, origin: Angle<T>) -> Self {
         Self { origin, ..self }
     }
-}
-
-/// By repeated synthetic division: value, slope and half the curvature out of one chain, without
-/// multiplying coefficients by their powers.
-#[inline(always)]
-fn cubic<T: Scalar>([c1, c2, c3]: [T; 3], u: T) -> Derivatives<T> {
-    let p = c3 * u;
-    let p2 = p + c2;
-    let p1 = p2 * u + c1;
-    let q2 = p2 + p;
-    (p1 * u, q2 * u + p1, q2 + p)
-}
-
-/// As [`cubic`].
-#[inline(always)]
-fn quintic<T: Scalar>([c1, c2, c3, c4, c5]: [T; 5], u: T) -> Derivatives<T> {
-    let p = c5 * u;
-    let p4 = p + c4;
-    let p3 = p4 * u + c3;
-    let p2 = p3 * u + c2;
-    let p1 = p2 * u + c1;
-    let q4 = p4 + p;
-    let q3 = q4 * u + p3;
-    let q2 = q3 * u + p2;
-    let r3 = (q4 + p) * u + q3;
-    (p1 * u, q2 * u + p1, r3 * u + q2)
-}
-
-#[inline(always)]
-fn harmonic<T: Scalar>([c1, c2]: [T; 2], a: T, b: T, u: T) -> Derivatives<T> {
-    let (sin, cos) = (T::HALF * u).sin_cos_turns();
-    let (pi, half_pi2) = (T::from_f64(PI), T::from_f64(0.5 * PI * PI));
-    let p2 = c2 * u;
-    let p1 = p2 + c1;
-    (
-        p1 * u + a * sin + b * (cos - T::ONE),
-        p1 + p2 + pi * (a * cos - b * sin),
-        c2 - half_pi2 * (a * sin + b * cos),
-    )
-}
-
-/// `w³ Q(u)`, `w = 1 − u²`, `Q = d₀ + d₁u + … + d₅u⁵`.
-#[inline(always)]
-fn bulge<T: Scalar>(d: &[T; BULGE], u: T) -> Derivatives<T> {
-    let (mut q, mut q1, mut q2) = (d[BULGE - 1], T::ZERO, T::ZERO);
-    for i in (0..BULGE - 1).rev() {
-        q2 = if i < BULGE - 3 { q2 * u + q1 } else { q1 };
-        q1 = if i < BULGE - 2 { q1 * u + q } else { q };
-        q = q * u + d[i];
-    }
-    let [b, b1, b2] = dome(u);
-    (b * q, b1 * q + b * q1, b2 * q + b1 * q1 + b * q2)
-}
-
-/// `w³`, its slope and half its curvature, `w = 1 − u²`.
-#[inline(always)]
-fn dome<T: Scalar>(u: T) -> [T; 3] {
-    let three = T::TWO + T::ONE;
-    let square = u * u;
-    let w = T::ONE - square;
-    let w2 = w * w;
-    [w2 * w, -(T::TWO * three * u * w2), three * w * ((T::TWO + T::TWO) * square - w)]
 }
 
 impl<T: Scalar> Angle<T> {

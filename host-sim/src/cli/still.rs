@@ -25,7 +25,8 @@ impl StillArgs {
         let bar = progress::bar("reference rod", document::STEPS);
         let blocks = document::blocks(&|| bar.inc(1));
         bar.finish_and_clear();
-        let filled = document::fill(&text, &blocks?).map_err(|error| error.within(path.display()))?;
+        let filled =
+            document::fill(&text, &blocks?).map_err(|error| error.within(path.display()))?;
         if !self.check {
             output::write_whole(path, |file| file.write_all(filled.as_bytes()))?;
             let picture = path.with_extension("svg");

@@ -217,8 +217,7 @@ impl Case {
         let limits =
             Limits { rate: Some(rate), acceleration: Some(acceleration), ..Limits::default() };
         let from = Departure::of(&hub);
-        let found =
-            self.planners[planner].shortest_from(&from, Some(&flex), target, &limits);
+        let found = self.planners[planner].shortest_from(&from, Some(&flex), target, &limits);
         let (plan, survey) = match found {
             Err(error) => return Ok(Interruption { outcome: Err(kind(&error)) }),
             Ok(found) => found,
@@ -229,18 +228,14 @@ impl Case {
             generator.tick();
             let hub = *generator.hub();
             let over = |value: f32, limit: f64| f64::from(value).abs() / limit - 1.0;
-            excess = f64::max(excess, over(hub.rate, rate)).max(over(hub.acceleration, acceleration));
+            excess =
+                f64::max(excess, over(hub.rate, rate)).max(over(hub.acceleration, acceleration));
         }
-        let wide = Flex {
-            coordinate: flex.coordinate.map(f64::from),
-            rate: flex.rate.map(f64::from),
-        };
+        let wide =
+            Flex { coordinate: flex.coordinate.map(f64::from), rate: flex.rate.map(f64::from) };
         let length = self.arm.link.length;
-        let finer = stillbeam::motion::StillMove {
-            ticks: 3 * plan.ticks,
-            tick: self.tick / 3.0,
-            ..plan
-        };
+        let finer =
+            stillbeam::motion::StillMove { ticks: 3 * plan.ticks, tick: self.tick / 3.0, ..plan };
         let residual = self.fine[planner].survey(&finer, Some(&wide)).residual / length;
         let stated = survey.residual / length;
         Ok(Interruption { outcome: Ok(Outcome { excess, stated, residual }) })

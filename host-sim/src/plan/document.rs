@@ -50,7 +50,9 @@ pub fn fill(text: &str, blocks: &[(String, String)]) -> Result<String, Error> {
     for (name, block) in blocks {
         let start = format!("<!-- still:{name} -->");
         let missing = |marker: &str| {
-            Error::new(format_args!("{name}: accepted is a text with {start} and {marker} after it"))
+            Error::new(format_args!(
+                "{name}: accepted is a text with {start} and {marker} after it"
+            ))
         };
         let begin = text.find(&start).ok_or_else(|| missing(END))? + start.len();
         let length = text[begin..].find(END).ok_or_else(|| missing(END))?;
@@ -81,9 +83,11 @@ fn arms() -> Result<Vec<(&'static str, Scene)>, Error> {
 }
 
 fn residuals(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
-    let mut lines = vec![std::iter::once("arm".to_owned())
-        .chain(RATIOS.map(|ratio| format!("{ratio} T\u{2081}")))
-        .collect::<Vec<_>>()];
+    let mut lines = vec![
+        std::iter::once("arm".to_owned())
+            .chain(RATIOS.map(|ratio| format!("{ratio} T\u{2081}")))
+            .collect::<Vec<_>>(),
+    ];
     let rows = arms()?
         .into_par_iter()
         .map(|(name, arm)| {
@@ -107,7 +111,9 @@ fn residuals(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
 
 fn contest_table(entries: &[Entry], duration: f64) -> String {
     let mut header = vec!["motion".to_owned()];
-    header.extend(ERRORS.map(|error| format!("{:+.0} %", 100.0 * error).replace('-', "\u{2212}").replace("+0 %", "0 %")));
+    header.extend(ERRORS.map(|error| {
+        format!("{:+.0} %", 100.0 * error).replace('-', "\u{2212}").replace("+0 %", "0 %")
+    }));
     header.extend(["rate", "acceleration", "torque"].map(str::to_owned));
     let mut lines = vec![header];
     let scale = |judged: &Judgement| {
@@ -131,7 +137,10 @@ fn duration_table(arm: &Scene, period: f64) -> Result<String, Error> {
         ["limits of a", "that takes", "still", "rigid time-optimal"].map(str::to_owned).to_vec(),
     ];
     let in_periods = |seconds: f64| format!("{:.2} T\u{2081}", seconds / period);
-    for (profile, what) in [(Profile::Cubic, "cubic, acceleration only"), (Profile::SCurve, "S-curve, rate, acceleration, jerk")] {
+    for (profile, what) in [
+        (Profile::Cubic, "cubic, acceleration only"),
+        (Profile::SCurve, "S-curve, rate, acceleration, jerk"),
+    ] {
         for ratio in [1.0, 1.5, 2.0, 2.5, 3.0, 4.0] {
             let found = durations(arm, profile, PI, ratio * period, TICK)?;
             let share = format!("{} ({:.2})", in_periods(found.still), found.still / found.profile);
@@ -173,7 +182,8 @@ pub fn picture(path: &Path) -> Result<(), Error> {
     )
     .sized(760, 460);
     for (name, label, colour, dash) in shown {
-        let found = motions.iter().find(|(is, _)| is == name || (name == "robust" && is.contains(name)));
+        let found =
+            motions.iter().find(|(is, _)| is == name || (name == "robust" && is.contains(name)));
         let Some((_, motion)) = found else { continue };
         let points = (-20..=20)
             .into_par_iter()

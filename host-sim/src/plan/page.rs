@@ -16,7 +16,12 @@ use crate::table;
 use stillbeam::{Move, Profile};
 
 /// Writes `index.html`, a picture a chart and `plan.csv` into a folder. Returns the page's path.
-pub fn write(folder: &Path, name: &str, request: &Request, planned: &Planned) -> Result<PathBuf, Error> {
+pub fn write(
+    folder: &Path,
+    name: &str,
+    request: &Request,
+    planned: &Planned,
+) -> Result<PathBuf, Error> {
     let charts = charts(request, planned)?;
     let caption = html! {
         "The commanded motion, what the tip of the reference rod does with it and after it, and what \

@@ -3,8 +3,8 @@
 
 use core::f64::consts::TAU;
 
-use crate::math::{Band, Scalar, dot};
 use super::peaks;
+use crate::math::{Band, Scalar, dot};
 use crate::motion::BULGE;
 
 /// Most amplitudes that are aimed at: two of each of three arms.
@@ -247,8 +247,9 @@ impl<T: Scalar> Linear<T> {
         }
         let factors = normal.factor();
         let free = factors.solve(&right);
-        let across: [[T; BULGE]; MAX_AIMS] =
-            core::array::from_fn(|i| if i < self.aims { factors.solve(&self.rows[i]) } else { [T::ZERO; BULGE] });
+        let across: [[T; BULGE]; MAX_AIMS] = core::array::from_fn(|i| {
+            if i < self.aims { factors.solve(&self.rows[i]) } else { [T::ZERO; BULGE] }
+        });
         let mut gram = Band::<T, MAX_AIMS, MAX_AIMS>::ZERO;
         for i in 0..MAX_AIMS {
             if i >= self.aims {

@@ -131,8 +131,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     /// Torque, bending moment and tip.
     pub fn load(&self, chain: &Chain<T, K>, flex: &Flex<T, K>, hub: &Hub<T>) -> Load<T> {
         let Flex { coordinate, rate } = flex;
-        let acceleration =
-            chain.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
+        let acceleration = chain.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
         chain.load(coordinate, rate, &acceleration, hub)
     }
 

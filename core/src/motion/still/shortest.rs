@@ -15,7 +15,12 @@ const TRIES: u32 = 16;
 impl<T: Scalar, const K: usize> Still<T, K> {
     /// The shortest move from rest at `from` rad to rest at `to` rad that keeps the limits, and its
     /// survey: by the exact model, to a whole tick.
-    pub fn shortest(&self, from: f64, to: f64, limits: &Limits) -> Result<(StillMove, Survey), Error> {
+    pub fn shortest(
+        &self,
+        from: f64,
+        to: f64,
+        limits: &Limits,
+    ) -> Result<(StillMove, Survey), Error> {
         self.shortest_from(&Departure::at_rest(Angle::from_radians(from)), None, to, limits)
     }
 
