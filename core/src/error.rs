@@ -68,6 +68,34 @@ pub enum Error {
         /// Segments that are free.
         free: usize,
     },
+    /// Too short for the arm to arrive at rest.
+    TooShort {
+        /// Duration that was asked for, s.
+        duration: f64,
+        /// 0.9 first periods, s.
+        shortest: f64,
+    },
+    /// The search for a still move has left vibration.
+    NotStill {
+        /// Duration that was asked for, s.
+        duration: f64,
+        /// Amplitude that is left, of L.
+        residual: f64,
+    },
+    /// The arm would bend too far.
+    DeflectsTooFar {
+        /// Deflection of the tip, m.
+        deflection: f64,
+        /// Largest that is accepted, m.
+        most: f64,
+    },
+    /// A move does not begin where the hub is at that tick.
+    Elsewhere {
+        /// The hub's angle, rad.
+        hub: f64,
+        /// The move's, rad.
+        begins: f64,
+    },
     /// Gravity exceeds the buckling load of the upright link.
     Buckles {
         /// The gravity that was given, m/s².
@@ -135,6 +163,27 @@ impl fmt::Display for Error {
             Self::QueueFull { needed, free } => write!(
                 f,
                 "moves: this one takes {needed} segments of the queue; accepted is up to {free} now"
+            ),
+            Self::TooShort { duration, shortest } => write!(
+                f,
+                "move.duration = {duration}: too short for the arm to arrive at rest; accepted is \
+                 from {shortest:.6} s, 0.9 first periods"
+            ),
+            Self::NotStill { duration, residual } => write!(
+                f,
+                "move.duration = {duration}: the arm would ring with {:.3} % of its length; accepted \
+                 is another duration",
+                100.0 * residual
+            ),
+            Self::DeflectsTooFar { deflection, most } => write!(
+                f,
+                "move.duration: the tip would deflect by {deflection:.6} m; accepted is up to \
+                 {most:.6} m, by a longer move or a stiffer link"
+            ),
+            Self::Elsewhere { hub, begins } => write!(
+                f,
+                "move.from = {begins} rad: the hub is at {hub} rad at that tick, or turns \
+                 otherwise; accepted is a move planned from there"
             ),
             Self::Buckles { gravity } => write!(
                 f,

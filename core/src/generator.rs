@@ -1,6 +1,7 @@
 //! The one type the firmware drives.
 
 mod handover;
+mod redirect;
 mod stop;
 
 pub use handover::{Departure, Planned, Rejected};
@@ -224,9 +225,11 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     fn turn_over(&mut self) {
         self.asleep = false;
         self.landing = self.current.landing();
-        match self.queue.pop_front() {
+        match self.queue.front() {
             Some(segment) => {
-                self.current = segment;
+                // Copied once, not by way of what `pop_front` returns.
+                self.current = *segment;
+                let _ = self.queue.pop_front();
                 self.holding = false;
             }
             None if self.holding => self.current = self.renewed(),

@@ -7,7 +7,7 @@
 //!
 //! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core in [`sweep`], run time
 //! against error; its run time is compared with that of [`textbook`]. The paper's figures are
-//! computed in [`study`]. [`report`] and [`plot`] show both.
+//! computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show both.
 //!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 
@@ -15,6 +15,7 @@ pub mod compare;
 pub mod error;
 pub mod model_choice;
 pub mod output;
+pub mod plan;
 pub mod plot;
 pub mod progress;
 pub mod reference;

@@ -1,13 +1,16 @@
 //! Scene files: TOML in SI units to a validated arm and its moves.
 
+mod moves;
+
 use std::fmt::Display;
 use std::path::Path;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use stillbeam::material::{MATERIALS, Material, Strip};
-use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Profile, Scene};
+use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Scene};
 
+use self::moves::{MoveTable, Planning};
 use crate::error::Error;
 use crate::solver::SolverKeys;
 use crate::trajectory::Trajectory;
@@ -106,18 +109,7 @@ struct LimitsTable {
     acceleration: Option<f64>,
     jerk: Option<f64>,
     torque: Option<f64>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MoveTable {
-    profile: String,
-    duration: f64,
-    from: Option<f64>,
-    to: Option<f64>,
-    rate: Option<f64>,
-    #[serde(default)]
-    settle: f64,
+    moment: Option<f64>,
 }
 
 impl SceneFile {
@@ -147,6 +139,7 @@ impl SceneFile {
             acceleration: file.limits.acceleration,
             jerk: file.limits.jerk,
             torque: file.limits.torque,
+            moment: file.limits.moment,
         }
         .validate()?;
         let (tables, many) = match (file.motion, file.moves) {
@@ -158,13 +151,14 @@ impl SceneFile {
         };
         let from = tables[0].from.unwrap_or(0.0);
         let mut at = Some(from);
+        let planning = Planning { arm: &arm, limits: &limits, tick: file.solver.resolve()?.tick };
         let mut moves = Vec::new();
         for (index, table) in tables.iter().enumerate() {
-            let step = table.build(index, &mut at);
+            let step = table.build(index, &mut at, &planning);
             moves.push(if many { step.map_err(|e| e.within(place_of(index)))? } else { step? });
         }
         let scene = Self { name: name.to_owned(), arm, from, moves, limits, solver: file.solver };
-        scene.trajectory(file.solver.resolve()?.tick)?;
+        scene.trajectory(planning.tick)?;
         Ok(scene)
     }
 
@@ -282,66 +276,4 @@ fn missing(field: &str, other: &str, value: f64) -> Error {
 
 fn clash(field: &str, other: &str, value: impl Display) -> Error {
     Error::new(format_args!("{field}: given beside {other} = {value}; accepted is one of the two"))
-}
-
-impl MoveTable {
-    /// `at` is the angle where the move before it ends, none behind a turning hub.
-    fn build(&self, index: usize, at: &mut Option<f64>) -> Result<Step, Error> {
-        if let (Some(from), true) = (self.from, index > 0)
-            && *at != Some(from)
-        {
-            let accepted = at.map_or("no from, behind a turning hub".to_owned(), |angle| {
-                format!("{angle}, where the move before ends, or no from")
-            });
-            return Err(Error::new(format_args!("from = {from}: accepted is {accepted}")));
-        }
-        if !(0.0..=1e6).contains(&self.settle) {
-            return Err(Error::new(format_args!(
-                "move.settle = {}: accepted is 0 to 1000000 s",
-                self.settle
-            )));
-        }
-        let duration = self.duration;
-        let refuse = |key: &str, value: Option<f64>| match value {
-            Some(value) => Err(Error::new(format_args!(
-                "move.{key} = {value}: accepted is none with profile \"{}\"",
-                self.profile
-            ))),
-            None => Ok(()),
-        };
-        let need = |key: &str, unit: &str, value: Option<f64>| {
-            value.ok_or_else(|| {
-                Error::new(format_args!(
-                    "move.{key}: missing; accepted is a number in {unit} with profile \"{}\"",
-                    self.profile
-                ))
-            })
-        };
-        let motion = match self.profile.as_str() {
-            "spin-up" => {
-                refuse("to", self.to)?;
-                let rate = need("rate", "rad/s", self.rate)?;
-                *at = None;
-                Move::SpinUp { duration, rate }
-            }
-            "dwell" => {
-                refuse("to", self.to)?;
-                refuse("rate", self.rate)?;
-                Move::Dwell { duration }
-            }
-            name => {
-                let profile = Profile::named(name).ok_or_else(|| {
-                    let known = Profile::ALL.map(Profile::name).join(", ");
-                    Error::new(format_args!(
-                        "move.profile = \"{name}\": accepted is {known}, spin-up, dwell"
-                    ))
-                })?;
-                refuse("rate", self.rate)?;
-                let to = need("to", "rad", self.to)?;
-                *at = Some(to);
-                Move::To { profile, duration, to }
-            }
-        };
-        Ok(Step { motion, settle: self.settle })
-    }
 }

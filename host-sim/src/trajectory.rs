@@ -1,7 +1,7 @@
 //! The commanded motion of a whole scene, at any time: what the core plans, kept in f64 for
 //! solvers that choose their own steps.
 
-use stillbeam::motion::{Hub, Limits, Plan, Segment, Start};
+use stillbeam::motion::{Angle, Hub, Limits, Plan, Segment, Shaper, Start};
 use stillbeam::{Error, Move};
 
 /// Which value to take where the commanded acceleration jumps.
@@ -22,6 +22,8 @@ pub struct Trajectory {
     arrivals: Vec<u64>,
     tick: f64,
     ticks: u64,
+    /// What the whole motion has passed.
+    shaper: Option<Shaper>,
 }
 
 /// One segment and the time it covers.
@@ -38,8 +40,14 @@ impl Trajectory {
     /// Plans the moves from rest at `from` rad. At least one move.
     pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, Error> {
         let mut start = Start::at_rest(from)?;
-        let mut trajectory =
-            Self { pieces: Vec::new(), plans: Vec::new(), arrivals: Vec::new(), tick, ticks: 0 };
+        let mut trajectory = Self {
+            pieces: Vec::new(),
+            plans: Vec::new(),
+            arrivals: Vec::new(),
+            tick,
+            ticks: 0,
+            shaper: None,
+        };
         for motion in moves {
             let plan = Plan::new(motion, start, limits, tick)?;
             let mut k = trajectory.ticks;
@@ -63,8 +71,40 @@ impl Trajectory {
         Ok(trajectory)
     }
 
+    /// The same motion through a shaper, which makes it longer by its delay, rounded up to whole
+    /// ticks. From rest to rest.
+    pub fn shaped(self, shaper: Shaper) -> Self {
+        let added = (shaper.delay() / self.tick - 1e-9).ceil() as u64;
+        let arrivals = self.arrivals.iter().map(|k| k + added).collect();
+        Self { arrivals, ticks: self.ticks + added, shaper: Some(shaper), ..self }
+    }
+
     /// The hub at time `t` s; before the beginning and after the end, the nearest of the two.
     pub fn at(&self, t: f64, side: Side) -> Hub<f64> {
+        let Some(shaper) = &self.shaper else { return self.unshaped(t, side) };
+        let mut sum = Hub { rate: 0.0, acceleration: 0.0, ..self.unshaped(0.0, Side::Right) };
+        let start = sum.angle;
+        let (eps, end) = (1e-9 * self.tick, self.pieces.last().map_or(0.0, |piece| piece.end));
+        let mut turned = 0.0;
+        for pulse in shaper.pulses() {
+            let t = t - pulse.delay;
+            let hub = self.unshaped(t, side);
+            turned += pulse.amplitude * hub.angle.since(start);
+            let within = match side {
+                Side::Left => t > eps && t <= end + eps,
+                Side::Right => t >= -eps && t < end - eps,
+            };
+            if within {
+                sum.rate += pulse.amplitude * hub.rate;
+                sum.acceleration += pulse.amplitude * hub.acceleration;
+            }
+        }
+        sum.angle = Angle::plus(start, turned);
+        (sum.sin, sum.cos) = sum.angle.sin_cos();
+        sum
+    }
+
+    fn unshaped(&self, t: f64, side: Side) -> Hub<f64> {
         // Times within a nanotick of a border belong to it.
         let eps = 1e-9 * self.tick;
         let after = match side {
@@ -79,7 +119,18 @@ impl Trajectory {
     /// Times strictly inside the run at which the motion's formula changes; its acceleration or a
     /// higher derivative may jump there. An integrator restarts at each.
     pub fn breaks(&self) -> Vec<f64> {
-        self.pieces.iter().skip(1).map(|piece| piece.begin).collect()
+        let Some(shaper) = &self.shaper else {
+            return self.pieces.iter().skip(1).map(|piece| piece.begin).collect();
+        };
+        let end = self.duration();
+        let borders = self.pieces.iter().flat_map(|piece| [piece.begin, piece.end]);
+        let mut all: Vec<f64> = borders
+            .flat_map(|t| shaper.pulses().iter().map(move |pulse| t + pulse.delay))
+            .filter(|&t| t > 1e-6 * self.tick && t < end - 1e-6 * self.tick)
+            .collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|b, a| *b - *a < 1e-9 * self.tick);
+        all
     }
 
     /// Times at which moves end, dwells left out, s. There a table holds the left-hand acceleration

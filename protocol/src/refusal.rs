@@ -58,6 +58,22 @@ impl From<Error> for Refusal<'static> {
             Error::QueueFull { needed, free } => {
                 Self::Queue { needed: needed as u32, free: free as u32 }
             }
+            Error::BendsTooFar { bend, max } => {
+                range("move: bend at the tip", bend, 0.0, max, "rad")
+            }
+            Error::Tolerance { tolerance, best } => {
+                range("solver.tolerance", tolerance, best, 1.0, "of the length")
+            }
+            Error::TooShort { duration, shortest } => {
+                range("move.duration", duration, shortest, f64::INFINITY, "s")
+            }
+            Error::NotStill { residual, .. } => {
+                range("move: vibration left", residual, 0.0, 0.0, "of the length")
+            }
+            Error::DeflectsTooFar { deflection, most } => {
+                range("move: deflection", deflection, 0.0, most, "of the length")
+            }
+            Error::Elsewhere { hub, begins } => range("hub angle", hub, begins, begins, "rad"),
             Error::Buckles { gravity } => {
                 range("gravity.acceleration on this payload", gravity, 0.0, 0.0, "m/s^2")
             }

@@ -8,7 +8,7 @@ use stillbeam::{Angle, Limits, Link, Move, Profile, Scene};
 pub const TICK: f64 = 0.010;
 
 pub const LIMITS: Limits =
-    Limits { rate: Some(6.0), acceleration: Some(40.0), jerk: None, torque: None };
+    Limits { rate: Some(6.0), acceleration: Some(40.0), jerk: None, torque: None, moment: None };
 
 pub const POLICY: Policy = Policy { limits: LIMITS, patience: 20, missed: 2 };
 

@@ -46,8 +46,13 @@ fn requests() -> impl Strategy<Value = Request> {
 /// The longest reports there are: every varint at its longest.
 fn longest() -> [Report<'static>; 4] {
     let big = Angle { turns: i32::MIN, part: 0.5 };
-    let limits =
-        Limits { rate: Some(1.0), acceleration: Some(1.0), jerk: Some(1.0), torque: Some(1.0) };
+    let limits = Limits {
+        rate: Some(1.0),
+        acceleration: Some(1.0),
+        jerk: Some(1.0),
+        torque: Some(1.0),
+        moment: None,
+    };
     let direct = Joint::direct(0.05);
     let ratio = stillbeam::motor::Ratio { motor: u16::MAX, link: u16::MAX };
     [

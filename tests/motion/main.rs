@@ -2,3 +2,5 @@
 
 mod generator;
 mod plan;
+mod shapers;
+mod still;

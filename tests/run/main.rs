@@ -5,4 +5,5 @@ mod energy;
 mod exact;
 mod properties;
 mod scene_files;
+mod still;
 mod truth;

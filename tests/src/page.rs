@@ -10,6 +10,9 @@ const BEGIN: &str = "<!-- instructions: begin (written by `cargo run --release -
                      --bin instructions`) -->";
 const END: &str = "<!-- instructions: end -->";
 
+/// Method of the rows that count plans.
+const PLAN: &str = "plan";
+
 /// Columns of the large table: heading, and the words that are skipped.
 const COLUMNS: [(&str, &[&str]); 7] = [
     ("all terms", &[]),
@@ -32,9 +35,10 @@ pub fn replace(page: &str, tables: &str) -> Result<String, String> {
     Ok(format!("{before}{BEGIN}\n{tables}\n{END}{after}"))
 }
 
-/// The three tables.
+/// The tables.
 pub fn tables(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
-    let sections = [methods(bench, minimal), motions(bench), functions(bench)];
+    let sections =
+        [methods(bench, minimal), motions(bench), plans(bench, minimal), functions(bench)];
     format!("\n{}", sections.join("\n"))
 }
 
@@ -52,7 +56,7 @@ fn methods(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
     for count in &bench.counts {
         let [method, size, quality, _] = &count.key;
         let own: &[&str] = if skips(count).contains(&"no-spin") { &["no-spin"] } else { &[] };
-        if seen.contains(&(&count.id, quality)) || motion(count) {
+        if seen.contains(&(&count.id, quality)) || motion(count) || method == PLAN {
             continue;
         }
         seen.push((&count.id, quality));
@@ -91,6 +95,21 @@ fn motions(bench: &Bench) -> String {
             writeln!(text, "| {profile} | {path} | {} | {} |", count.least, count.worst)
                 .expect("a string");
         }
+    }
+    text
+}
+
+/// What a plan of a still move costs, once a move, outside the tick.
+fn plans(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
+    let mut text = "### A plan of a still move, once a move, outside the tick\n\n\
+                    | move | instructions | set-up of the planner | flash | RAM | stack |\n\
+                    |---|---|---|---|---|---|\n"
+        .to_owned();
+    for count in bench.counts.iter().filter(|count| count.key[0] == PLAN) {
+        let Minimal { flash, ram, stack } = minimal[&count.id];
+        let (name, worst, setup) = (&count.key[2], count.worst, count.setup);
+        writeln!(text, "| {name} | {worst} | {setup} | {flash} | {ram} | {stack} |")
+            .expect("a string");
     }
     text
 }

@@ -5,6 +5,7 @@
 //! the precision of the scene.
 
 mod assembly;
+mod chain;
 mod element;
 mod expansion;
 mod lumped;
@@ -13,6 +14,7 @@ mod modes;
 pub(crate) mod monomials;
 mod rod;
 
+pub(crate) use chain::{Chain, Load};
 pub(crate) use expansion::{Even, Expansion, Odd};
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
 pub use modes::Modes;

@@ -115,6 +115,27 @@ impl<const K: usize> Rod<K> {
         &self.tip_slope
     }
 
+    /// `∂Y/∂aₖ` of the straight link's tip, m.
+    pub(crate) fn tip_swing(&self) -> [f64; K] {
+        core::array::from_fn(|k| self.scene.link.length * dot(&self.weights, &self.slope[k]))
+    }
+
+    /// `ψₖ(ξ)`, `ξ = x/L`: the polynomial through the points.
+    pub(super) fn slopes_at(&self, xi: f64) -> [f64; K] {
+        let (points, weights) = rule();
+        let there = legendre::<POINTS>(xi);
+        let at = points.map(legendre::<POINTS>);
+        core::array::from_fn(|k| {
+            let mut sum = 0.0;
+            for j in 0..POINTS {
+                for p in 0..POINTS {
+                    sum += (2 * j + 1) as f64 * there[j] * weights[p] * at[p][j] * self.slope[k][p];
+                }
+            }
+            sum
+        })
+    }
+
     /// The scene this was built from.
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -196,7 +217,7 @@ impl<const K: usize> Rod<K> {
 }
 
 /// The whole Gauss rule.
-fn rule() -> ([f64; POINTS], [f64; POINTS]) {
+pub(super) fn rule() -> ([f64; POINTS], [f64; POINTS]) {
     let mirrored = |p: usize| {
         if p < POINTS / 2 {
             HALF_RULE[p]
@@ -209,7 +230,7 @@ fn rule() -> ([f64; POINTS], [f64; POINTS]) {
 }
 
 /// Legendre polynomials `P₀ … P_{N−1}` of `2ξ − 1`.
-fn legendre<const N: usize>(xi: f64) -> [f64; N] {
+pub(super) fn legendre<const N: usize>(xi: f64) -> [f64; N] {
     let u = 2.0 * xi - 1.0;
     let mut p = [1.0; N];
     for k in 1..N {

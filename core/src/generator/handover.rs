@@ -106,6 +106,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.current = self.tail;
         self.k = 0;
         self.holding = true;
+        self.asleep = false;
     }
 
     /// Another arm on the same hub, from the angle where it rests.

@@ -27,6 +27,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.current = self.tail.cut(0);
             self.k = 0;
             self.holding = true;
+            self.asleep = false;
             return;
         }
         let (segment, rest) = braking.stop(&self.hub);
@@ -42,6 +43,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         // Wraps to the segment's tick 0 at the next tick.
         self.k = u32::MAX;
         self.holding = false;
+        self.asleep = false;
     }
 
     /// Drops what lies behind the arrival.

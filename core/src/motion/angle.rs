@@ -27,6 +27,13 @@ impl<T: Scalar> Angle<T> {
         Self { turns: self.turns.wrapping_add(whole), part }
     }
 
+    /// Turns from `start` to here, as one number.
+    pub fn since(self, start: Self) -> T {
+        let whole = self.turns.wrapping_sub(start.turns);
+        let magnitude = T::from_u32(whole.unsigned_abs());
+        (if whole < 0 { -magnitude } else { magnitude }) + (self.part - start.part)
+    }
+
     /// Turns, as one number: exact to 2e-16 of itself.
     pub fn in_turns(self) -> f64 {
         f64::from(self.turns) + self.part.to_f64()

@@ -18,10 +18,13 @@ pub struct Limits {
     pub jerk: Option<f64>,
     /// |τ| at the hub, N m.
     pub torque: Option<f64>,
+    /// |M|, bending moment at the clamp, N m.
+    pub moment: Option<f64>,
 }
 
 /// Greatest magnitudes over a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Peaks {
     /// |θ̇|, rad/s.
     pub rate: f64,
@@ -42,6 +45,7 @@ impl Limits {
         check("limits.acceleration", self.acceleration, "rad/s^2")?;
         check("limits.jerk", self.jerk, "rad/s^3")?;
         check("limits.torque", self.torque, "N m")?;
+        check("limits.moment", self.moment, "N m")?;
         Ok(self)
     }
 
@@ -55,6 +59,11 @@ impl Limits {
     /// Refuses a torque (N m) above the limit.
     pub fn admit_torque(&self, torque: f64) -> Result<(), Error> {
         within("limits.torque", self.torque, torque, "N m")
+    }
+
+    /// Refuses a bending moment at the clamp (N m) above the limit.
+    pub fn admit_moment(&self, moment: f64) -> Result<(), Error> {
+        within("limits.moment", self.moment, moment, "N m")
     }
 }
 

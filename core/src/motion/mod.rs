@@ -2,14 +2,20 @@
 //! [`Limits`] and cut into [`Segment`]s that cost a few multiplications a tick.
 
 mod angle;
+mod curve;
 mod limits;
 mod plan;
 mod profile;
 mod segment;
+mod shaper;
+pub mod still;
 
 pub use angle::Angle;
+pub use curve::BULGE;
 pub use limits::{Limits, Peaks};
 pub(crate) use plan::lay;
 pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};
 pub use segment::{Braking, Hub, Segment};
+pub use shaper::{MAX_PULSES, Pulse, Shaped, Shaper, ShaperKind};
+pub use still::{Departure, Still, StillMove, Survey};

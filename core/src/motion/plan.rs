@@ -98,6 +98,17 @@ pub(crate) fn lay<T: Scalar>(
             let (old, change) = (turned(start.rate), turned(change));
             (Shapes::One(spin_up(T::from_f64(old), T::from_f64(change))), end, peaks)
         }
+        Move::Still { to, bulge, peaks, .. } => {
+            let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+            if start.rate != 0.0 {
+                return Err(Error::NotAtRest { rate: start.rate });
+            }
+            let delta = to / TAU - start.angle.in_turns();
+            let end = Start { angle: start.angle.plus(delta), rate: 0.0 };
+            let c = quintic(T::from_f64(delta));
+            let shape = Shape::Bulged { c, d: bulge.map(|b| T::from_f64(b / TAU)) };
+            (Shapes::One(shape), end, peaks)
+        }
         Move::Dwell { .. } => {
             let angle = start.angle.plus(turned(start.rate));
             let peaks = Peaks { rate: start.rate.abs(), acceleration: 0.0, jerk: 0.0 };
@@ -137,6 +148,12 @@ struct Piece {
 /// Largest angle and rate that a move may name: 1e6 rad resolve to 1e-10 rad.
 const MAX_ANGLE: f64 = 1e6;
 
+/// A quintic's coefficients, of a turn by `turn`.
+fn quintic<T: Scalar>(turn: T) -> [T; 5] {
+    let n = T::from_f64;
+    [n(0.9375), T::ZERO, n(-0.625), T::ZERO, n(0.1875)].map(|c| c * turn)
+}
+
 /// Turns by `d`.
 fn rest_to_rest<T: Scalar>(profile: Profile, d: f64) -> Shapes<T> {
     let (n, turn) = (T::from_f64, T::from_f64(d));
@@ -144,10 +161,7 @@ fn rest_to_rest<T: Scalar>(profile: Profile, d: f64) -> Shapes<T> {
         Profile::Cubic => {
             Shapes::Cubics(const { &[Piece { start: 0.0, cubic: [0.75, 0.0, -0.25] }] }, d)
         }
-        Profile::Quintic => {
-            let c = [n(0.9375), T::ZERO, n(-0.625), T::ZERO, n(0.1875)];
-            Shapes::One(Shape::Quintic(c.map(|c| c * turn)))
-        }
+        Profile::Quintic => Shapes::One(Shape::Quintic(quintic(turn))),
         Profile::Cycloid => Shapes::One(Shape::Harmonic {
             c: [T::HALF * turn, T::ZERO],
             a: turn / n(TAU),

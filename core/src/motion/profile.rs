@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use super::Peaks;
+use super::{BULGE, Peaks};
 use crate::Error;
 
 /// The shape of a rest-to-rest move over `s = t/T ∈ 0..1`.
@@ -87,6 +87,19 @@ pub enum Move {
         /// Rate at the end, rad/s; 0 brings a turning hub to rest.
         rate: f64,
     },
+    /// Rest to rest by a quintic that bulges: `θ = quintic + (1 − u²)³ Σ bₖuᵏ`, `u = 2t/T − 1`.
+    /// With the bulge that [`Still`](super::Still) plans, the arm arrives without vibration.
+    Still {
+        /// T, s; rounded to the nearest whole tick.
+        duration: f64,
+        /// Angle at the end, rad, counted from the same zero as the hub's.
+        to: f64,
+        /// `b₀ … b₅`, rad.
+        bulge: [f64; BULGE],
+        /// Greatest magnitudes, as the planner found them: to find them again would take code that
+        /// every program would carry.
+        peaks: Peaks,
+    },
     /// The hub keeps its rate: zero after every move but a spin-up.
     Dwell {
         /// T, s; rounded to the nearest whole tick.
@@ -100,15 +113,26 @@ impl Move {
         match *self {
             Self::To { duration, .. }
             | Self::SpinUp { duration, .. }
+            | Self::Still { duration, .. }
             | Self::Dwell { duration } => duration,
         }
     }
 
-    /// The same move in another time, s.
+    /// The same move in another time, s. A still move is one no longer: its curve is that of the
+    /// time it was planned for.
     pub fn lasting(self, duration: f64) -> Self {
         match self {
             Self::To { profile, to, .. } => Self::To { profile, duration, to },
             Self::SpinUp { rate, .. } => Self::SpinUp { duration, rate },
+            Self::Still { duration: before, to, bulge, peaks } => {
+                let faster = before / duration;
+                let peaks = Peaks {
+                    rate: peaks.rate * faster,
+                    acceleration: peaks.acceleration * faster * faster,
+                    jerk: peaks.jerk * faster * faster * faster,
+                };
+                Self::Still { duration, to, bulge, peaks }
+            }
             Self::Dwell { .. } => Self::Dwell { duration },
         }
     }

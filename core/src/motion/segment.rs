@@ -7,6 +7,7 @@ use core::f64::consts::{PI, TAU};
 pub use braking::Braking;
 
 use super::Angle;
+use super::curve::{BULGE, Derivatives, bulge, cubic, harmonic, quintic};
 use crate::math::Scalar;
 
 /// The hub at one instant. Rate and acceleration in rad/s and rad/s²; where the acceleration
@@ -75,13 +76,13 @@ pub(crate) enum Shape<T> {
     Quintic([T; 5]),
     /// `c₁u + c₂u² + a sin πu + b (cos πu − 1)`.
     Harmonic { c: [T; 2], a: T, b: T },
+    /// `c₁u + … + c₅u⁵ + (1 − u²)³(d₀ + d₁u + … + d₅u⁵)`: the second term bulges between the ends
+    /// and changes neither angle, rate nor acceleration there.
+    Bulged { c: [T; 5], d: [T; BULGE] },
     /// Constant rate (rad/s). `step / 2⁶⁴` turns a tick, multiplied out in integers: after 10⁹
     /// ticks the angle is within 6e-11 turn.
     Cruise { rate: T, step: i64 },
 }
-
-/// `(Δ, dΔ/du, ½ d²Δ/du²)` of a shape in turns.
-type Derivatives<T> = (T, T, T);
 
 impl<T: Scalar> Segment<T> {
     /// The hub at the segment's tick `k`, `k < count`.
@@ -125,6 +126,10 @@ impl<T: Scalar> Segment<T> {
         match self.shape {
             Shape::Cubic(c) => cubic(c, u),
             Shape::Quintic(c) => quintic(c, u),
+            Shape::Bulged { c, d } => {
+                let (base, bulge) = (quintic(c, u), bulge(&d, u));
+                (base.0 + bulge.0, base.1 + bulge.1, base.2 + bulge.2)
+            }
             Shape::Harmonic { c, a, b } => harmonic(c, a, b, u),
             Shape::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
         }
@@ -136,6 +141,24 @@ impl<T: Scalar> Segment<T> {
         (self.origin.plus(delta), rate, half_second * self.acceleration_scale)
     }
 
+    /// The hub any real number of ticks after the segment's first, for solvers that choose their
+    /// own steps. May be negative down to the segment's true beginning.
+    pub fn hub_at(&self, ticks: T) -> Hub<T> {
+        let (angle, rate, acceleration) = match self.shape {
+            Shape::Cruise { rate, step } => {
+                (self.origin.plus(T::from_fraction(step) * ticks), rate, T::ZERO)
+            }
+            _ => self.scaled(self.derivatives(self.offset + ticks * self.advance)),
+        };
+        let (sin, cos) = angle.sin_cos();
+        Hub { angle, rate, acceleration, sin, cos }
+    }
+
+    /// Ticks from the segment's true beginning to its first tick, 0 to 1.
+    pub fn ticks_before(&self) -> T {
+        if self.advance == T::ZERO { T::ZERO } else { (self.offset + T::ONE) / self.advance }
+    }
+
     /// Ticks that belong to the segment.
     pub fn count(&self) -> u32 {
         self.count
@@ -144,6 +167,15 @@ impl<T: Scalar> Segment<T> {
     /// θ̈ at the segment's end, from the left.
     pub(crate) fn landing(&self) -> T {
         self.landing
+    }
+
+    /// The same quintic with another bulge, turns; any other shape as it is.
+    #[inline(always)]
+    pub(crate) fn bulged(mut self, bulge: &[T; BULGE]) -> Self {
+        if let Shape::Bulged { d, .. } = &mut self.shape {
+            *d = *bulge;
+        }
+        self
     }
 
     /// The moment of the border within the tick before, rad/s².
@@ -170,49 +202,15 @@ impl<T: Scalar> Segment<T> {
         Self { count, ..self }
     }
 
+    /// The same segment, broken off `count` ticks after its beginning.
+    pub(crate) fn broken_off(self, count: u32) -> Self {
+        Self { count, landing: self.hub(count).acceleration, ..self }
+    }
+
     /// The same cruise, beginning at another angle.
     pub(crate) fn moved(self, origin: Angle<T>) -> Self {
         Self { origin, ..self }
     }
-}
-
-/// By repeated synthetic division: value, slope and half the curvature out of one chain, without
-/// multiplying coefficients by their powers.
-#[inline(always)]
-fn cubic<T: Scalar>([c1, c2, c3]: [T; 3], u: T) -> Derivatives<T> {
-    let p = c3 * u;
-    let p2 = p + c2;
-    let p1 = p2 * u + c1;
-    let q2 = p2 + p;
-    (p1 * u, q2 * u + p1, q2 + p)
-}
-
-/// As [`cubic`].
-#[inline(always)]
-fn quintic<T: Scalar>([c1, c2, c3, c4, c5]: [T; 5], u: T) -> Derivatives<T> {
-    let p = c5 * u;
-    let p4 = p + c4;
-    let p3 = p4 * u + c3;
-    let p2 = p3 * u + c2;
-    let p1 = p2 * u + c1;
-    let q4 = p4 + p;
-    let q3 = q4 * u + p3;
-    let q2 = q3 * u + p2;
-    let r3 = (q4 + p) * u + q3;
-    (p1 * u, q2 * u + p1, r3 * u + q2)
-}
-
-#[inline(always)]
-fn harmonic<T: Scalar>([c1, c2]: [T; 2], a: T, b: T, u: T) -> Derivatives<T> {
-    let (sin, cos) = (T::HALF * u).sin_cos_turns();
-    let (pi, half_pi2) = (T::from_f64(PI), T::from_f64(0.5 * PI * PI));
-    let p2 = c2 * u;
-    let p1 = p2 + c1;
-    (
-        p1 * u + a * sin + b * (cos - T::ONE),
-        p1 + p2 + pi * (a * cos - b * sin),
-        c2 - half_pi2 * (a * sin + b * cos),
-    )
 }
 
 impl<T: Scalar> Angle<T> {
@@ -236,7 +234,7 @@ impl<T: Scalar> Shape<T> {
         let n = T::from_f64;
         let (odd, even, bend) = match *self {
             Self::Cubic([c1, c2, c3]) => (c1 + c3, c2, n(2.0) * c2 + n(6.0) * c3),
-            Self::Quintic([c1, c2, c3, c4, c5]) => {
+            Self::Quintic([c1, c2, c3, c4, c5]) | Self::Bulged { c: [c1, c2, c3, c4, c5], .. } => {
                 let bend = n(2.0) * c2 + n(6.0) * c3 + n(12.0) * c4 + n(20.0) * c5;
                 (c1 + c3 + c5, c2 + c4, bend)
             }
@@ -296,25 +294,6 @@ impl<T: Scalar> Segment<T> {
 }
 
 impl Segment<f64> {
-    /// The hub any real number of ticks after the segment's first, for solvers that choose their
-    /// own steps. May be negative down to the segment's true beginning.
-    pub fn hub_at(&self, ticks: f64) -> Hub<f64> {
-        let (angle, rate, acceleration) = match self.shape {
-            Shape::Cruise { rate, step } => {
-                let turns = step as f64 / 18_446_744_073_709_551_616.0 * ticks;
-                (self.origin.plus(turns), rate, 0.0)
-            }
-            _ => self.scaled(self.derivatives(self.offset + ticks * self.advance)),
-        };
-        let (sin, cos) = angle.sin_cos();
-        Hub { angle, rate, acceleration, sin, cos }
-    }
-
-    /// Ticks from the segment's true beginning to its first tick, 0 to 1.
-    pub fn ticks_before(&self) -> f64 {
-        if self.advance == 0.0 { 0.0 } else { (self.offset + 1.0) / self.advance }
-    }
-
     /// Rounds to the scalar of the tick.
     pub fn cast<T: Scalar>(&self) -> Segment<T> {
         let f = T::from_f64;
@@ -331,6 +310,7 @@ impl Segment<f64> {
                 Shape::Cubic(c) => Shape::Cubic(c.map(f)),
                 Shape::Quintic(c) => Shape::Quintic(c.map(f)),
                 Shape::Harmonic { c, a, b } => Shape::Harmonic { c: c.map(f), a: f(a), b: f(b) },
+                Shape::Bulged { c, d } => Shape::Bulged { c: c.map(f), d: d.map(f) },
                 Shape::Cruise { rate, step } => Shape::Cruise { rate: f(rate), step },
             },
         }

@@ -10,9 +10,10 @@ mod oscillator;
 mod rigid;
 
 pub use auto::{Auto, AutoState, Choice, Rung};
-pub use elastica::{Elastica, ElasticaState, Quality};
+pub use elastica::{Elastica, ElasticaState, Flex, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, Vibration};
+pub(crate) use oscillator::{Drive, Oscillator};
 pub use rigid::Rigid;
 
 use crate::Error;

@@ -11,7 +11,7 @@ use crate::motion::Hub;
 /// with `n` changing as before and corrected for having been extrapolated (PEC2), or where little
 /// depends on `n`, with `n` constant (ETD2RK; Cox and Matthews, J. Comput. Phys. 176, 2002).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Oscillator<T> {
+pub(crate) struct Oscillator<T> {
     /// `exp(hA)`, its determinant rounded down to at most the true one, so that rounding never
     /// feeds the mode energy.
     exponential: [[T; 2]; 2],
@@ -27,7 +27,7 @@ pub(super) struct Oscillator<T> {
 /// What drives the modes within a step: a parabola with these values at the beginning and at the
 /// end, and this mean.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drive<T> {
+pub(crate) struct Drive<T> {
     pub begin: T,
     pub mean: T,
     pub end: T,
@@ -37,7 +37,7 @@ impl<T: Scalar> Drive<T> {
     /// The parabola of `u = θ̈ + αθ̇` over a tick: its mean is what the rate gained, so that a jump
     /// of the acceleration within the tick does its full work.
     #[inline(always)]
-    pub(super) fn between(before: &Hub<T>, after: &Hub<T>, per_tick: T, alpha: T) -> Self {
+    pub(crate) fn between(before: &Hub<T>, after: &Hub<T>, per_tick: T, alpha: T) -> Self {
         let gained = (after.rate - before.rate) * per_tick;
         Self {
             begin: before.acceleration + alpha * before.rate,
@@ -55,7 +55,7 @@ impl<T: Scalar> Drive<T> {
 
     /// The same parabola over the first and over the second half of the tick.
     #[inline(always)]
-    pub(super) fn halves(&self, quarter: T) -> [Self; 2] {
+    pub(crate) fn halves(&self, quarter: T) -> [Self; 2] {
         let ends = quarter * (self.begin + self.end);
         let middle = (T::ONE + T::HALF) * self.mean - ends;
         // The mean of a parabola's first half, from its ends and its own mean.
@@ -71,7 +71,7 @@ impl<T: Scalar> Drive<T> {
 impl<T: Scalar> Oscillator<T> {
     /// For a step of `h` s; `omega` in rad/s, `alpha` in 1/s, `beta` in s, `b` the mode's coupling
     /// to the hub.
-    pub(super) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
+    pub(crate) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
         let [exponential, p1, p2, p3, _] = phi_functions(&matrix(omega, alpha, beta, h));
         let cast = |matrix: [[f64; 2]; 2]| matrix.map(|row| row.map(|x| T::from_f64(h * x)));
         Self {
@@ -93,7 +93,7 @@ impl<T: Scalar> Oscillator<T> {
 
     /// The state after a step if `n` goes on changing as it did.
     #[inline(always)]
-    pub(super) fn predict(&self, y: [T; 2], drive: &Drive<T>, n: [T; 2], change: [T; 2]) -> [T; 2] {
+    pub(crate) fn predict(&self, y: [T; 2], drive: &Drive<T>, n: [T; 2], change: [T; 2]) -> [T; 2] {
         [0, 1].map(|r| {
             self.free(r, y, drive)
                 + (self.constant[r][0] * n[0] + self.constant[r][1] * n[1])
@@ -104,7 +104,7 @@ impl<T: Scalar> Oscillator<T> {
     /// What to add to the prediction once `n` at the end is known: `excess` is its change less the
     /// expected one.
     #[inline(always)]
-    pub(super) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
+    pub(crate) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
         [0, 1].map(|r| y[r] + self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1])
     }
 

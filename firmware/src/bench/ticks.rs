@@ -5,7 +5,7 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use stillbeam::Stepper;
-use stillbeam::motion::{Limits, Plan, Start};
+use stillbeam::motion::{Limits, Peaks, Plan, Start};
 use stillbeam::{Damping, Error, Generator, Hub, Link, Move, Payload, Profile, Scene, Setpoint};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
@@ -35,15 +35,22 @@ const fn to(profile: Profile, duration: f64, to: f64) -> Move {
     Move::To { profile, duration, to }
 }
 
+/// Any bulge: what it costs does not depend on its size.
+const fn still(duration: f64, to: f64) -> Move {
+    let peaks = Peaks { rate: 10.0, acceleration: 60.0, jerk: 1e3 };
+    Move::Still { duration, to, bulge: [0.01, 0.1, 0.02, -0.1, 0.01, 0.05], peaks }
+}
+
 /// The table's run: an S-curve, which is seven cubics, a cubic, and a rest. Both cross quarters of
 /// a turn.
 const MOVES: [Move; 2] = [to(Profile::SCurve, 1.0, 3.0), to(Profile::Cubic, 0.7, -1.4)];
 
 /// The other motions, which cost the same with every method: counted with the cheapest. A
 /// trapezoid is three cubics.
-const MOTIONS: [(&str, &[Move]); 3] = [
+const MOTIONS: [(&str, &[Move]); 4] = [
     ("quintic", &[to(Profile::Quintic, 1.0, 3.0), to(Profile::Quintic, 0.7, -1.4)]),
     ("cycloid", &[to(Profile::Cycloid, 1.0, 3.0), to(Profile::Cycloid, 0.7, -1.4)]),
+    ("still", &[still(1.0, 3.0), still(0.7, -1.4)]),
     ("spin-up", &[Move::SpinUp { duration: 1.0, rate: 3.0 }]),
 ];
 

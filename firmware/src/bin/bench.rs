@@ -13,6 +13,8 @@ use stillbeam_firmware::output::Output;
 
 #[path = "../bench/functions.rs"]
 mod functions;
+#[path = "../bench/plans.rs"]
+mod plans;
 #[path = "../bench/ticks.rs"]
 mod ticks;
 
@@ -25,6 +27,7 @@ fn main() -> ! {
     let watch = Stopwatch::<Chosen>::start();
     writeln!(output, "unit,{}", Chosen::UNIT).expect("the host takes the lines");
     ticks::print(&watch, &mut output);
+    plans::print(&watch, &mut output);
     functions::print(&watch, &mut output);
     output.flush().expect("the host takes the lines");
     ExitCode::SUCCESS.exit_process()

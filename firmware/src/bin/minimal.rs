@@ -2,7 +2,7 @@
 //! RAM of the tables; it prints the worst stack as four bytes.
 //!
 //! Which method is linked is chosen when this is built, by the environment variable
-//! `STILLBEAM_METHOD` (a name in the list of methods).
+//! `STILLBEAM_METHOD` (a name in the list of methods, or `Still2`: elastica with a planner of still moves).
 #![no_std]
 #![no_main]
 
@@ -11,7 +11,10 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use semihosting::io::{self, Write};
 use semihosting::process;
-use stillbeam::{Generator, Link, Move, Profile, Scene};
+use stillbeam::beam::Rod;
+use stillbeam::motion::Still;
+use stillbeam::stepper::{Elastica, Quality};
+use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
 use stillbeam_firmware::{exit, stack};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 
@@ -57,6 +60,23 @@ fn one_move<M: Method>() -> Option<()> {
     Some(())
 }
 
+/// The same with a still move, planned here.
+#[inline(never)]
+fn one_still_move() -> Result<(), Error> {
+    let mut scene =
+        black_box(Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 }));
+    scene.payload.mass = 0.030;
+    let rod = Rod::<2>::new(&scene)?;
+    let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fast, rod.bend(10.0))?;
+    let mut arm = Generator::<_, 2>::new(stepper, 0.0)?;
+    let planner = Still::<f32, 2>::new(&scene, 0.010)?;
+    arm.push(&planner.plan(0.0, black_box(core::f64::consts::PI), 2.0)?.motion())?;
+    for _ in 0..=400 {
+        black_box(arm.tick());
+    }
+    Ok(())
+}
+
 /// `a == b`, for use in constants: the methods that were not chosen are not even generated.
 const fn same(a: &str, b: &str) -> bool {
     let (a, b) = (a.as_bytes(), b.as_bytes());
@@ -73,6 +93,9 @@ fn main() -> ! {
     // An unknown method leaves nothing.
     let mut chosen = Chosen(None);
     visit_all(&mut chosen);
+    if const { same("Still2", CHOSEN) } {
+        chosen.0 = one_still_move().ok();
+    }
     let stack = stack::deepest() as u32;
     let sent = io::stdout().and_then(|mut out| out.write_all(&stack.to_le_bytes()));
     process::exit(if chosen.0.is_some() && sent.is_ok() { 0 } else { 1 })

@@ -3,8 +3,10 @@
 mod compare;
 mod merge;
 mod pareto;
+mod plan;
 mod reference;
 mod run;
+mod still;
 mod study;
 mod sweep;
 mod tables;
@@ -33,6 +35,8 @@ enum Command {
     Study(study::StudyArgs),
     /// Run the core on a scene and write its setpoints
     Run(run::RunArgs),
+    /// Plan a move that arrives still, judge it and draw it
+    Plan(plan::PlanArgs),
     /// How far two runs of a scene are apart
     Compare(compare::CompareArgs),
     /// Solve a scene with a reference solver
@@ -48,6 +52,8 @@ enum Command {
     /// Talk to the firmware in QEMU or on a board, and compare all it sends with the host's own run
     #[cfg(feature = "talk")]
     Talk(talk::TalkArgs),
+    /// Fill the tables of docs/still.md and draw its picture, or check the tables
+    Still(still::StillArgs),
     /// List the embedded scenes
     Scenes,
 }
@@ -59,6 +65,7 @@ impl Cli {
             None => study::StudyArgs::default().execute(),
             Some(Command::Study(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
+            Some(Command::Plan(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Reference(args)) => args.execute(),
             Some(Command::Sweep(args)) => args.execute(),
@@ -67,6 +74,7 @@ impl Cli {
             Some(Command::Tables(args)) => args.execute(),
             #[cfg(feature = "talk")]
             Some(Command::Talk(args)) => args.execute(),
+            Some(Command::Still(args)) => args.execute(),
             Some(Command::Scenes) => {
                 for (name, about) in scenes::list() {
                     println!("{name:<20} {about}");

@@ -141,7 +141,7 @@ impl Table {
 }
 
 /// Markdown with columns of even width; the first to the left, numbers to the right.
-fn aligned(lines: &[Vec<String>]) -> String {
+pub(crate) fn aligned(lines: &[Vec<String>]) -> String {
     let columns = lines.first().map_or(0, Vec::len);
     let width = |c: usize| {
         lines.iter().filter_map(|line| line.get(c)).fold(0, |most, s| most.max(s.chars().count()))

@@ -1,5 +1,8 @@
 //! Runs every scene with every method, the same way on host and target.
 
+use stillbeam::beam::Rod;
+use stillbeam::motion::{Departure, Still};
+use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Error, Generator, Setpoint};
 
 use crate::methods::{Method, Visitor, visit_all};
@@ -36,6 +39,7 @@ where
 {
     let mut runner = Runner { sink, cases: 0, result: Ok(()) };
     visit_all(&mut runner);
+    runner.stills();
     runner.result.map(|()| runner.cases)
 }
 
@@ -73,5 +77,52 @@ fn one<M: Method>(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Resu
     for k in 0..=ticks {
         sink(k, &arm.tick());
     }
+    Ok(())
+}
+
+/// Arms whose moves are planned anew, still, and are changed half-way.
+const STILL_SCENES: [&str; 4] = ["d-fast", "a-tip30", "b-tip30-damped-hub", "s-gravity"];
+
+impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Runner<'_, F> {
+    /// Plans made where they run: every bit of them is in the setpoints.
+    fn stills(&mut self) {
+        for scene in SCENES.iter().filter(|run| STILL_SCENES.contains(&run.name)) {
+            let case = Case {
+                index: self.cases,
+                scene: scene.name,
+                method: "still",
+                size: 2,
+                quality: "",
+                skip: "",
+            };
+            self.cases += 1;
+            let result = one_still(scene, &mut |k, setpoint| (self.sink)(&case, k, setpoint));
+            self.result = self.result.and(result);
+        }
+    }
+}
+
+fn one_still(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Result<(), Error> {
+    let planner = Still::<f32, 2>::new(&run.scene, run.tick)?;
+    let rod = Rod::<2>::new(&run.scene)?;
+    let stepper = Elastica::<f32, 2>::new(&rod, run.tick, Quality::Fast, 0.5)?;
+    let mut arm = Generator::<_, QUEUE>::new(stepper, run.from)?;
+    let (there, back) = (run.from + 1.0, run.from + 0.2);
+    let duration = 1.5 * planner.first_period();
+    arm.push(&planner.plan(run.from, there, duration)?.motion())?;
+    let mut k = 0;
+    let mut tick = |arm: &mut Generator<_, QUEUE>, ticks: u32| {
+        for _ in 0..ticks {
+            sink(k, &arm.tick());
+            k += 1;
+        }
+    };
+    tick(&mut arm, 7);
+    let mut ahead = arm.clone();
+    ahead.tick();
+    let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
+    let plan = planner.plan_from(&Departure::of(ahead.hub()), Some(&flex), back, 2.0 * duration)?;
+    arm.redirect(0, &plan)?;
+    tick(&mut arm, plan.ticks + 10);
     Ok(())
 }

@@ -120,6 +120,7 @@ impl<T: Scalar> Braking<T> {
             rate_scale: tau / half,
             acceleration_scale: T::TWO * tau / (half * half),
             landing: T::ZERO,
+            entry: T::ZERO,
             shape: Shape::Quintic([c1, c2, c3, c4, T::ZERO]),
         };
         (segment, origin.plus(c1 + c2 + c3 + c4))
@@ -137,6 +138,7 @@ impl<T: Scalar> Segment<T> {
             rate_scale: T::ZERO,
             acceleration_scale: T::ZERO,
             landing: T::ZERO,
+            entry: T::ZERO,
             shape: Shape::Cruise { rate: T::ZERO, step: 0 },
         }
     }

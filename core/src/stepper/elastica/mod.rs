@@ -15,7 +15,10 @@
 //! straight link's: the tick rarely resolves that mode, and then a frequency that varies would
 //! make an explicit step unstable; what drives it, and how it bends, is complete to second order.
 
+mod flex;
 mod remainder;
+
+pub use flex::Flex;
 
 use remainder::{Remainder, Value};
 

@@ -85,6 +85,11 @@ pub fn solve_with(
     }
 }
 
+/// First natural period of the straight clamped arm, s.
+pub fn first_period(scene: &Scene) -> Result<f64, ReferenceError> {
+    Ok(std::f64::consts::TAU / Rod::<7>::new(&scene.validate()?).frequencies()[0])
+}
+
 /// Hub-frame Y of the tip, m, of the arm at rest under its own weight with the hub at `angle`: what
 /// a run's residual vibration is measured from, whatever model made the run. Error below 1e-9 L.
 pub fn rest_deflection(scene: &Scene, angle: Angle<f64>) -> Result<f64, ReferenceError> {

@@ -1,0 +1,65 @@
+//! What planning a still move costs: outside the tick, at any time. Set-up is the planner's.
+
+use core::fmt::Write;
+use core::hint::black_box;
+
+use stillbeam::motion::{Departure, Still, StillMove};
+use stillbeam::stepper::Flex;
+use stillbeam::{Angle, Damping, Error, Hub, Link, Payload, Scene};
+use stillbeam_firmware::counter::{Counter, Stopwatch};
+
+const TICK: f64 = 0.010;
+const TURN: f64 = core::f64::consts::PI;
+
+/// Member D bare, as in `d-fast`.
+const D: Scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
+
+/// Member A with 30 g, as in `a-tip30`.
+const A: Scene = Scene {
+    payload: Payload { mass: 0.03, inertia: 0.0 },
+    ..Scene::new(Link { length: 0.4, mass: 0.00952, bending_stiffness: 0.0213344 })
+};
+
+/// Member B with 30 g, damped, on a hub, as in `b-tip30-damped-hub`.
+const B: Scene = Scene {
+    link: Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 },
+    hub: Hub { radius: 0.04, inertia: 1e-4 },
+    damping: Damping { alpha: 0.15, beta: 0.002 },
+    ..A
+};
+
+type Planner = Still<f32, 2>;
+type Plan = fn(&Planner) -> Result<StillMove, Error>;
+
+/// What is planned: name, arm, spread of its frequency, plan.
+const PLANS: [(&str, &Scene, f64, Plan); 6] = [
+    ("d-fast", &D, 0.0, |planner| planner.plan(0.0, TURN, 0.2)),
+    ("a-tip30", &A, 0.0, |planner| planner.plan(0.0, TURN, 2.0)),
+    ("damped", &B, 0.0, |planner| planner.plan(0.0, TURN, 2.0)),
+    ("gravity", &Scene { gravity: 0.5, ..B }, 0.0, |planner| planner.plan(0.0, TURN, 2.0)),
+    ("redirected", &D, 0.0, |planner| {
+        // In the middle of a move, the arm bent and moving.
+        let from =
+            Departure { angle: Angle { turns: 0, part: 0.1 }, rate: 8.0, acceleration: 90.0 };
+        let flex = Flex { coordinate: [-0.003, 0.0], rate: [0.1, 0.0] };
+        planner.plan_from(&from, Some(&flex), 1.0, 0.2)
+    }),
+    ("robust", &A, 0.2, |planner| planner.plan(0.0, TURN, 2.26)),
+];
+
+/// Prints a line a plan, in the form of a tick's.
+pub fn print<C: Counter>(watch: &Stopwatch<C>, output: &mut impl Write) {
+    for (name, scene, spread, plan) in PLANS {
+        let (planner, setup) = watch.count(|| set_up(black_box(scene), black_box(spread)));
+        let planner = planner.expect("the bench's scenes are accepted");
+        let (found, count) = watch.count(|| plan(black_box(&planner)));
+        found.expect("the bench's moves are accepted");
+        writeln!(output, "tick,Still2,plan,2,{name},,{count},{count},{setup}")
+            .expect("the host takes the lines");
+    }
+}
+
+#[inline(never)]
+fn set_up(scene: &Scene, spread: f64) -> Result<Planner, Error> {
+    if spread == 0.0 { Still::new(scene, TICK) } else { Still::robust(scene, TICK, spread) }
+}

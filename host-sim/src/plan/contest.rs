@@ -1,0 +1,98 @@
+//! Still moves against other motions of the same duration.
+
+use rayon::prelude::*;
+use stillbeam::motion::{Shaper, ShaperKind, Still};
+use stillbeam::{Error as CoreError, Move, Profile, Scene};
+
+use super::judge::{Judgement, Motion};
+use crate::error::Error;
+use crate::reference::rod;
+
+/// Frequency errors of the table's columns.
+pub const ERRORS: [f64; 7] = [-0.2, -0.1, -0.05, 0.0, 0.05, 0.1, 0.2];
+
+/// Band that the robust entry is planned for.
+pub const SPREAD: f64 = 0.2;
+
+/// One motion and what it leaves.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// As it stands in the table.
+    pub name: String,
+    /// For each of [`ERRORS`].
+    pub judgements: Vec<Judgement>,
+}
+
+impl Entry {
+    /// Residual for each of [`ERRORS`], fraction of L.
+    pub fn residuals(&self) -> impl Iterator<Item = f64> + '_ {
+        self.judgements.iter().map(|judgement| judgement.residual)
+    }
+
+    /// The run with the frequency that was planned for.
+    pub fn nominal(&self) -> &Judgement {
+        &self.judgements[ERRORS.len() / 2]
+    }
+}
+
+/// Every motion from 0 to `to` rad in the same `duration` s, shapers included; those for which it
+/// is too short are left out.
+pub fn entries(
+    arm: &Scene,
+    to: f64,
+    duration: f64,
+    tick: f64,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Entry>, Error> {
+    let motions = motions(arm, to, duration, tick)?;
+    motions
+        .into_par_iter()
+        .map(|(name, motion)| {
+            let judged = |&error: &f64| motion.judge(arm, error);
+            let judgements = ERRORS.par_iter().map(judged).collect::<Result<_, _>>()?;
+            done();
+            Ok(Entry { name, judgements })
+        })
+        .collect()
+}
+
+/// The motions by name.
+pub(super) fn motions(
+    arm: &Scene,
+    to: f64,
+    duration: f64,
+    tick: f64,
+) -> Result<Vec<(String, Motion)>, Error> {
+    let period = rod::first_period(arm)?;
+    let omega = std::f64::consts::TAU / period;
+    let damping = 0.5 * (arm.damping.alpha / omega + arm.damping.beta * omega);
+    let mut all = Vec::new();
+    let profiles = [Profile::Cubic, Profile::Quintic, Profile::Cycloid, Profile::SCurve];
+    for profile in profiles {
+        let of = |duration| Motion::of(0.0, Move::To { profile, duration, to }, tick);
+        all.push((profile.name().to_owned(), of(duration)));
+        for kind in [ShaperKind::Zv, ShaperKind::Mzv, ShaperKind::Zvd, ShaperKind::Ei] {
+            let shaper = Shaper::new(kind, 1.0 / period, damping)?;
+            // Whole ticks for the base motion; the shaper takes what is left, or a little less.
+            let base = ((duration - shaper.delay()) / tick + 1e-9).floor() * tick;
+            if base >= LEAST_BASE * period {
+                let name = format!("{}, {}", profile.name(), kind.name().to_uppercase());
+                all.push((name, of(base).shaped(shaper)));
+            }
+        }
+    }
+    let still = Still::<f32, 2>::new(arm, tick)?.plan(0.0, to, duration);
+    let robust = Still::<f32, 2>::robust(arm, tick, SPREAD)?.plan(0.0, to, duration);
+    let robust_name = format!("still, robust to \u{b1}{:.0} %", 100.0 * SPREAD);
+    for (name, plan) in [("still".to_owned(), still), (robust_name, robust)] {
+        match plan {
+            Ok(plan) => all.push((name, Motion::of(0.0, plan.motion(), tick))),
+            Err(CoreError::NotStill { .. } | CoreError::TooShort { .. }) => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+    Ok(all)
+}
+
+/// Shortest base motion of a shaped one, first periods.
+const LEAST_BASE: f64 = 0.25;

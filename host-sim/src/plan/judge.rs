@@ -1,0 +1,101 @@
+//! What a motion really leaves behind: the reference rod, flown through it.
+
+use stillbeam::motion::Shaper;
+use stillbeam::{Limits, Move, Scene};
+
+use crate::error::Error;
+use crate::reference::Sample;
+use crate::reference::rod::{self, Options};
+use crate::trajectory::{Side, Trajectory};
+
+/// Polynomials and tolerance: a residual changes by less than 1e-6 of L with finer ones.
+const OPTIONS: Options = Options { order: 6, tolerance: 1e-8, integrator: None };
+
+/// Instants at which the rest is looked at, over a first period.
+const LOOKS: usize = 120;
+
+/// What a motion does to an arm.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// Largest deflection of the tip from where it rests, over a first period after the motion;
+    /// fraction of L.
+    pub residual: f64,
+    /// Largest deflection, fraction of L.
+    pub deflection: f64,
+    /// Largest hub torque, N m.
+    pub torque: f64,
+    /// Largest hub rate, rad/s.
+    pub rate: f64,
+    /// Largest hub acceleration, rad/s².
+    pub acceleration: f64,
+    /// Length of the motion with what a shaper adds, s.
+    pub duration: f64,
+    /// The run, the time after the motion included.
+    pub samples: Vec<Sample>,
+}
+
+/// A rest-to-rest motion to be judged.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Hub angle at the beginning, rad.
+    pub from: f64,
+    /// The moves.
+    pub moves: Vec<Move>,
+    /// What they pass.
+    pub shaper: Option<Shaper>,
+    /// h, s.
+    pub tick: f64,
+}
+
+impl Motion {
+    /// One move, unshaped.
+    pub fn of(from: f64, motion: Move, tick: f64) -> Self {
+        Self { from, moves: vec![motion], shaper: None, tick }
+    }
+
+    /// Through a shaper.
+    pub fn shaped(self, shaper: Shaper) -> Self {
+        Self { shaper: Some(shaper), ..self }
+    }
+
+    /// The motion with at least `rest` s after it.
+    fn trajectory(&self, rest: f64) -> Result<Trajectory, Error> {
+        let mut moves = self.moves.clone();
+        moves.push(Move::Dwell { duration: rest + self.tick });
+        let trajectory = Trajectory::plan(self.from, &moves, &Limits::default(), self.tick)?;
+        Ok(match &self.shaper {
+            Some(shaper) => trajectory.shaped(shaper.clone()),
+            None => trajectory,
+        })
+    }
+
+    /// Flies the arm through the motion, its frequencies off by the fraction `error`: the motion
+    /// was made for another.
+    pub fn judge(&self, arm: &Scene, error: f64) -> Result<Judgement, Error> {
+        let mut arm = *arm;
+        arm.link.bending_stiffness *= (1.0 + error) * (1.0 + error);
+        let period = rod::first_period(&arm)?;
+        let trajectory = self.trajectory(period)?;
+        let end = trajectory.arrivals().last().unwrap_or(0.0);
+        let during = (end / self.tick * 2.0).round().clamp(60.0, 2000.0);
+        let mut times: Vec<f64> = (0..during as usize).map(|k| end * k as f64 / during).collect();
+        let before = times.len();
+        times.extend((0..=LOOKS).map(|k| end + period * k as f64 / LOOKS as f64));
+        let samples = rod::solve(&arm, &trajectory, &times, &OPTIONS)?;
+        let rest = rod::rest_deflection(&arm, trajectory.at(end, Side::Right).angle)?;
+        let length = arm.link.length;
+        let most = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(of).fold(0.0, f64::max);
+        Ok(Judgement {
+            residual: samples[before..]
+                .iter()
+                .map(|sample| (sample.deflection - rest).abs() / length)
+                .fold(0.0, f64::max),
+            deflection: most(&|sample| sample.deflection.abs() / length),
+            torque: most(&|sample| sample.torque.abs()),
+            rate: most(&|sample| sample.rate.abs()),
+            acceleration: most(&|sample| sample.acceleration.abs()),
+            duration: end,
+            samples,
+        })
+    }
+}

@@ -1,0 +1,13 @@
+//! Still moves on the desk: planned, judged by the reference rod, drawn, and held against other
+//! motions.
+
+pub mod campaign;
+pub mod contest;
+pub mod document;
+pub mod duration;
+pub mod judge;
+pub mod page;
+pub mod request;
+
+pub use judge::Judgement;
+pub use request::{Planned, Request};

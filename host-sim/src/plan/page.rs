@@ -1,0 +1,89 @@
+//! A planned move as pictures and as a table.
+
+use std::path::{Path, PathBuf};
+
+use maud::html;
+
+use super::judge::Motion;
+use super::{Planned, Request};
+use crate::error::Error;
+use crate::output;
+use crate::plot::{Axis, Chart, Colour, Dash, Series};
+use crate::reference::Sample;
+use crate::report::parts::{figure, page};
+use crate::table;
+
+use stillbeam::{Move, Profile};
+
+/// Writes `index.html`, a picture a chart and `plan.csv` into a folder. Returns the page's path.
+pub fn write(
+    folder: &Path,
+    name: &str,
+    request: &Request,
+    planned: &Planned,
+) -> Result<PathBuf, Error> {
+    let charts = charts(request, planned)?;
+    let caption = html! {
+        "The commanded motion, what the tip of the reference rod does with it and after it, and what \
+         is left where the arm's frequency is not what the plan was made for. Dashed: a quintic of \
+         the same duration."
+    };
+    let named: Vec<Chart> = charts.iter().map(|(_, chart)| chart.clone()).collect();
+    let body = html! {
+        header { h1 { "A move that arrives still" } p.lead { (name) } }
+        (figure(&named, &caption, "plan.csv")?)
+    };
+    for (file, chart) in &charts {
+        let svg = chart.svg()?;
+        let path = folder.join(file).with_extension("svg");
+        output::write_whole(&path, |file| file.write_all(svg.as_bytes()))?;
+    }
+    let rows: Vec<Vec<f64>> = planned
+        .judgement
+        .samples
+        .iter()
+        .map(|s| vec![s.t, s.angle, s.rate, s.acceleration, s.deflection, s.torque])
+        .collect();
+    let header =
+        ["t_s", "hub_angle_rad", "hub_rate_rad_s", "hub_accel_rad_s2", "deflection_m", "torque_nm"];
+    table::write_columns(&folder.join("plan.csv"), &header, &rows)?;
+    let path = folder.join("index.html");
+    let text = page(name, &body);
+    output::write_whole(&path, |file| file.write_all(text.as_bytes()))?;
+    Ok(path)
+}
+
+/// Motion, acceleration, deflection and sensitivity, each with the name of its file.
+fn charts(request: &Request, planned: &Planned) -> Result<Vec<(&'static str, Chart)>, Error> {
+    let duration = planned.plan.duration();
+    let quintic = Motion::of(
+        request.from,
+        Move::To { profile: Profile::Quintic, duration, to: request.to },
+        request.tick,
+    );
+    let other = quintic.judge(&request.arm, 0.0)?;
+    let length = request.arm.link.length;
+    let line = |label: &str, samples: &[Sample], of: &dyn Fn(&Sample) -> f64| {
+        Series::line(label, samples.iter().map(|s| (s.t, of(s))).collect::<Vec<_>>())
+    };
+    let pair = |title: &str, unit: &str, of: &dyn Fn(&Sample) -> f64| {
+        Chart::new(title, Axis::tight("time, s"), Axis::linear(unit))
+            .with(line("quintic", &other.samples, of).colour(Colour::Grey).dash(Dash::Dashed))
+            .with(line("still", &planned.judgement.samples, of).colour(Colour::Blue))
+            .mark(duration, "arrival")
+    };
+    let curve: Vec<_> =
+        planned.sensitivity.iter().map(|&(error, left)| (100.0 * error, 100.0 * left)).collect();
+    let sensitivity = Chart::new(
+        "Sensitivity",
+        Axis::tight("error of the arm's frequency, %"),
+        Axis::linear("residual, % of L"),
+    )
+    .with(Series::line("still", curve).colour(Colour::Blue));
+    Ok(vec![
+        ("angle", pair("Hub angle", "rad", &|s| s.angle)),
+        ("acceleration", pair("Hub acceleration", "rad/s\u{b2}", &|s| s.acceleration)),
+        ("deflection", pair("Tip deflection", "% of L", &|s| 100.0 * s.deflection / length)),
+        ("sensitivity", sensitivity),
+    ])
+}

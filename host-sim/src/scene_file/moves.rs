@@ -1,0 +1,132 @@
+//! The moves of a scene file.
+
+use serde::Deserialize;
+use stillbeam::motion::Still;
+use stillbeam::{Limits, Move, Profile, Scene};
+
+use super::Step;
+use crate::error::Error;
+
+/// A `[move]` table.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MoveTable {
+    profile: String,
+    duration: Option<f64>,
+    pub(super) from: Option<f64>,
+    to: Option<f64>,
+    rate: Option<f64>,
+    robust: Option<f64>,
+    #[serde(default)]
+    settle: f64,
+}
+
+/// What a still move is planned with.
+pub(super) struct Planning<'a> {
+    pub arm: &'a Scene,
+    pub limits: &'a Limits,
+    /// s.
+    pub tick: f64,
+}
+
+impl Planning<'_> {
+    /// A move after which the arm is at rest; without a duration the shortest within the limits.
+    fn still(
+        &self,
+        from: f64,
+        to: f64,
+        duration: Option<f64>,
+        robust: Option<f64>,
+    ) -> Result<Move, Error> {
+        // As on the target, where plans are made in f32.
+        let planner = match robust {
+            Some(spread) => Still::<f32, 2>::robust(self.arm, self.tick, spread)?,
+            None => Still::<f32, 2>::new(self.arm, self.tick)?,
+        };
+        Ok(match duration {
+            Some(duration) => planner.plan(from, to, duration)?.motion(),
+            None => planner.shortest(from, to, self.limits)?.0.motion(),
+        })
+    }
+}
+
+impl MoveTable {
+    /// `at` is the angle where the move before it ends, none behind a turning hub.
+    pub(super) fn build(
+        &self,
+        index: usize,
+        at: &mut Option<f64>,
+        planning: &Planning<'_>,
+    ) -> Result<Step, Error> {
+        if let (Some(from), true) = (self.from, index > 0)
+            && *at != Some(from)
+        {
+            let accepted = at.map_or("no from, behind a turning hub".to_owned(), |angle| {
+                format!("{angle}, where the move before ends, or no from")
+            });
+            return Err(Error::new(format_args!("from = {from}: accepted is {accepted}")));
+        }
+        if !(0.0..=1e6).contains(&self.settle) {
+            return Err(Error::new(format_args!(
+                "move.settle = {}: accepted is 0 to 1000000 s",
+                self.settle
+            )));
+        }
+        let refuse = |key: &str, value: Option<f64>| match value {
+            Some(value) => Err(Error::new(format_args!(
+                "move.{key} = {value}: accepted is none with profile \"{}\"",
+                self.profile
+            ))),
+            None => Ok(()),
+        };
+        let need = |key: &str, unit: &str, value: Option<f64>| {
+            value.ok_or_else(|| {
+                Error::new(format_args!(
+                    "move.{key}: missing; accepted is a number in {unit} with profile \"{}\"",
+                    self.profile
+                ))
+            })
+        };
+        if self.profile == "still" {
+            refuse("rate", self.rate)?;
+            let to = need("to", "rad", self.to)?;
+            let from = at.replace(to);
+            let from = from.ok_or_else(|| {
+                Error::new(
+                    "move.profile = \"still\" behind a turning hub; accepted is a spin-up to rate = \
+                     0 and a move to an angle before it",
+                )
+            })?;
+            let motion = planning.still(from, to, self.duration, self.robust)?;
+            return Ok(Step { motion, settle: self.settle });
+        }
+        refuse("robust", self.robust)?;
+        let duration = need("duration", "s", self.duration)?;
+        let motion = match self.profile.as_str() {
+            "spin-up" => {
+                refuse("to", self.to)?;
+                let rate = need("rate", "rad/s", self.rate)?;
+                *at = None;
+                Move::SpinUp { duration, rate }
+            }
+            "dwell" => {
+                refuse("to", self.to)?;
+                refuse("rate", self.rate)?;
+                Move::Dwell { duration }
+            }
+            name => {
+                let profile = Profile::named(name).ok_or_else(|| {
+                    let known = Profile::ALL.map(Profile::name).join(", ");
+                    Error::new(format_args!(
+                        "move.profile = \"{name}\": accepted is {known}, still, spin-up, dwell"
+                    ))
+                })?;
+                refuse("rate", self.rate)?;
+                let to = need("to", "rad", self.to)?;
+                *at = Some(to);
+                Move::To { profile, duration, to }
+            }
+        };
+        Ok(Step { motion, settle: self.settle })
+    }
+}

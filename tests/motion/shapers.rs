@@ -1,0 +1,94 @@
+//! Input shapers: their tables, and what a shaped motion leaves.
+
+use std::f64::consts::TAU;
+
+use stillbeam::motion::{Limits, Plan, Pulse, Segment, Shaped, Shaper, ShaperKind, Start};
+use stillbeam::{Move, Profile};
+
+/// Vibration that a table leaves of an oscillator's, of that of one pulse.
+fn vibration(shaper: &Shaper, frequency: f64, damping: f64) -> f64 {
+    let omega = TAU * frequency;
+    let damped = omega * (1.0 - damping * damping).sqrt();
+    let (mut sin, mut cos) = (0.0, 0.0);
+    for Pulse { amplitude, delay } in shaper.pulses() {
+        let grown = amplitude * (damping * omega * delay).exp();
+        sin += grown * (damped * delay).sin();
+        cos += grown * (damped * delay).cos();
+    }
+    (-damping * omega * shaper.delay()).exp() * f64::hypot(sin, cos)
+}
+
+#[test]
+fn tables_leave_what_their_names_say() {
+    for frequency in [0.1, 1.3, 47.0] {
+        for damping in [0.0, 0.05] {
+            for kind in ShaperKind::ALL {
+                let shaper = Shaper::new(kind, frequency, damping).expect("a table");
+                let sum: f64 = shaper.pulses().iter().map(|pulse| pulse.amplitude).sum();
+                assert!((sum - 1.0).abs() < 1e-12);
+                let at = |error: f64| vibration(&shaper, frequency * (1.0 + error), damping);
+                let (nominal, aside) = (at(0.0), at(0.05));
+                match kind {
+                    ShaperKind::Zv | ShaperKind::Mzv => {
+                        assert!(
+                            nominal < 1e-9 || kind == ShaperKind::Mzv && nominal < 0.01,
+                            "{nominal}"
+                        );
+                        assert!(aside > 0.02);
+                    }
+                    ShaperKind::Zvd => assert!(nominal < 1e-9 && aside < 0.01, "{nominal} {aside}"),
+                    ShaperKind::Ei => assert!((nominal - 0.05).abs() < 0.01 && aside < 0.05),
+                    ShaperKind::TwoHumpEi => {
+                        assert!(nominal < 0.06 && at(0.15) < 0.06, "{nominal}")
+                    }
+                }
+                let period = 1.0 / (frequency * (1.0 - damping * damping).sqrt());
+                assert!((shaper.delay() - kind.periods() * period).abs() < 1e-9 * period);
+            }
+        }
+    }
+}
+
+#[test]
+fn tables_that_make_no_sense_are_refused() {
+    let pulse = |amplitude, delay| Pulse { amplitude, delay };
+    assert!(Shaper::custom(&[]).is_err());
+    assert!(Shaper::custom(&[pulse(1.0, 0.1), pulse(1.0, 0.0)]).is_err());
+    assert!(Shaper::custom(&[pulse(1.0, 0.0), pulse(-1.0, 0.1)]).is_err());
+    assert!(Shaper::custom(&[pulse(1.0, 0.0); 6]).is_err());
+    assert!(Shaper::custom(&[pulse(f64::NAN, 0.0)]).is_err());
+    assert!(Shaper::new(ShaperKind::Zv, 0.001, 0.0).is_err());
+    let one = Shaper::custom(&[pulse(3.0, 0.0), pulse(1.0, 0.3)]).expect("a table");
+    assert_eq!(one.pulses()[0].amplitude, 0.75);
+}
+
+/// Seven segments, delays that are no whole ticks: at every tick what the sum of the delayed
+/// motions is, in f32 too.
+#[test]
+fn a_shaped_motion_is_the_sum_of_its_delayed_copies() {
+    let motion = Move::To { profile: Profile::SCurve, duration: 0.83, to: -7.0 };
+    let plan = Plan::new(&motion, Start::at_rest(2.0).unwrap(), &Limits::default(), 0.01).unwrap();
+    let shaper = Shaper::new(ShaperKind::Ei, 1.237, 0.02).expect("a table");
+    let single: Vec<Segment<f32>> = plan.segments.iter().map(Segment::cast).collect();
+    let (exact, single) =
+        (Shaped::new(&plan.segments, &shaper, 0.01), Shaped::new(&single, &shaper, 0.01));
+    assert_eq!(exact.ticks(), 83 + (shaper.delay() / 0.01).ceil() as u32);
+    let end = exact.ticks();
+    assert_eq!(exact.hub(0).angle.radians(), 2.0);
+    assert!((exact.hub(end).angle.radians() + 7.0).abs() < 1e-12);
+    assert_eq!((exact.hub(end).rate, exact.hub(end).acceleration), (0.0, 0.0));
+    let (mut rate, mut turned) = (0.0, 0.0);
+    for k in 0..end {
+        let (here, next) = (exact.hub(k), exact.hub(k + 1));
+        // The angle is the integral of the rate.
+        let step = next.angle.radians() - here.angle.radians();
+        assert!((step - 0.005 * (here.rate + next.rate)).abs() < 2e-3, "{k}");
+        rate = f64::max(rate, here.rate.abs());
+        turned += step;
+        let coarse = single.hub(k);
+        assert!((coarse.angle.radians() - here.angle.radians()).abs() < 5e-6, "{k}");
+        assert!((f64::from(coarse.rate) - here.rate).abs() < 1e-4, "{k}");
+    }
+    assert!((turned + 9.0).abs() < 1e-9);
+    assert!(rate < 1.75 * 9.0 / 0.83);
+}
