@@ -185,7 +185,9 @@ impl Case {
         let duration = self.period * rng.random_range(1.5..4.0);
         let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
         let peaks = profile.peaks(to, duration);
-        let bend = self.rod.bend(2.0 * peaks.acceleration).clamp(0.05, 1.5);
+        // For what the redirected move may need, see the limits below.
+        let most = peaks.acceleration.max(0.5 / (self.period * self.period));
+        let bend = self.rod.bend(1.5 * most).clamp(0.05, 1.5);
         let stepper = Elastica::<f32, 2>::new(&self.rod, self.tick, Quality::Fine, bend)?;
         let mut generator = Generator::<_, 8>::new(stepper, 0.0)?;
         // A first move that the stepper itself refuses is nothing to interrupt.
@@ -222,7 +224,9 @@ impl Case {
             Err(error) => return Ok(Interruption { outcome: Err(kind(&error)) }),
             Ok(found) => found,
         };
-        generator.redirect(2, &plan)?;
+        if let Err(error) = generator.redirect(2, &plan) {
+            return Ok(Interruption { outcome: Err(kind(&error)) });
+        }
         let mut excess = f64::NEG_INFINITY;
         for _ in 0..plan.ticks + 3 {
             generator.tick();

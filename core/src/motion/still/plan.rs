@@ -138,7 +138,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         }
         // Odd about the middle and reversible in time: at rest at the end if straight in the middle.
         let resting = from.rate == 0.0 && from.acceleration == 0.0 && flex.is_none();
-        let half = resting && steps % 2 == 0 && self.is_reversible();
+        let half = resting && steps.is_multiple_of(2) && self.is_reversible();
         let mut linear = Linear::new();
         for (n, arm) in arms.iter().enumerate() {
             let still = begin[n];

@@ -46,8 +46,8 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let (mut torque, mut moment, mut bend) = (T::ZERO, T::ZERO, T::ZERO);
         let raise = |most: &mut T, value: T| {
             let value = if value < T::ZERO { -value } else { value };
-            // Also where it is not a number.
-            if !(value <= *most) {
+            // A value that is no number stays: whoever compares it then refuses.
+            if value > *most || !value.is_finite() {
                 *most = value;
             }
         };
