@@ -178,6 +178,32 @@ fn moves_shorter_than_their_segments_still_arrive() {
     }
 }
 
+/// The moment of a border inside a tick, from angles and rates: `m = (Δθ − hθ̇₀)/h²`, of the parabola
+/// `ū/2 + (u₀ − u₁)/12`. In short moves whole segments lie inside a tick.
+#[test]
+fn borders_inside_a_tick_have_their_moment() {
+    let tick = 0.01;
+    let mut inside = 0;
+    for profile in [Profile::Trapezoid, Profile::SCurve] {
+        for ticks in (2..30).chain([100, 1001]) {
+            let plan = plan(profile, f64::from(ticks) * tick, 2e-3 * f64::from(ticks), tick);
+            let peak = plan.outline.peaks.acceleration;
+            assert_eq!(plan.segments[0].entry(), 0.0);
+            for (before, segment) in plan.segments.iter().zip(&plan.segments[1..]) {
+                let from = before.hub_at(f64::from(before.count()) - 1.0);
+                let to = segment.hub_at(0.0);
+                let turned = to.angle.radians() - from.angle.radians();
+                let moment = (turned / tick - from.rate) / tick;
+                let mean = (to.rate - from.rate) / tick;
+                let parabola = 0.5 * mean + (from.acceleration - before.landing()) / 12.0;
+                assert_near(profile.name(), segment.entry(), moment - parabola, 1e-9 * peak);
+                inside += u32::from(segment.entry().abs() > 1e-3 * peak);
+            }
+        }
+    }
+    assert!(inside > 50, "{inside}");
+}
+
 #[test]
 fn limits_refuse_with_the_limit_by_name() {
     let refuse = |limits: Limits, profile| {

@@ -164,8 +164,8 @@ impl<T: Scalar> Segment<T> {
         self.count
     }
 
-    /// θ̈ at the segment's end, from the left.
-    pub(crate) fn landing(&self) -> T {
+    /// θ̈ at the segment's end, from the left, rad/s².
+    pub fn landing(&self) -> T {
         self.landing
     }
 
@@ -178,8 +178,10 @@ impl<T: Scalar> Segment<T> {
         self
     }
 
-    /// The moment of the border within the tick before, rad/s².
-    pub(crate) fn entry(&self) -> T {
+    /// The moment of the border within the tick before, rad/s²: by how much `∫₀¹(1 − s)θ̈ ds` over
+    /// that tick exceeds that of the parabola with its mean and its ends, the later one the left-hand
+    /// value at the border. Zero where the border is a tick.
+    pub fn entry(&self) -> T {
         self.entry
     }
 
