@@ -93,6 +93,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// [`Elastica::state_of`](crate::stepper::Elastica::state_of).
     pub fn set_state(&mut self, state: S::State) {
         self.state = state;
+        self.asleep = false;
     }
 
     fn place(&self, lead: u32) -> Place {
