@@ -45,6 +45,20 @@ pub enum Error {
         /// Rate at which the queue ends, rad/s.
         rate: f64,
     },
+    /// The move would bend the link further than the stepper was set up for.
+    BendsTooFar {
+        /// Tip angle to expect relative to the hub, rad.
+        bend: f64,
+        /// Tip angle that the stepper was set up for, rad.
+        max: f64,
+    },
+    /// No stepper is as good as asked for.
+    Tolerance {
+        /// What was asked for, fraction of L.
+        tolerance: f64,
+        /// The error to expect of the best, fraction of L.
+        best: f64,
+    },
     /// The queue has not enough free segments for the move.
     QueueFull {
         /// Segments that the move takes.
@@ -104,6 +118,16 @@ impl fmt::Display for Error {
                 f,
                 "move.profile: the hub turns at {rate} rad/s when this rest-to-rest move begins; \
                  accepted is a spin-up to rate = 0 before it"
+            ),
+            Self::BendsTooFar { bend, max } => write!(
+                f,
+                "move.duration: the tip is expected to turn {bend:.3} rad against the hub; accepted \
+                 is up to {max:.3} rad, by a longer move, a stiffer link or a stepper set up for more"
+            ),
+            Self::Tolerance { tolerance, best } => write!(
+                f,
+                "solver.tolerance = {tolerance}: accepted is {best:.6} and more for this move at \
+                 this tick; a longer move or a shorter tick takes less"
             ),
             Self::QueueFull { needed, free } => write!(
                 f,

@@ -60,6 +60,8 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
     /// Ticks since the current segment's first; wraps to 0 at the very first tick.
     k: u32,
     holding: bool,
+    /// The hub is at rest and the arm with it: see [`Stepper::is_settled`].
+    asleep: bool,
     hub: Hub<S::Scalar>,
     /// θ̈ just before now.
     landing: S::Scalar,
@@ -99,6 +101,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             end,
             limits: Limits::default(),
             holding: true,
+            asleep: false,
         })
     }
 
@@ -120,11 +123,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             // A full queue gives it back; told below.
             let _ = self.queue.push_back(segment.cast());
         })?;
-        if needed > free {
-            for _ in 0..free {
+        let fits = if needed > free { Err(Error::QueueFull { needed, free }) } else { Ok(()) };
+        if let Err(error) = fits.and(self.stepper.admit(&outline.peaks)) {
+            for _ in 0..needed.min(free) {
                 self.queue.pop_back();
             }
-            return Err(Error::QueueFull { needed, free });
+            return Err(error);
         }
         if self.holding {
             self.current = self.current.cut(self.next_k());
@@ -139,9 +143,16 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn tick(&mut self) -> Setpoint<S::Scalar> {
         let before = self.hub;
         self.k = self.next_k();
+        let mut at_rest = false;
         if self.k >= self.current.count() {
             self.turn_over();
-        } else if !(self.holding && before.rate == S::Scalar::ZERO) {
+        } else if self.holding && before.rate == S::Scalar::ZERO {
+            if self.asleep {
+                return self.setpoint();
+            }
+            self.landing = S::Scalar::ZERO;
+            at_rest = true;
+        } else {
             self.current.drive(&mut self.hub, self.k);
             self.landing = self.hub.acceleration;
             if self.stepper.is_directed() {
@@ -151,6 +162,9 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         // The first tick too: the arm was at rest before it, and stays so.
         let arrival = Hub { acceleration: self.landing, ..self.hub };
         self.stepper.step(&mut self.state, &before, &arrival);
+        if at_rest {
+            self.asleep = self.stepper.is_settled(&self.state);
+        }
         self.setpoint()
     }
 
@@ -208,6 +222,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// which then need not save the registers that it takes to move a segment.
     #[inline(never)]
     fn turn_over(&mut self) {
+        self.asleep = false;
         self.landing = self.current.landing();
         match self.queue.pop_front() {
             Some(segment) => {
@@ -225,6 +240,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if self.stepper.is_directed() {
             (self.hub.sin, self.hub.cos) = self.hub.angle.sin_cos();
         }
+        self.stepper.shift(&mut self.state, self.current.entry());
     }
 
     /// A hold that has run out (after 497 days at 10 ms) goes on from where it is.

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use stillbeam::beam::{Model, Modes, Rod};
-use stillbeam::stepper::{self, Elastica, Modal, Newmark, Rigid, Stepper};
+use stillbeam::stepper::{self, Auto, Choice, Elastica, Modal, Newmark, Rigid, Stepper};
 use stillbeam::{Scalar as Real, Scene};
 
 use crate::error::Error;
@@ -98,7 +98,9 @@ fn with_stepper_in<T: Real, V: StepperVisitor>(
             with_model(&scene.arm, solver.elements, solver.mass, modal)
         }
         Method::Elastica if solver.modes == 1 => visitor.visit(elastica::<T, 1>(scene, solver)?),
-        Method::Elastica => visitor.visit(elastica::<T, 2>(scene, solver)?),
+        Method::Elastica if solver.modes == 2 => visitor.visit(elastica::<T, 2>(scene, solver)?),
+        Method::Elastica => visitor.visit(elastica::<T, 3>(scene, solver)?),
+        Method::Auto => visitor.visit(auto::<T>(scene, solver)?.0),
     }
 }
 
@@ -150,6 +152,12 @@ fn modal<T: Real, const K: usize, const N: usize, const W: usize>(
 ) -> Result<Modal<T, K>, Error> {
     let stepper = Modal::new(model, solver.tick)?;
     Ok(if solver.spin { stepper } else { stepper.without_spin() })
+}
+
+/// The cheapest stepper that is good enough, and what to expect of it.
+pub fn auto<T: Real>(scene: &SceneFile, solver: &Solver) -> Result<(Auto<T>, Choice), Error> {
+    let moves = scene.motions();
+    Ok(Auto::choose(&scene.arm, solver.tick, scene.from, &moves, solver.tolerance)?)
 }
 
 /// Fitted for the bend that the scene's own accelerations let expect.

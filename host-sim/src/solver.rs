@@ -15,8 +15,10 @@ pub enum Method {
     Newmark,
     /// Small deflections in a few modes, each advanced exactly.
     Modal,
-    /// Exact kinematics in one or two modes.
+    /// Exact kinematics in up to three modes.
     Elastica,
+    /// The cheapest of rigid, modal and elastica that is good enough for the scene's moves.
+    Auto,
 }
 
 /// How much work a tick of elastica does.
@@ -63,12 +65,15 @@ pub struct SolverKeys {
     /// Mass matrix; newmark and modal [default: consistent]
     #[arg(long, value_enum)]
     pub mass: Option<Mass>,
-    /// Modes: 1 to 3 for modal, 1 or 2 for elastica [default: 2]
+    /// Modes: 1 to 3; modal and elastica [default: 2]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub modes: Option<i64>,
     /// Work a tick; elastica [default: fine]
     #[arg(long, value_enum)]
     pub quality: Option<Quality>,
+    /// Error of the tip that auto may make, fraction of the length [default: 0.001]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub tolerance: Option<f64>,
     /// Setpoint interval in s [default: 0.01]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub tick: Option<f64>,
@@ -93,6 +98,8 @@ pub struct Solver {
     pub modes: usize,
     /// Work a tick of elastica.
     pub quality: Quality,
+    /// Error of the tip that auto may make, fraction of L.
+    pub tolerance: f64,
     /// h, s.
     pub tick: f64,
     /// Precision of the tick.
@@ -109,6 +116,7 @@ impl Method {
             Self::Newmark => "newmark",
             Self::Modal => "modal",
             Self::Elastica => "elastica",
+            Self::Auto => "auto",
         }
     }
 
@@ -156,6 +164,7 @@ impl Default for Solver {
             mass: Mass::Consistent,
             modes: 2,
             quality: Quality::Fine,
+            tolerance: 1e-3,
             tick: 0.01,
             scalar: Scalar::F32,
             spin: true,
@@ -171,6 +180,7 @@ impl From<Solver> for SolverKeys {
             mass: Some(solver.mass),
             modes: Some(solver.modes as i64),
             quality: Some(solver.quality),
+            tolerance: Some(solver.tolerance),
             tick: Some(solver.tick),
             scalar: Some(solver.scalar),
             spin: Some(solver.spin),
@@ -180,8 +190,8 @@ impl From<Solver> for SolverKeys {
 
 impl SolverKeys {
     /// Names of the keys, in the order of the fields; a sweep's columns.
-    pub const NAMES: [&'static str; 8] =
-        ["method", "elements", "mass", "modes", "quality", "tick_s", "scalar", "spin"];
+    pub const NAMES: [&'static str; 9] =
+        ["method", "elements", "mass", "modes", "quality", "tolerance", "tick_s", "scalar", "spin"];
 
     /// Every key that the method reads, absent ones at their defaults; none that it does not, so
     /// that equal solvers have equal keys.
@@ -189,9 +199,10 @@ impl SolverKeys {
         let method = self.method.unwrap_or(Solver::default().method);
         let default = Solver { elements: method.elements(), ..Solver::default() };
         let keys = self.or(default.into());
+        let keys = if method == Method::Auto { keys } else { Self { tolerance: None, ..keys } };
         let meshless = Self { elements: None, mass: None, spin: None, ..keys };
         match method {
-            Method::Rigid => Self { modes: None, quality: None, ..meshless },
+            Method::Rigid | Method::Auto => Self { modes: None, quality: None, ..meshless },
             Method::Newmark => Self { modes: None, quality: None, ..keys },
             Method::Modal => Self { quality: None, ..keys },
             Method::Elastica => meshless,
@@ -206,6 +217,7 @@ impl SolverKeys {
             mass: self.mass.or(other.mass),
             modes: self.modes.or(other.modes),
             quality: self.quality.or(other.quality),
+            tolerance: self.tolerance.or(other.tolerance),
             tick: self.tick.or(other.tick),
             scalar: self.scalar.or(other.scalar),
             spin: self.spin.or(other.spin),
@@ -225,15 +237,11 @@ impl SolverKeys {
                 )));
             }
         };
-        let most = if method == Method::Elastica { 2 } else { 3 };
         let modes = match self.modes {
             None => default.modes,
-            Some(n) if (1..=most).contains(&n) => n as usize,
+            Some(n @ 1..=3) => n as usize,
             Some(n) => {
-                return Err(Error::new(format_args!(
-                    "solver.modes = {n}: accepted is 1 to {most} with method {}",
-                    method.name()
-                )));
+                return Err(Error::new(format_args!("solver.modes = {n}: accepted is 1 to 3")));
             }
         };
         let tick = self.tick.unwrap_or(default.tick);
@@ -242,12 +250,19 @@ impl SolverKeys {
                 "solver.tick = {tick}: accepted is 0.000001 to 1 s"
             )));
         }
+        let tolerance = self.tolerance.unwrap_or(default.tolerance);
+        if !(1e-6..=1.0).contains(&tolerance) {
+            return Err(Error::new(format_args!(
+                "solver.tolerance = {tolerance}: accepted is 0.000001 to 1, a fraction of the length"
+            )));
+        }
         Ok(Solver {
             method,
             elements,
             mass: self.mass.unwrap_or(default.mass),
             modes,
             quality: self.quality.unwrap_or(default.quality),
+            tolerance,
             tick,
             scalar: self.scalar.unwrap_or(default.scalar),
             spin: self.spin.unwrap_or(default.spin),
@@ -270,6 +285,9 @@ impl Solver {
             Method::Modal => format!("{method}, {modes} of {elements}, {tick} ms, {scalar}{spin}"),
             Method::Elastica => {
                 format!("{method}, {modes}, {}, {tick} ms, {scalar}", self.quality.name())
+            }
+            Method::Auto => {
+                format!("{method}, within {} of L, {tick} ms, {scalar}", self.tolerance)
             }
         }
     }

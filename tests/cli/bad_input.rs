@@ -163,7 +163,7 @@ fn words_on_the_command_line() {
         &["--method", "modal", "--modes", "3"],
         &["solver.modes = 3", "accepted is up to 2", "elements = 1"],
     );
-    refused(GOOD, &["--modes", "0", "--method", "elastica"], &["solver.modes = 0", "1 to 2"]);
+    refused(GOOD, &["--modes", "0", "--method", "elastica"], &["solver.modes = 0", "1 to 3"]);
     refused(GOOD, &["--quality", "best"], &["best", "fine"]);
     refused(GOOD, &["--frobnicate"], &["--frobnicate"]);
 }

@@ -1,5 +1,5 @@
-use stillbeam::beam::OneElement;
-use stillbeam::stepper::{Newmark, Rigid};
+use stillbeam::beam::{EightElements, OneElement, Rod};
+use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
 use stillbeam_tests::assert_near;
 
@@ -142,4 +142,41 @@ fn the_rigid_arm_needs_the_textbook_torque() {
         assert_near("tip", s.tip[0].hypot(s.tip[1]), 1.5, 1e-12);
         assert_near("deflection", s.deflection(), 0.0, 0.0);
     }
+}
+
+/// A hub that holds because nothing was asked for and one that dwells by order are the same.
+#[test]
+fn a_hold_is_a_dwell() {
+    let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
+    let model = EightElements::consistent(&scene).expect("model");
+    let stepper = Modal::<f32, 2>::new(&model, 0.01).expect("stepper");
+    let motion = Move::To { profile: Profile::Cubic, duration: 0.2, to: 2.0 };
+    let mut holds = Generator::<_, 4>::new(stepper, 0.0).expect("generator");
+    holds.push(&motion).expect("move");
+    let mut dwells = holds.clone();
+    dwells.push(&Move::Dwell { duration: 1.0 }).expect("dwell");
+    for k in 0..120 {
+        assert_eq!(holds.tick(), dwells.tick(), "tick {k}");
+    }
+}
+
+/// An arm that has come to rest sleeps, and wakes with the tick of the next move.
+#[test]
+fn an_arm_at_rest_sleeps_and_wakes() {
+    let mut scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
+    scene.damping.beta = 2e-3;
+    let rod = Rod::<2>::new(&scene).expect("rod");
+    let stepper = Elastica::<f32, 2>::new(&rod, 0.01, Quality::Fine, 0.5).expect("stepper");
+    let motion = |to| Move::To { profile: Profile::Quintic, duration: 0.3, to };
+    let mut arm = Generator::<_, 4>::new(stepper, 0.0).expect("generator");
+    arm.push(&motion(1.0)).expect("move");
+    let setpoints: Vec<_> = (0..500).map(|_| arm.tick()).collect();
+    let asleep = setpoints.windows(2).position(|pair| pair[0] == pair[1]).expect("sleeps");
+    assert!(asleep > 31, "asleep in the move's tick {asleep}");
+    assert!(setpoints[asleep..].iter().all(|setpoint| *setpoint == setpoints[asleep]));
+    assert!(setpoints[asleep].deflection().abs() < 2e-6 * 0.4);
+    arm.push(&motion(0.0)).expect("move");
+    let (first, second) = (arm.tick(), arm.tick());
+    assert!((first.tip[1] - setpoints[499].tip[1]).abs() < 2e-6 * 0.4, "no jump on waking");
+    assert!(second.angle != first.angle && second.tip != first.tip, "awake");
 }

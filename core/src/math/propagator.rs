@@ -8,26 +8,30 @@ const TERMS: u32 = 16;
 
 const IDENTITY: Matrix2 = [[1.0, 0.0], [0.0, 1.0]];
 
-/// `φ₀(Z) … φ₃(Z)` with `φ₀ = exp Z`, `φ_{k+1} = (φₖ − 1/k!) Z⁻¹`.
+/// `φ₀(Z) … φ₄(Z)` with `φ₀ = exp Z`, `φ_{k+1} = (φₖ − 1/k!) Z⁻¹`.
 ///
 /// Taylor series of `Z/2ᵐ` with norm below ½, then `m` doublings,
 /// `φₖ(2Z) = 2⁻ᵏ [φ₀φₖ + Σⱼ₌₁ᵏ φⱼ/(k−j)!]`: no cancellation for small `Z`, no inverse.
 /// Error: relative 1e-14 up to a norm of 100. Source: Higham, Functions of Matrices, 10.7.4.
-pub(crate) fn phi_functions(z: &Matrix2) -> [Matrix2; 4] {
+pub(crate) fn phi_functions(z: &Matrix2) -> [Matrix2; 5] {
     let mut norm = z.iter().map(|row| row[0].abs() + row[1].abs()).fold(0.0, f64::max);
     let (mut doublings, mut scale) = (0, 1.0);
     while norm > 0.5 {
         (norm, scale, doublings) = (0.5 * norm, 0.5 * scale, doublings + 1);
     }
     let z = scaled(scale, z);
-    let mut phi = [0, 1, 2, 3].map(|k| series(&z, k));
+    let mut phi = [0, 1, 2, 3, 4].map(|k| series(&z, k));
     for _ in 0..doublings {
-        let [p0, p1, p2, p3] = phi;
+        let [p0, p1, p2, p3, p4] = phi;
         phi = [
             product(&p0, &p0),
             scaled(0.5, &sum(&[product(&p0, &p1), p1])),
             scaled(0.25, &sum(&[product(&p0, &p2), p2, p1])),
             scaled(0.125, &sum(&[product(&p0, &p3), p3, p2, scaled(0.5, &p1)])),
+            scaled(
+                0.0625,
+                &sum(&[product(&p0, &p4), p4, p3, scaled(0.5, &p2), scaled(1.0 / 6.0, &p1)]),
+            ),
         ];
     }
     phi

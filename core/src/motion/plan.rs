@@ -181,14 +181,16 @@ fn lay_cubics(
     sink: &mut dyn FnMut(&Segment<f64>),
 ) {
     let length = f64::from(ticks) / pieces.len() as f64;
-    let (mut angle, mut first) = (start, 0.0);
+    let (mut angle, mut first, mut last) = (start, 0.0, None::<Segment<f64>>);
     for (i, piece) in pieces.iter().enumerate() {
         let next = first_tick((i + 1) as f64 * length).min(f64::from(ticks));
         let before = (first - i as f64 * length).max(0.0);
         let shape = Shape::Cubic(piece.map(|c| c * turn));
         let segment = Segment::new(angle, shape, length, before, (next - first) as u32, tick);
         if next > first {
+            let segment = last.map_or(segment, |last| segment.behind(&last, tick));
             sink(&segment);
+            last = Some(segment);
         }
         (angle, first) = (segment.end(), next);
     }

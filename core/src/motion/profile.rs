@@ -104,6 +104,15 @@ impl Move {
         }
     }
 
+    /// The same move in another time, s.
+    pub fn lasting(self, duration: f64) -> Self {
+        match self {
+            Self::To { profile, to, .. } => Self::To { profile, duration, to },
+            Self::SpinUp { rate, .. } => Self::SpinUp { duration, rate },
+            Self::Dwell { .. } => Self::Dwell { duration },
+        }
+    }
+
     /// Whole ticks nearest to the duration; at least one.
     pub fn ticks(&self, tick: f64) -> Result<u32, Error> {
         let duration = Error::check(

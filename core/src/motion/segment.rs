@@ -60,6 +60,9 @@ pub struct Segment<T> {
     acceleration_scale: T,
     /// θ̈ at `u = 1`, from the left.
     landing: T,
+    /// What the tick before the first tick needs to know of the border within it: see
+    /// [`Stepper::shift`](crate::Stepper::shift). Zero where the border is a tick.
+    entry: T,
     shape: Shape<T>,
 }
 
@@ -133,6 +136,11 @@ impl<T: Scalar> Segment<T> {
     /// θ̈ at the segment's end, from the left.
     pub(crate) fn landing(&self) -> T {
         self.landing
+    }
+
+    /// The moment of the border within the tick before, rad/s².
+    pub(crate) fn entry(&self) -> T {
+        self.entry
     }
 
     /// The same segment, ending `count` ticks after its beginning.
@@ -235,6 +243,7 @@ impl Segment<f64> {
             rate_scale: TAU / half,
             acceleration_scale: 2.0 * TAU / (half * half),
             landing: 0.0,
+            entry: 0.0,
             shape,
         };
         let [begin, _, landing] = segment.shape.ends();
@@ -255,6 +264,7 @@ impl Segment<f64> {
             rate_scale: 0.0,
             acceleration_scale: 0.0,
             landing: 0.0,
+            entry: 0.0,
             shape: Shape::Cruise { rate, step },
         }
     }
@@ -271,6 +281,22 @@ impl Segment<f64> {
         };
         let (sin, cos) = angle.sin_cos();
         Hub { angle, rate, acceleration, sin, cos }
+    }
+
+    /// Behind `before`, whose last tick is the one before this segment's first, `tick` s apart.
+    ///
+    /// `m = (Δθ − hθ̇₀)/h²`, and of the parabola that the tick takes, up to the left-hand value at
+    /// the border, `ū/2 + (u₀ − u₁)/12`.
+    pub(crate) fn behind(self, before: &Self, tick: f64) -> Self {
+        if self.ticks_before() == 0.0 {
+            return self;
+        }
+        let (from, to) = (before.hub_at(f64::from(before.count) - 1.0), self.hub_at(0.0));
+        let turned = to.angle.radians() - from.angle.radians();
+        let moment = (turned / tick - from.rate) / tick;
+        let mean = (to.rate - from.rate) / tick;
+        let parabola = 0.5 * mean + (from.acceleration - before.landing) / 12.0;
+        Self { entry: moment - parabola, ..self }
     }
 
     /// The angle at `u = 1`.
@@ -294,6 +320,7 @@ impl Segment<f64> {
             rate_scale: f(self.rate_scale),
             acceleration_scale: f(self.acceleration_scale),
             landing: f(self.landing),
+            entry: f(self.entry),
             shape: match self.shape {
                 Shape::Cubic(c) => Shape::Cubic(c.map(f)),
                 Shape::Quintic(c) => Shape::Quintic(c.map(f)),

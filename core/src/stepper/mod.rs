@@ -2,12 +2,14 @@
 //! one tick length. Its state is separate and small, so that a restart is a new state and two runs
 //! can share one stepper.
 
+mod auto;
 mod elastica;
 mod modal;
 mod newmark;
 mod oscillator;
 mod rigid;
 
+pub use auto::{Auto, AutoState, Choice, Rung};
 pub use elastica::{Elastica, ElasticaState, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, Vibration};
@@ -15,7 +17,7 @@ pub use rigid::Rigid;
 
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::Hub;
+use crate::motion::{Hub, Peaks};
 
 /// The arm's answer at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,14 +49,41 @@ pub trait Stepper {
         true
     }
 
+    /// Whether a move with these peaks is one that the stepper was set up for. Not for the tick.
+    fn admit(&self, _peaks: &Peaks) -> Result<(), Error> {
+        Ok(())
+    }
+
     /// Static equilibrium with the hub at rest at `hub.angle`. Set-up only.
     fn equilibrium(&self, hub: &Hub<Self::Scalar>) -> Self::State;
 
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
     fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
 
+    /// Called before the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks
+    /// between the ticks: `moment` is by how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola
+    /// with the mean and the ends that `step` is given, rad/s², `s` the fraction of the tick. Steppers that take the rates
+    /// only have nothing to do.
+    fn shift(&self, _state: &mut Self::State, _moment: Self::Scalar) {}
+
+    /// Whether the arm, its hub at rest, moves by less than [`SLEEP`] of its length from where it
+    /// rests: it may then be left as it is, and goes on from there.
+    #[inline(always)]
+    fn is_settled(&self, _state: &Self::State) -> bool {
+        false
+    }
+
     /// Hub torque and tip for a state and the hub at the same instant.
     fn response(&self, state: &Self::State, hub: &Hub<Self::Scalar>) -> Response<Self::Scalar>;
+}
+
+/// Deflection below which an arm on a resting hub sleeps, fraction of its length: a tenth of what
+/// the best reference resolves, and a few f32 roundings.
+pub const SLEEP: f64 = 1e-6;
+
+/// Floors of a mode's coordinate for [`Stepper::is_settled`], from its tip deflection per unit.
+fn sleep_floor<T: Scalar>(length: f64, tip: f64) -> T {
+    T::from_f64(SLEEP * length / tip.abs())
 }
 
 /// The tick length if it is one: 1 µs to 1 s.

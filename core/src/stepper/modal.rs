@@ -1,10 +1,10 @@
 //! Small deflections in modal coordinates: the tick costs the same for any number of elements.
 
-use super::oscillator::{Drive, contracting};
+use super::oscillator::{Drive, Oscillator, jolt};
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::{Model, Modes};
-use crate::math::{Band, Scalar, cast, dot, phi_functions};
+use crate::math::{Band, Scalar, cast, dot};
 use crate::motion::Hub;
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
@@ -20,7 +20,9 @@ pub struct Modal<T, const K: usize> {
     tick: f64,
     terms: Terms,
     per_tick: T,
-    modes: [Mode<T>; K],
+    modes: [Oscillator<T>; K],
+    /// What a kink of the motion inside a tick moves `a` and `ȧ` by, see [`jolt`].
+    jolt: [[T; 2]; K],
     /// `Γ` and `ΦᵀSΦ`.
     spin: Band<T, K, K>,
     shortening: Band<T, K, K>,
@@ -42,6 +44,8 @@ pub struct Modal<T, const K: usize> {
     moment: T,
     /// `ωᵢ²`.
     stiffness: [T; K],
+    /// Coordinates below which a mode sleeps, and their rates.
+    asleep: [[T; 2]; K],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -49,53 +53,6 @@ struct Terms {
     spin: bool,
     gravity: bool,
     damping: bool,
-}
-
-/// One mode over a tick: rows of weights for `aᵢ` and `ȧᵢ`.
-#[derive(Clone, Copy, Debug)]
-struct Mode<T> {
-    /// `exp(hA)`, see [`contracting`].
-    exponential: [[T; 2]; 2],
-    /// Of `u` at the beginning, in the mean and at the end.
-    drive: [[T; 3]; 2],
-    /// `hφ₁`: of the force at the beginning.
-    constant: [T; 2],
-    /// `hφ₂`: of its change.
-    slope: [T; 2],
-}
-
-impl<T: Scalar> Mode<T> {
-    /// For a step of `h` s; `omega` in rad/s, `alpha` in 1/s, `beta` in s, `b` the coupling.
-    fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
-        let stiffness = omega * omega;
-        let a = [[0.0, h], [-h * stiffness, -h * (alpha + beta * stiffness)]];
-        let [exponential, p1, p2, p3] = phi_functions(&a);
-        Self {
-            exponential: contracting(exponential),
-            // u = u₀ + c₁s + c₂s², c₁ = 6ū − 4u₀ − 2u₁, c₂ = 3(u₀ + u₁ − 2ū), s = 0..1:
-            // the response is h(φ₁u₀ + φ₂c₁ + 2φ₃c₂) times the second column.
-            drive: core::array::from_fn(|r| {
-                let (f1, f2, f3) = (h * p1[r][1], h * p2[r][1], h * p3[r][1]);
-                [f1 - 4.0 * f2 + 6.0 * f3, 6.0 * f2 - 12.0 * f3, 6.0 * f3 - 2.0 * f2]
-                    .map(|weight| T::from_f64(-b * weight))
-            }),
-            constant: p1.map(|row| T::from_f64(h * row[1])),
-            slope: p2.map(|row| T::from_f64(h * row[1])),
-        }
-    }
-
-    /// The state after a tick if the force stays what it is.
-    #[inline(always)]
-    fn predict(&self, y: [T; 2], drive: &Drive<T>, force: T) -> [T; 2] {
-        [0, 1].map(|r| {
-            self.exponential[r][0] * y[0]
-                + self.exponential[r][1] * y[1]
-                + self.drive[r][0] * drive.begin
-                + self.drive[r][1] * drive.mean
-                + self.drive[r][2] * drive.end
-                + self.constant[r] * force
-        })
-    }
 }
 
 /// Modal coordinates and their rates.
@@ -150,7 +107,10 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             },
             per_tick: T::from_f64(1.0 / tick),
             modes: core::array::from_fn(|k| {
-                Mode::new(modes.frequency[k], alpha, beta, coupling[k], tick)
+                Oscillator::new(modes.frequency[k], alpha, beta, coupling[k], tick)
+            }),
+            jolt: core::array::from_fn(|k| {
+                jolt(modes.frequency[k], alpha, beta, coupling[k], tick)
             }),
             spin: between(model.spin(), 1.0),
             shortening: between(model.shortening(), 1.0),
@@ -165,6 +125,11 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             tension: between(model.tension(), gravity),
             weight: cast(&onto(model.weight()).map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
+            asleep: core::array::from_fn(|k| {
+                let tip = modes.shape[k][model.tip()];
+                let floor = super::sleep_floor::<f64>(scene.link.length, tip);
+                [floor, modes.frequency[k] * floor].map(T::from_f64)
+            }),
             stiffness: cast(&squared),
         })
     }
@@ -220,26 +185,43 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
 
     #[inline(always)]
     fn step(&self, state: &mut ModalState<T, K>, before: &Hub<T>, after: &Hub<T>) {
-        let gained = (after.rate - before.rate) * self.per_tick;
-        let mut drive = Drive { begin: before.acceleration, mean: gained, end: after.acceleration };
-        if self.terms.damping {
-            drive = Drive::between(before, after, self.per_tick, self.alpha);
-        }
+        let drive = if self.terms.damping {
+            Drive::between(before, after, self.per_tick, self.alpha)
+        } else {
+            Drive::undamped(before, after, self.per_tick)
+        };
         let mut y = [[T::ZERO; 2]; K];
         for k in 0..K {
             y[k] = [state.coordinate[k], state.rate[k]];
-            y[k] = self.modes[k].predict(y[k], &drive, state.force[k]);
+            y[k] = self.modes[k].predict_forced(y[k], &drive, state.force[k]);
         }
         if self.terms.spin || self.terms.gravity {
             let [force, softening] = self.force(&y.map(|y| y[0]), after);
             for k in 0..K {
                 let change = force[k] - state.force[k];
-                y[k] = [0, 1].map(|r| y[k][r] + self.modes[k].slope[r] * change);
+                y[k] = self.modes[k].correct_forced(y[k], change);
             }
             (state.force, state.softening) = (force, softening);
         }
         state.coordinate = y.map(|y| y[0]);
         state.rate = y.map(|y| y[1]);
+    }
+
+    fn shift(&self, state: &mut ModalState<T, K>, moment: T) {
+        for k in 0..K {
+            state.coordinate[k] += self.jolt[k][0] * moment;
+            state.rate[k] += self.jolt[k][1] * moment;
+        }
+    }
+
+    #[inline(always)]
+    fn is_settled(&self, state: &ModalState<T, K>) -> bool {
+        (0..K).all(|k| {
+            let ([near, slow], stiffness) = (self.asleep[k], self.stiffness[k]);
+            let rate = state.rate[k];
+            let pull = state.force[k] - stiffness * state.coordinate[k];
+            rate < slow && -rate < slow && pull < stiffness * near && -pull < stiffness * near
+        })
     }
 
     /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ

@@ -51,6 +51,11 @@ impl<T: Scalar> Stepper for Rigid<T> {
     fn step(&self, (): &mut (), _: &Hub<T>, _: &Hub<T>) {}
 
     #[inline(always)]
+    fn is_settled(&self, (): &()) -> bool {
+        true
+    }
+
+    #[inline(always)]
     fn response(&self, (): &(), hub: &Hub<T>) -> Response<T> {
         Response {
             torque: self.inertia * hub.acceleration + self.drag * hub.rate + self.weight * hub.cos,

@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::solver::SolverKeys;
+use stillbeam_sim::solver::{Method, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{run, scenes, table};
+use stillbeam_sim::{model_choice, run, scenes, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -35,6 +35,13 @@ impl RunArgs {
         table::write(&self.csv, &rows)?;
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
+        if solver.method == Method::Auto {
+            let (_, choice) = model_choice::auto::<f32>(&scene, &solver)?;
+            println!(
+                "  chose            {} (expected error {:.1e} of L)",
+                choice.rung, choice.error
+            );
+        }
         println!("  {} setpoints to {}", rows.len(), self.csv.display());
         println!("  peak torque      {:.4} N m", peak(|row| row.torque_nm.abs()));
         println!(
@@ -43,7 +50,7 @@ impl RunArgs {
             100.0 * peak(|row| row.deflection_m.abs()) / scene.arm.link.length
         );
         let bent = peak(|row| row.deflection_m.abs()) / scene.arm.link.length;
-        if bent > 0.3 {
+        if bent > 0.3 && matches!(solver.method, Method::Newmark | Method::Modal) {
             println!("  note: small-deflection kinematics; beyond 30 % of L they are a guess");
         }
         if let Some(residual) = residual(&rows, &scene)? {

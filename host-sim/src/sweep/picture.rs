@@ -181,7 +181,7 @@ impl Group {
             (Method::Newmark, Some(Mass::Lumped)) => Colour::Orange,
             (Method::Newmark, _) => Colour::Blue,
             (Method::Modal, _) => Colour::Purple,
-            (Method::Elastica, _) => Colour::Green,
+            (Method::Elastica | Method::Auto, _) => Colour::Green,
         }
     }
 

@@ -121,6 +121,8 @@ methods! {
         |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fast, BEND);
     Elastica2Fine: "elastica", 2, "fine", "", None, Elastica<f32, 2>,
         |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fine, BEND);
+    Elastica3Fine: "elastica", 3, "fine", "", None, Elastica<f32, 3>,
+        |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fine, BEND);
 }
 
 /// Tip angle that elastica is fitted for, rad: enough for every scene of the list.

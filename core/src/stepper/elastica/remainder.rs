@@ -21,6 +21,8 @@ pub(super) struct Remainder<T, const K: usize> {
     loss: [T; K],
     alpha: T,
     gravity: bool,
+    /// Is there damping?
+    damping: bool,
     /// Where `a`, the first mode's `p̃` and the second's rate are clipped.
     coordinate_range: [T; K],
     momentum_range: T,
@@ -35,6 +37,18 @@ pub(super) struct Value<T, const K: usize> {
     pub torque: T,
     /// What is.
     pub inertia: T,
+}
+
+/// How the arm moves.
+struct Flow<T, const K: usize> {
+    /// `(p, v₂)`; a third is not used.
+    z: [T; K],
+    /// `Cz − dω` without its value at `a = 0`: `ȧ = p̃ + u`.
+    u: [T; K],
+    /// `ȧ`.
+    rate: [T; K],
+    /// One over the second mode's inertia.
+    lightness: T,
 }
 
 /// `C`, `d`, `e` without their values at `a = 0`, or their rates of change.
@@ -86,10 +100,23 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             loss: cast(&squared.map(|w2| scene.damping.beta * w2)),
             alpha: f(scene.damping.alpha),
             gravity: g != 0.0,
+            damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
             coordinate_range: range.map(|a| f(CLIP * a)),
             momentum_range: f(CLIP * rod.frequency()[0] * range[0]),
             rate_range: f(CLIP * rod.frequency()[1.min(K - 1)] * range[1.min(K - 1)]),
         }
+    }
+
+    /// Is there gravity?
+    #[inline(always)]
+    pub(super) fn is_directed(&self) -> bool {
+        self.gravity
+    }
+
+    /// Is there damping?
+    #[inline(always)]
+    pub(super) fn is_damped(&self) -> bool {
+        self.damping
     }
 
     /// `ωᵢ²`.
@@ -101,57 +128,74 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
     #[inline(always)]
     pub(super) fn evaluate(&self, a: &[T; K], p_tilde: &[T; K], hub: &Hub<T>) -> Value<T, K> {
         let a: [T; K] = core::array::from_fn(|k| within(a[k], self.coordinate_range[k]));
-        let omega = hub.rate;
-        let mut p_tilde = *p_tilde;
-        p_tilde[0] = within(p_tilde[0], self.momentum_range);
         let powers = Powers::new(&a);
-
         let mut form = Form::ZERO;
         EVEN.each::<K>(|n, e| form.add(powers.of(e), &self.even[n]));
-        // z = (p, v₂, …): v₂ = p̃₂ + (what the form says with v₂ in it).
-        let (c, d) = (&form.c, &form.d);
-        let mut z = p_tilde;
-        z[0] += self.coupling[0] * omega;
-        let mut lighter = T::ONE;
-        if K > 1 {
-            let inertia = T::ONE - c[1][1];
-            lighter =
-                T::ONE / if inertia < T::HALF * T::HALF { T::HALF * T::HALF } else { inertia };
-            z[1] = within((p_tilde[1] + c[1][0] * z[0] - d[1] * omega) * lighter, self.rate_range);
-        }
-        let mut u = [T::ZERO; K];
-        u[0] = c[0][0] * z[0] - d[0] * omega;
-        if K > 1 {
-            u[0] += c[1][0] * z[1];
-            u[1] = c[1][0] * z[0] + c[1][1] * z[1] - d[1] * omega;
-        }
-        let mut rate: [T; K] =
-            core::array::from_fn(|k| if k == 0 { p_tilde[0] + u[0] } else { z[k] });
-        for k in 2..K {
-            u[k] = c[k][0] * z[0] + c[k][1] * z[1] - d[k] * omega;
-            rate[k] = p_tilde[k] + u[k];
-        }
+        let flow = self.flow(&form, p_tilde, hub.rate);
+        let (gradient, weight) = self.gradient(&a, &powers, &flow, hub);
+        let force = core::array::from_fn(|k| {
+            let loss = if self.damping { self.loss[k] * flow.u[k] } else { T::ZERO };
+            [flow.u[k], -(gradient[k] + loss)]
+        });
+        let pull = core::array::from_fn(|k| {
+            let loss = if self.damping { self.loss[k] * flow.rate[k] } else { T::ZERO };
+            -(gradient[k] + self.stiffness[k] * a[k] + loss)
+        });
+        let (torque, inertia) = self.torque(&powers, &form, &flow, &pull, hub.rate);
+        Value { force, torque: torque + weight, inertia }
+    }
 
-        // ∂R/∂a, without V's elastic part.
-        let mut products = [T::ZERO; 6];
-        products[0] = T::HALF * (z[0] * z[0]);
-        products[1] = -(omega * z[0]);
-        products[2] = T::HALF * (omega * omega);
+    /// Momentum and velocities out of `p̃`.
+    #[inline(always)]
+    fn flow(&self, form: &Form<T, K>, p_tilde: &[T; K], omega: T) -> Flow<T, K> {
+        let (c, d) = (&form.c, &form.d);
+        let mut z = *p_tilde;
+        z[0] = within(p_tilde[0], self.momentum_range);
+        let mut rate = z;
+        z[0] += self.coupling[0] * omega;
+        let mut u = [T::ZERO; K];
+        let mut lightness = T::ONE;
         if K > 1 {
-            products[3] = z[0] * z[1];
-            products[4] = T::HALF * (z[1] * z[1]);
-            products[5] = -(omega * z[1]);
+            // v₂ = p̃₂ + u₂, and u₂ holds c₂₂v₂.
+            lightness = T::ONE / at_least(T::ONE - c[1][1], LEAST_INERTIA);
+            let v = (p_tilde[1] + c[1][0] * z[0] - d[1] * omega) * lightness;
+            z[1] = within(v, self.rate_range);
+            rate[1] = z[1];
         }
-        let mut gradient = [T::ZERO; K];
-        let mut moment = self.moment;
+        for k in 0..K {
+            u[k] = c[k][0] * z[0] - d[k] * omega;
+            if K > 1 {
+                u[k] += c[k.max(1)][k.min(1)] * z[1];
+            }
+            if k != 1 {
+                rate[k] += u[k];
+            }
+        }
+        Flow { z, u, rate, lightness }
+    }
+
+    /// `∂R/∂a` without the elastic energy, and `∂V/∂θ`.
+    #[inline(always)]
+    fn gradient(
+        &self,
+        a: &[T; K],
+        powers: &Powers<T, K>,
+        flow: &Flow<T, K>,
+        hub: &Hub<T>,
+    ) -> ([T; K], T) {
+        let (z, omega) = (&flow.z, hub.rate);
+        // R's products of z and ω, half of the squares.
+        let of_first = [T::HALF * (z[0] * z[0]), omega * z[0], T::HALF * (omega * omega)];
+        let of_second =
+            if K > 1 { [z[0] * z[1], T::HALF * (z[1] * z[1]), omega * z[1]] } else { [T::ZERO; 3] };
+        let (mut gradient, mut moment) = ([T::ZERO; K], self.moment);
         EVEN.each::<K>(|n, e| {
             let term = &self.even[n];
             let mut energy =
-                products[0] * term.c[0][0] + products[1] * term.d[0] + products[2] * term.e;
+                of_first[0] * term.c[0][0] - of_first[1] * term.d[0] + of_first[2] * term.e;
             if K > 1 {
-                energy += products[3] * term.c[1][0]
-                    + products[4] * term.c[1][1]
-                    + products[5] * term.d[1];
+                energy += of_second[0] * term.c[1][0] + of_second[1] * term.c[1][1]
+                    - of_second[2] * term.d[1];
             }
             if self.gravity {
                 energy += hub.sin * term.moment;
@@ -163,66 +207,76 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
                 }
             }
         });
-        let mut torque = T::ZERO;
-        if self.gravity {
-            let (y, slope) = self.lateral(&a);
-            torque += hub.cos * moment - hub.sin * y;
-            for k in 0..K {
-                gradient[k] += hub.cos * slope[k];
-            }
+        if !self.gravity {
+            return (gradient, T::ZERO);
         }
+        let (y, slope) = self.lateral(a, powers);
+        for k in 0..K {
+            gradient[k] += hub.cos * slope[k];
+        }
+        (gradient, hub.cos * moment - hub.sin * y)
+    }
 
-        // ṫ + αt: the drag in Ṗ and αt cancel but for α times what is proportional to ω̇.
+    /// `ṫ + αt` but for what is proportional to `θ̈`, and what is. `pull` is `−∂R/∂a` and the loss:
+    /// the drag in `Ṗ` and `αt` cancel but for `α` times what is proportional to `θ̈`.
+    #[inline(always)]
+    fn torque(
+        &self,
+        powers: &Powers<T, K>,
+        form: &Form<T, K>,
+        flow: &Flow<T, K>,
+        pull: &[T; K],
+        omega: T,
+    ) -> (T, T) {
+        let z = &flow.z;
         let mut change = Form::ZERO;
         EVEN.each::<K>(|n, e| {
-            let mut risen: Option<T> = None;
+            let mut rise = None;
             for k in 0..K {
                 if let Some(slope) = powers.slope(e, k) {
-                    let share = rate[k] * slope;
-                    risen = Some(risen.map_or(share, |sum| sum + share));
+                    let share = flow.rate[k] * slope;
+                    rise = Some(rise.map_or(share, |sum: T| sum + share));
                 }
             }
-            change.add(risen.unwrap_or(T::ZERO), &self.even[n]);
+            change.add(rise.unwrap_or(T::ZERO), &self.even[n]);
         });
+        let mut torque = -(change.e * omega);
         let mut inertia = -(self.e + form.e);
-        torque -= change.e * omega;
-        // ṗ, v̇₂, …, and the share of each that is proportional to −ω̇.
-        let mut faster = [T::ZERO; K];
-        let mut jolt = [T::ZERO; K];
-        let mut force = [[T::ZERO; 2]; K];
+        // ṗ, v̇₂, v̇₃, and the share of each that is proportional to −θ̈.
+        let (mut faster, mut share) = (*pull, [T::ZERO; K]);
         for k in 0..K {
-            let elastic = self.stiffness[k] * a[k] + self.loss[k] * rate[k];
-            force[k] = [u[k], -gradient[k] - self.loss[k] * u[k]];
-            faster[k] = -(gradient[k] + elastic);
-            let lever = if k < 2 { self.coupling[k] + form.d[k] } else { self.coupling[k] };
+            // Where the third mode is bent far its straight inertia and a lever that grows would
+            // not belong together.
+            let lever = self.coupling[k] + if k < 2 { form.d[k] } else { T::ZERO };
             if k > 0 {
-                jolt[k] = lever;
-                faster[k] -= change.d[k] * omega;
-                for j in 0..2.min(K) {
-                    faster[k] += change.c[k][j.min(k)] * z[j];
-                }
+                share[k] = lever;
+                faster[k] += change.c[k][0] * z[0] + change.c[k][1] * z[1] - change.d[k] * omega;
                 faster[k] += form.c[k][0] * faster[0];
-                if k > 1 {
-                    faster[k] += form.c[k][1] * faster[1];
-                    jolt[k] += form.c[k][1] * jolt[1];
-                } else {
-                    faster[1] = faster[1] * lighter;
-                    jolt[1] = jolt[1] * lighter;
-                }
             }
-            torque += lever * faster[k] + if k < 2 { change.d[k] * z[k] } else { T::ZERO };
-            inertia -= lever * jolt[k];
+            if k == 1 {
+                faster[1] = faster[1] * flow.lightness;
+                share[1] = share[1] * flow.lightness;
+            } else if k > 1 {
+                faster[k] += form.c[k][1] * faster[1];
+                share[k] += form.c[k][1] * share[1];
+            }
+            torque += lever * faster[k];
+            if k < 2 {
+                torque += change.d[k] * z[k];
+            }
+            inertia -= lever * share[k];
         }
-        torque += self.alpha * inertia * omega;
-        Value { force, torque, inertia }
+        if self.damping {
+            torque += self.alpha * inertia * omega;
+        }
+        (torque, inertia)
     }
 
     /// `g(∫ρA Y dx + m_p Y_L)` and its gradient.
     #[inline(always)]
-    fn lateral(&self, a: &[T; K]) -> (T, [T; K]) {
+    fn lateral(&self, a: &[T; K], powers: &Powers<T, K>) -> (T, [T; K]) {
         let mut slope = self.linear.map(|term| term.moment);
         let mut y = dot(&slope, a);
-        let powers = Powers::new(a);
         ODD.each::<K>(|n, e| {
             let weight = self.odd[n].moment;
             y += weight * powers.of(e);
@@ -251,6 +305,15 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
 
 /// Beyond this multiple of the fitted range the remainder's arguments are clipped.
 const CLIP: f64 = 1.5;
+
+/// The second mode's inertia, 1 in the straight link, is not taken to be less.
+const LEAST_INERTIA: f64 = 0.25;
+
+#[inline(always)]
+fn at_least<T: Scalar>(x: T, least: f64) -> T {
+    let least = T::from_f64(least);
+    if x < least { least } else { x }
+}
 
 /// `x` within ± `range`.
 #[inline(always)]
