@@ -55,6 +55,10 @@ impl From<Error> for Refusal<'static> {
             }
             Error::TooFast { rate, max } => range("move: peak rate", rate, 0.0, max, "rad/s"),
             Error::NotAtRest { rate } => range("move: rate at its start", rate, 0.0, 0.0, "rad/s"),
+            Error::BendsTooFar { bend, max } => range("move: expected bend", bend, 0.0, max, "rad"),
+            Error::Tolerance { tolerance, best } => {
+                range("solver.tolerance", tolerance, best, f64::INFINITY, "")
+            }
             Error::QueueFull { needed, free } => {
                 Self::Queue { needed: needed as u32, free: free as u32 }
             }
@@ -94,6 +98,7 @@ impl From<Refused> for Refusal<'static> {
             Refused::Queue(Rejected::QueueFull { needed, free }) => {
                 Self::Queue { needed: needed as u32, free: free as u32 }
             }
+            Refused::Queue(Rejected::Arm(error)) => error.into(),
             Refused::Queue(Rejected::Stale) => Self::Stale,
         }
     }

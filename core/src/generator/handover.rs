@@ -33,7 +33,7 @@ impl<T> Planned<T> {
 }
 
 /// A planned move that cannot be taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rejected {
     /// The queue has not enough free segments.
     QueueFull {
@@ -42,6 +42,8 @@ pub enum Rejected {
         /// Segments that are free.
         free: usize,
     },
+    /// It is none that the arm was set up for.
+    Arm(Error),
     /// The hub's motion has changed since the departure was copied: plan again.
     Stale,
 }
@@ -76,6 +78,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if needed > free {
             return Err(Rejected::QueueFull { needed, free });
         }
+        self.stepper.admit(&planned.outline.peaks).map_err(Rejected::Arm)?;
         for segment in &planned.segments {
             // There is room: just counted.
             let _ = self.queue.push_back(segment.shifted(S::Scalar::from_f64(turned)));

@@ -23,14 +23,15 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if self.hub.rate == S::Scalar::ZERO {
             self.queue.clear();
             self.rest_at(self.hub.angle);
-            // Over at the next tick, so that the acceleration of a move that was about to begin goes.
-            self.current = self.tail.cut(0);
+            // A move that was about to begin does not.
+            self.hub.acceleration = S::Scalar::ZERO;
+            self.current = self.tail;
             self.k = 0;
             self.holding = true;
             self.asleep = false;
             return;
         }
-        let (segment, rest) = braking.stop(&self.hub);
+        let (segment, rest, acceleration) = braking.stop(&self.hub);
         if let Some(arrival) = arrival
             && passes(self.hub.angle, rest, arrival.end.angle.cast())
         {
@@ -40,6 +41,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.queue.clear();
         self.rest_at(rest);
         self.current = segment;
+        // The right-hand value, where it drops.
+        self.hub.acceleration = acceleration;
         // Wraps to the segment's tick 0 at the next tick.
         self.k = u32::MAX;
         self.holding = false;
