@@ -62,12 +62,6 @@ impl From<Error> for Refusal<'static> {
             Error::QueueFull { needed, free } => {
                 Self::Queue { needed: needed as u32, free: free as u32 }
             }
-            Error::BendsTooFar { bend, max } => {
-                range("move: bend at the tip", bend, 0.0, max, "rad")
-            }
-            Error::Tolerance { tolerance, best } => {
-                range("solver.tolerance", tolerance, best, 1.0, "of the length")
-            }
             Error::TooShort { duration, shortest } => {
                 range("move.duration", duration, shortest, f64::INFINITY, "s")
             }
