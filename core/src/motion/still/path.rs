@@ -84,10 +84,10 @@ impl Path {
 const DEGREE: usize = BULGE + 5;
 
 /// Nodes at which [`peaks`] looks.
-const NODES: u32 = 96;
+const NODES: u32 = 128;
 
 /// Greatest magnitudes on the quintic `c` with the bulge `d`, both in turns, over `duration` s: the
-/// largest of 97 nodes, dense at the ends where a curve may be steep, refined by the parabola through
+/// largest of 129 nodes, dense at the ends where a curve may be steep, refined by the parabola through
 /// its neighbours. Error 1e-4 of a peak.
 pub(crate) fn peaks<T: Scalar>(c: &[T; 5], d: &[T; BULGE], duration: f64) -> Peaks {
     let mut derivative = monomials(c, d);
