@@ -19,7 +19,7 @@ fn the_payload_is_laid_out_as_documented() {
         [0xc0, 0x0d, 0x27, 0xcd, 0xcc, 0xcc, 0x3d, 0x50],
     ];
     assert_eq!(payload, expected.concat()[..]);
-    assert!(BYTES <= 64);
+    const { assert!(BYTES <= 64) };
 }
 
 /// The documentation's identifiers: 0x8001 from 0 to 1 with a reply.

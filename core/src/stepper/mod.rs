@@ -61,8 +61,8 @@ pub trait Stepper {
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
     fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
 
-    /// Called before the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks
-    /// between the ticks: `moment` is by how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola
+    /// Called before the [`Self::step`] of a tick in which the commanded acceleration jumps or
+    /// kinks between the ticks: `moment` is by how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola
     /// with the mean and the ends that `step` is given, rad/s², `s` the fraction of the tick. Steppers that take the rates
     /// only have nothing to do.
     fn shift(&self, _state: &mut Self::State, _moment: Self::Scalar) {}

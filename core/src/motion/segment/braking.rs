@@ -152,9 +152,11 @@ impl<T: Scalar> Segment<T> {
 
 /// The least whole number from `x` on, for `0 ≤ x`, with 1e-4 for rounding; `LONGEST` above that.
 fn ceil<T: Scalar>(x: T) -> u32 {
-    if !(x < T::from_u32(LONGEST)) {
-        return LONGEST;
+    // NaN is not below it either.
+    if x < T::from_u32(LONGEST) {
+        let (whole, rest) = x.split();
+        whole.max(0) as u32 + u32::from(rest > T::from_f64(1e-4))
+    } else {
+        LONGEST
     }
-    let (whole, rest) = x.split();
-    whole.max(0) as u32 + u32::from(rest > T::from_f64(1e-4))
 }
