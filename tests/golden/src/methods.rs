@@ -131,5 +131,5 @@ fn single(scene: &Scene) -> Scene<f32> {
     scene.cast()
 }
 
-/// Tip angle that elastica is fitted for, rad: enough for every scene of the list.
-const BEND: f64 = 0.5;
+/// Tip angle that elastica is fitted for, rad: enough for every scene of the list and the bench.
+const BEND: f64 = 1.5;
