@@ -91,7 +91,7 @@ impl Machine {
         Ok(self.outbox.iter().all(VecDeque::is_empty))
     }
 
-    /// What has come from the firmware; nothing after [`POLL`].
+    /// What has come from the firmware; nothing after a short wait.
     ///
     /// # Errors
     /// The line is broken, or has been silent for too long; in QEMU with what it said.
@@ -112,7 +112,7 @@ impl Machine {
         Ok(bytes)
     }
 
-    /// What has come from the emulated bus; nothing after [`POLL`].
+    /// What has come from the emulated bus; nothing after a short wait.
     pub fn receive_from_bus(&mut self) -> Result<Vec<u8>, Error> {
         let Some(emulator) = &mut self.emulator else { return Ok(Vec::new()) };
         let mut bytes = vec![0; 4096];
