@@ -42,8 +42,8 @@ const fn still(duration: f64, to: f64) -> Move {
 }
 
 /// The table's run: an S-curve, which is seven cubics, a cubic, and a rest. Both cross quarters of
-/// a turn.
-const MOVES: [Move; 2] = [to(Profile::SCurve, 1.0, 3.0), to(Profile::Cubic, 0.7, -1.4)];
+/// a turn, and bend the scenes' arm less than elastica is set up for.
+const MOVES: [Move; 2] = [to(Profile::SCurve, 1.6, 3.0), to(Profile::Cubic, 1.5, -1.4)];
 
 /// The other motions, which cost the same with every method: counted with the cheapest. A
 /// trapezoid is three cubics.
