@@ -9,6 +9,8 @@
 //! against error; its run time is compared with that of [`textbook`]. The paper's figures are
 //! computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show both.
 //!
+//! [`stress`] runs random scenes by the million and long runs.
+//!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 
 pub mod compare;
@@ -24,6 +26,7 @@ pub mod run;
 pub mod scene_file;
 pub mod scenes;
 pub mod solver;
+pub mod stress;
 pub mod study;
 pub mod sweep;
 pub mod table;

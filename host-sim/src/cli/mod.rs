@@ -7,6 +7,7 @@ mod plan;
 mod reference;
 mod run;
 mod still;
+mod stress;
 mod study;
 mod sweep;
 mod tables;
@@ -54,6 +55,8 @@ enum Command {
     Talk(talk::TalkArgs),
     /// Fill the tables of docs/still.md and draw its picture, or check the tables
     Still(still::StillArgs),
+    /// Run random scenes, far outside of what an arm is, by the million
+    Stress(stress::StressArgs),
     /// List the embedded scenes
     Scenes,
 }
@@ -75,6 +78,7 @@ impl Cli {
             #[cfg(feature = "talk")]
             Some(Command::Talk(args)) => args.execute(),
             Some(Command::Still(args)) => args.execute(),
+            Some(Command::Stress(args)) => args.execute(),
             Some(Command::Scenes) => {
                 for (name, about) in scenes::list() {
                     println!("{name:<20} {about}");
