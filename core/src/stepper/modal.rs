@@ -1,6 +1,6 @@
 //! Small deflections in modal coordinates: the tick costs the same for any number of elements.
 
-use super::oscillator::{Drive, Oscillator, jolt};
+use super::oscillator::{Drive, Oscillator, check_turns, jolt};
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::{Model, Modes};
@@ -82,6 +82,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let scene = model.scene();
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
         let modes = Modes::of(model);
+        check_turns(&modes.frequency[..K], alpha, beta, tick)?;
         let onto =
             |load: &[f64; N]| -> [f64; K] { core::array::from_fn(|k| dot(&modes.shape[k], load)) };
         let between = |matrix: &Band<f64, N, W>, scale: f64| -> Band<T, K, K> {

@@ -1,5 +1,6 @@
 //! One mode, advanced exactly over a step: what the steppers in modal coordinates share.
 
+use crate::Error;
 use crate::math::{Scalar, phi_functions};
 use crate::motion::Hub;
 
@@ -72,7 +73,7 @@ impl<T: Scalar> Oscillator<T> {
     /// For a step of `h` s; `omega` in rad/s, `alpha` in 1/s, `beta` in s, `b` the mode's coupling
     /// to the hub.
     pub(crate) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
-        let [exponential, p1, p2, p3, _] = phi_functions(&matrix(omega, alpha, beta, h));
+        let [exponential, p1, p2, p3, _] = phi_of(omega, alpha, beta, h);
         let cast = |matrix: [[f64; 2]; 2]| matrix.map(|row| row.map(|x| T::from_f64(h * x)));
         Self {
             exponential: contracting(exponential),
@@ -130,18 +131,33 @@ impl<T: Scalar> Oscillator<T> {
     }
 }
 
-/// `hA`.
-fn matrix(omega: f64, alpha: f64, beta: f64, h: f64) -> [[f64; 2]; 2] {
-    let stiffness = omega * omega;
-    [[0.0, h], [-h * stiffness, -h * (alpha + beta * stiffness)]]
+/// `φ₀ … φ₄` of `hA`, by way of `(ωa, p)`, in which the matrix is as small as it can be and equally
+/// good for every unit of `a`.
+fn phi_of(omega: f64, alpha: f64, beta: f64, h: f64) -> [[[f64; 2]; 2]; 5] {
+    let (turn, decay) = (omega * h, (alpha + beta * omega * omega) * h);
+    let phi = phi_functions(&[[0.0, turn], [-turn, -decay]]);
+    phi.map(|[[aa, ap], [pa, pp]]| [[aa, ap / omega], [pa * omega, pp]])
+}
+
+/// Largest `(ω + α + βω²)h` of a mode that is advanced exactly: its phase is then known to 1e-10.
+const MOST: f64 = 1e6;
+
+/// Refuses a tick in which a mode does far more than can be told: there the arm is rigid.
+pub(super) fn check_turns(
+    frequency: &[f64],
+    alpha: f64,
+    beta: f64,
+    tick: f64,
+) -> Result<(), Error> {
+    let fastest = frequency.iter().map(|w| w + alpha + beta * w * w).fold(0.0, f64::max);
+    Error::check("solver.tick", tick, 1e-6, MOST / fastest, "s").map(drop)
 }
 
 /// What a step needs added to the state before it, per unit of the moment by which `u` departs from
 /// its parabola, see [`Segment`](crate::motion::Segment): the cubic `60 m s(1 − s)(1 − 2s)` has
 /// that moment, no mean and no ends. Zero for modes that the step damps out.
 pub(super) fn jolt<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> [T; 2] {
-    let z = matrix(omega, alpha, beta, h);
-    let [e, _, p2, p3, p4] = phi_functions(&z);
+    let [e, _, p2, p3, p4] = phi_of(omega, alpha, beta, h);
     let end = [0, 1].map(|r| -60.0 * b * h * (p2[r][1] - 6.0 * p3[r][1] + 12.0 * p4[r][1]));
     let determinant = e[0][0] * e[1][1] - e[0][1] * e[1][0];
     if determinant < 1e-3 {
@@ -154,12 +170,20 @@ pub(super) fn jolt<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64)
     .map(T::from_f64)
 }
 
+/// Determinants below this are not held down: see [`contracting`].
+const MOST_DAMPED: f64 = 0.999;
+
 /// Rounds the exponential so that the determinant of the rounded matrix does not exceed the true
 /// one. Rounded to nearest it may, and a mode would then grow: 3 % in 10⁶ ticks were seen in f32.
 fn contracting<T: Scalar>(exact: [[f64; 2]; 2]) -> [[T; 2]; 2] {
     let determinant = |m: &[[f64; 2]; 2]| m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    let limit = determinant(&exact);
+    let limit = determinant(&exact).min(1.0);
     let mut shrink = 1.0;
+    // With more damping than rounding there is nothing to mend; and where the step damps the mode
+    // out, the determinant is itself but rounding, and no shrinking would bring it below its limit.
+    if limit < MOST_DAMPED {
+        return exact.map(|row| row.map(T::from_f64));
+    }
     loop {
         let rounded = exact.map(|row| row.map(|x| T::from_f64(shrink * x)));
         let as_f64 = rounded.map(|row| row.map(T::to_f64));

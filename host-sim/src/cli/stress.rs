@@ -64,7 +64,7 @@ fn print(summary: &Summary) {
         );
         for (decade, spread) in &counts.deflection {
             println!(
-                "    w1 h 1e{decade}: {:>8} {:.1e} {:.1e} {:.1e}",
+                "    w1h 1e{decade}: {:>8} {:.1e} {:.1e} {:.1e}",
                 spread.count(),
                 spread.quantile(0.5),
                 spread.quantile(0.99),

@@ -22,7 +22,7 @@ pub use flex::Flex;
 
 use remainder::{Remainder, Value};
 
-use super::oscillator::{Drive, Oscillator, jolt};
+use super::oscillator::{Drive, Oscillator, check_turns, jolt};
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::{Expansion, Rod};
@@ -94,6 +94,8 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     pub fn new(rod: &Rod<K>, tick: f64, quality: Quality, bend: f64) -> Result<Self, Error> {
         let tick = super::check_tick(tick)?;
         let bend = Error::check("bend", bend, Self::BEND.0, Self::BEND.1, "rad")?;
+        let damping = rod.scene().damping;
+        check_turns(rod.frequency(), damping.alpha, damping.beta, tick)?;
         Ok(Self::fitted(rod, tick, quality, bend, bend))
     }
 
