@@ -191,6 +191,7 @@ fn contracting<T: Scalar>(exact: [[f64; 2]; 2]) -> [[T; 2]; 2] {
         if determinant(&as_f64) <= limit {
             return rounded;
         }
-        shrink -= 0.125 * T::EPSILON.to_f64();
+        // In f64 at least what makes 1 less.
+        shrink -= (0.125 * T::EPSILON.to_f64()).max(f64::EPSILON);
     }
 }
