@@ -146,7 +146,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     #[inline(always)]
     pub fn tick(&mut self) -> Setpoint<S::Scalar> {
         let k = self.next_k();
-        if k < self.plain {
+        if S::PLAIN && k < self.plain {
             let before = self.hub;
             self.k = k;
             self.current.drive_cubic(&mut self.hub, k);
@@ -162,23 +162,24 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     #[inline(never)]
     fn tick_otherwise(&mut self, k: u32) -> Setpoint<S::Scalar> {
         let before = self.hub;
-        let mut arrival = before;
+        let mut landing = None;
         let mut at_rest = false;
         self.k = k;
         if k >= self.current.count() {
             self.turn_over();
-            arrival = Hub { acceleration: self.landing, ..self.hub };
-        } else if self.asleep {
-            return self.setpoint();
-        } else if self.holding && before.rate == S::Scalar::ZERO {
-            at_rest = true;
-        } else {
+            landing = Some(self.landing);
+        } else if !self.holding || before.rate != S::Scalar::ZERO {
             self.current.drive(&mut self.hub, k);
             if self.stepper.is_directed() {
                 self.hub.aim();
             }
-            arrival = self.hub;
+        } else if self.asleep {
+            return self.setpoint();
+        } else {
+            at_rest = true;
         }
+        let acceleration = landing.unwrap_or(self.hub.acceleration);
+        let arrival = Hub { acceleration, ..self.hub };
         // The first tick too: the arm was at rest before it, and stays so.
         self.stepper.step(&mut self.state, &before, &arrival);
         if at_rest {
@@ -234,7 +235,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// To be called whenever there is another current segment, or another count of its ticks.
     #[inline(always)]
     fn set_plain(&mut self) {
-        let plain = self.stepper.is_plain() && self.current.is_cubic();
+        let plain = S::PLAIN && self.stepper.is_plain() && self.current.is_cubic();
         self.plain = if plain { self.current.count() } else { 0 };
     }
 
@@ -249,8 +250,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
     }
 
-    /// Takes up the next segment, or the hold.
-    #[inline(always)]
+    /// Takes up the next segment, or the hold: apart, for the registers that it takes.
+    #[inline(never)]
     fn turn_over(&mut self) {
         self.asleep = false;
         self.landing = self.current.landing();

@@ -1,6 +1,6 @@
 //! Symmetric band matrices and their LDLᵀ factors.
 
-use super::Scalar;
+use super::{Scalar, dot};
 
 /// Symmetric `N × N` matrix with `W − 1` sub-diagonals, row-wise: `rows[i][d] = A[i][i − d]`.
 ///
@@ -68,6 +68,50 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
             }
         }
         y
+    }
+
+    /// The diagonal.
+    #[inline(always)]
+    pub(crate) fn diagonal(&self) -> [T; N] {
+        self.rows.map(|row| row[0])
+    }
+
+    /// `A x` of a diagonal matrix, whatever its band could hold.
+    #[inline(always)]
+    pub(crate) fn diagonal_times(&self, x: &[T; N]) -> [T; N] {
+        let mut y = *x;
+        for i in 0..N {
+            y[i] = self.rows[i][0] * x[i];
+        }
+        y
+    }
+
+    /// `A + diag(d)`.
+    #[inline(always)]
+    pub(crate) fn plus_diagonal(&self, d: &[T; N]) -> Self {
+        let mut sum = *self;
+        for i in 0..N {
+            sum.rows[i][0] += d[i];
+        }
+        sum
+    }
+
+    /// `vᵢᵀA vⱼ` for the vectors `vᵢ`, as far as the band of the result holds it. Set-up only.
+    pub(crate) fn onto<const K: usize, const V: usize>(&self, vectors: &[[T; N]; K]) -> Band<T, K, V> {
+        let mut reduced = Band::ZERO;
+        for i in 0..K {
+            let column = self.times(&vectors[i]);
+            for j in (i + 1).saturating_sub(V)..=i {
+                reduced.add(i, j, dot(&vectors[j], &column));
+            }
+        }
+        reduced
+    }
+
+    /// Solves `A x = b` for a matrix that changes from tick to tick: the factors are used once.
+    #[inline(always)]
+    pub fn solve(&self, b: &[T; N]) -> [T; N] {
+        self.factor().solve(b)
     }
 
     /// `s A`.

@@ -245,27 +245,20 @@ impl<T: Scalar> Segment<T> {
     /// its coefficients takes.
     #[inline(always)]
     pub(crate) fn become_like(&mut self, other: &Self) {
-        let rest = match other.rest {
-            Rest::Cubic => Rest::Cubic,
-            _ => {
-                self.rest = other.rest;
-                self.rest
-            }
-        };
-        let Self { origin, count, offset, advance, rate_scale, acceleration_scale, .. } = *other;
-        let Self { landing, entry, low, .. } = *other;
-        *self = Self {
-            origin,
-            count,
-            offset,
-            advance,
-            rate_scale,
-            acceleration_scale,
-            landing,
-            entry,
-            low,
-            rest,
-        };
+        self.origin = other.origin;
+        self.count = other.count;
+        self.offset = other.offset;
+        self.advance = other.advance;
+        self.rate_scale = other.rate_scale;
+        self.acceleration_scale = other.acceleration_scale;
+        self.landing = other.landing;
+        self.entry = other.entry;
+        self.low = other.low;
+        if other.is_cubic() {
+            self.rest = Rest::Cubic;
+        } else {
+            self.rest = other.rest;
+        }
     }
 
     /// The same segment, ending `count` ticks after its beginning.

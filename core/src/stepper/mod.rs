@@ -61,6 +61,10 @@ pub trait Stepper {
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
     fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
 
+    /// Whether there are plain ticks at all, see [`Self::is_plain`]: what has none takes no room for
+    /// them.
+    const PLAIN: bool = false;
+
     /// Whether the scene leaves so little to do that the ticks inside a cubic are to be advanced by
     /// [`Self::advance_in_cubic`]. Only of an arm that is not [directed](Self::is_directed).
     #[inline(always)]

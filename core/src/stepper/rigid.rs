@@ -45,6 +45,8 @@ impl<T: Scalar> Stepper for Rigid<T> {
         self.weight != T::ZERO
     }
 
+    const PLAIN: bool = true;
+
     #[inline(always)]
     fn is_plain(&self) -> bool {
         self.weight == T::ZERO && self.drag == T::ZERO
