@@ -108,10 +108,30 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
         reduced
     }
 
-    /// Solves `A x = b` for a matrix that changes from tick to tick: the factors are used once.
+    /// Solves `A x = b` for a matrix whose factors are used once: the last pivot divides.
     #[inline(always)]
     pub fn solve(&self, b: &[T; N]) -> [T; N] {
-        self.factor().solve(b)
+        let Ldl { lower, inverse } = self.factor();
+        let mut x = *b;
+        for i in 0..N {
+            for d in 1..W {
+                if d <= i {
+                    x[i] -= lower[i][d] * x[i - d];
+                }
+            }
+        }
+        for i in 0..N - 1 {
+            x[i] = x[i] * inverse[i];
+        }
+        x[N - 1] = x[N - 1] / lower[N - 1][0];
+        for i in (0..N).rev() {
+            for d in 1..W {
+                if d <= i {
+                    x[i - d] -= lower[i][d] * x[i];
+                }
+            }
+        }
+        x
     }
 
     /// `s A`.
@@ -120,21 +140,12 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
         Self { rows: self.rows.map(|row| row.map(|entry| s * entry)) }
     }
 
-    /// `½ xᵀA x`, at half the cost of the product.
-    #[inline(always)]
-    pub fn half_form(&self, x: &[T; N]) -> T {
-        let mut on = self.rows[0][0] * x[0] * x[0];
-        let mut off = T::ZERO;
-        for i in 1..N {
-            on += self.rows[i][0] * x[i] * x[i];
-            for d in 1..W {
-                if d <= i {
-                    let product = self.rows[i][d] * x[i - d] * x[i];
-                    off = if i == 1 { product } else { off + product };
-                }
-            }
+    /// `½ xᵀA x` as a function of `x`.
+    pub(crate) fn half_form(mut self) -> HalfForm<T, N, W> {
+        for row in &mut self.rows {
+            row[0] = T::HALF * row[0];
         }
-        if N == 1 { T::HALF * on } else { T::HALF * on + off }
+        HalfForm { rows: self.rows }
     }
 
     /// `LDLᵀ` factors by symmetric elimination without pivoting, which a positive definite
@@ -173,6 +184,33 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
             inverse[i] = T::ONE / pivot;
         }
         Ldl { lower, inverse }
+    }
+}
+
+/// `½ xᵀA x`: the lower triangle of `A`, its diagonal halved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HalfForm<T, const N: usize, const W: usize> {
+    rows: [[T; W]; N],
+}
+
+impl<T: Scalar, const N: usize, const W: usize> HalfForm<T, N, W> {
+    /// Its value, at half the cost of the product `A x`.
+    #[inline(always)]
+    pub(crate) fn at(&self, x: &[T; N]) -> T {
+        let row = |i: usize| {
+            let mut sum = self.rows[i][0] * x[i];
+            for d in 1..W {
+                if d <= i {
+                    sum += self.rows[i][d] * x[i - d];
+                }
+            }
+            sum * x[i]
+        };
+        let mut form = row(0);
+        for i in 1..N {
+            form += row(i);
+        }
+        form
     }
 }
 

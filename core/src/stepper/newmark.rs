@@ -26,7 +26,7 @@
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::Model;
-use crate::math::{Band, Ldl, Scalar, cast, dot, generalized_eigen, round};
+use crate::math::{Band, HalfForm, Ldl, Scalar, cast, dot, generalized_eigen, round};
 use crate::motion::Hub;
 
 /// Newmark stepper for `N` degrees of freedom in bands of width `W`.
@@ -50,8 +50,8 @@ pub struct Newmark<T, const N: usize, const W: usize> {
     /// `4/h`.
     twice_per_half: T,
     reach: T,
-    /// `S`.
-    shortening: Band<T, N, W>,
+    /// `½ qᵀSq`.
+    shortening: HalfForm<T, N, W>,
     /// `w(L)` per unit of `q`.
     tip: [T; N],
     factors: Ldl<T, N, W>,
@@ -133,7 +133,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
             inertia: round(scene.hub.inertia + residual),
             twice_per_half: round(P::TWO * per_half),
             reach: round(scene.reach()),
-            shortening: band(model.shortening()).map(round),
+            shortening: band(model.shortening()).map(round).half_form(),
             tip: principal.map(|axis| round(axis[model.tip()])),
             factors: effective.factor().map(round),
             stiffness: stiffness.map(round),
@@ -368,7 +368,7 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
             torque -= self.spin_torque(state, forced, hub.rate);
         }
         if self.terms.gravity {
-            let bent = self.tension.half_form(q);
+            let bent = self.tension.half_form().at(q);
             torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, q);
         }
         Response { torque, tip: self.tip_of(state) }
@@ -397,7 +397,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
     #[inline(always)]
     fn tip_of(&self, state: &Vibration<T, N>) -> [T; 2] {
         let q = &state.deflection;
-        [self.reach - self.shortening.half_form(q), self.tip_deflection(q)]
+        [self.reach - self.shortening.at(q), self.tip_deflection(q)]
     }
 }
 
