@@ -66,7 +66,10 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return Err(Error::QueueFull { needed, free });
         }
         match place {
-            Place::Current(k) => self.current = self.current.broken_off(k),
+            Place::Current(k) => {
+                self.current = self.current.broken_off(k);
+                self.set_plain();
+            }
             Place::Waiting(index, k) => {
                 if let Some(segment) = self.queue.iter_mut().nth(index) {
                     *segment = segment.broken_off(k);
