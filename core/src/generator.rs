@@ -60,11 +60,13 @@ impl<T: Scalar> Setpoint<T> {
 pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
     /// Ticks since the current segment's first; wraps to 0 at the very first tick.
     k: u32,
+    /// Below this many, ticks of the current segment are [plain](Stepper::is_plain) ones in a cubic.
+    plain: u32,
     holding: bool,
     /// The hub is at rest and the arm with it: see [`Stepper::is_settled`].
     asleep: bool,
     hub: Hub<S::Scalar>,
-    /// θ̈ just before now.
+    /// θ̈ just before the current segment began; within it, there is no other than the hub's.
     landing: S::Scalar,
     current: Segment<S::Scalar>,
     state: S::State,
@@ -87,7 +89,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let mut hub = Hub::ZERO;
         current.drive(&mut hub, 0);
         if stepper.is_directed() {
-            (hub.sin, hub.cos) = hub.angle.sin_cos();
+            hub.aim();
         }
         let state = stepper.equilibrium(&hub);
         Ok(Self {
@@ -97,6 +99,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             landing: S::Scalar::ZERO,
             current,
             k: u32::MAX,
+            plain: 0,
             queue: Deque::new(),
             tail,
             end,
@@ -142,26 +145,42 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// The next setpoint. Never fails, never allocates; the same operations on host and target.
     #[inline(always)]
     pub fn tick(&mut self) -> Setpoint<S::Scalar> {
-        let before = self.hub;
-        self.k = self.next_k();
-        let mut at_rest = false;
-        if self.k >= self.current.count() {
-            self.turn_over();
-        } else if self.holding && before.rate == S::Scalar::ZERO {
-            if self.asleep {
-                return self.setpoint();
-            }
-            self.landing = S::Scalar::ZERO;
-            at_rest = true;
+        let k = self.next_k();
+        if S::PLAIN && k < self.plain {
+            let before = self.hub;
+            self.k = k;
+            self.current.drive_cubic(&mut self.hub, k);
+            let response = self.stepper.advance_in_cubic(&mut self.state, &before, &self.hub);
+            respond(&self.hub, response)
         } else {
-            self.current.drive(&mut self.hub, self.k);
-            self.landing = self.hub.acceleration;
-            if self.stepper.is_directed() {
-                (self.hub.sin, self.hub.cos) = self.hub.angle.sin_cos();
-            }
+            self.tick_otherwise(k)
         }
+    }
+
+    /// All other ticks, out of the way of the plain ones, which then need not save the registers that
+    /// these take.
+    #[inline(never)]
+    fn tick_otherwise(&mut self, k: u32) -> Setpoint<S::Scalar> {
+        let before = self.hub;
+        let mut landing = None;
+        let mut at_rest = false;
+        self.k = k;
+        if k >= self.current.count() {
+            self.turn_over();
+            landing = Some(self.landing);
+        } else if !self.holding || before.rate != S::Scalar::ZERO {
+            self.current.drive(&mut self.hub, k);
+            if self.stepper.is_directed() {
+                self.hub.aim();
+            }
+        } else if self.asleep {
+            return self.setpoint();
+        } else {
+            at_rest = true;
+        }
+        let acceleration = landing.unwrap_or(self.hub.acceleration);
+        let arrival = Hub { acceleration, ..self.hub };
         // The first tick too: the arm was at rest before it, and stays so.
-        let arrival = Hub { acceleration: self.landing, ..self.hub };
         self.stepper.step(&mut self.state, &before, &arrival);
         if at_rest {
             self.asleep = self.stepper.is_settled(&self.state);
@@ -178,7 +197,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// The latest setpoint as it was just before: it differs where a move has ended with an
     /// acceleration, which the torque jumps with.
     pub fn setpoint_before(&self) -> Setpoint<S::Scalar> {
-        let hub = Hub { acceleration: self.landing, ..self.hub };
+        let hub = Hub { acceleration: self.landing(), ..self.hub };
         respond(&hub, self.stepper.response(&self.state, &hub))
     }
 
@@ -208,6 +227,18 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.k.wrapping_add(1)
     }
 
+    /// θ̈ just before the latest setpoint.
+    fn landing(&self) -> S::Scalar {
+        if self.next_k() <= 1 { self.landing } else { self.hub.acceleration }
+    }
+
+    /// To be called whenever there is another current segment, or another count of its ticks.
+    #[inline(always)]
+    fn set_plain(&mut self) {
+        let plain = S::PLAIN && self.stepper.is_plain() && self.current.is_cubic();
+        self.plain = if plain { self.current.count() } else { 0 };
+    }
+
     /// Where a move that is pushed now begins.
     fn next_start(&self) -> Start {
         if self.queue.is_empty() && self.holding {
@@ -219,8 +250,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
     }
 
-    /// The tick that takes up the next segment, or holds. Out of the way of the ticks in between,
-    /// which then need not save the registers that it takes to move a segment.
+    /// Takes up the next segment, or the hold: apart, for the registers that it takes.
     #[inline(never)]
     fn turn_over(&mut self) {
         self.asleep = false;
@@ -228,20 +258,21 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         match self.queue.front() {
             Some(segment) => {
                 // Copied once, not by way of what `pop_front` returns.
-                self.current = *segment;
+                self.current.become_like(segment);
                 let _ = self.queue.pop_front();
                 self.holding = false;
             }
             None if self.holding => self.current = self.renewed(),
             None => {
-                self.current = self.tail;
+                self.current.become_like(&self.tail);
                 self.holding = true;
             }
         }
         self.k = 0;
+        self.set_plain();
         self.current.drive(&mut self.hub, 0);
         if self.stepper.is_directed() {
-            (self.hub.sin, self.hub.cos) = self.hub.angle.sin_cos();
+            self.hub.aim();
         }
         self.stepper.shift(&mut self.state, self.current.entry());
     }

@@ -101,12 +101,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn restart(&mut self, angle: Angle<S::Scalar>) {
         self.hub = Hub { angle, ..Hub::ZERO };
         if self.stepper.is_directed() {
-            (self.hub.sin, self.hub.cos) = angle.sin_cos();
+            self.hub.aim();
         }
         self.landing = S::Scalar::ZERO;
         self.state = self.stepper.equilibrium(&self.hub);
         self.rest_at(angle);
         self.current = self.tail;
+        self.set_plain();
         self.k = 0;
         self.holding = true;
         self.asleep = false;

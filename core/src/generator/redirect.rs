@@ -29,7 +29,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// # use stillbeam::{Generator, Link, Move, Profile, Scene};
     /// # let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
     /// # let rod = Rod::<2>::new(&scene)?;
-    /// # let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fine, rod.bend(100.0))?;
+    /// # let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fine, rod.bend(150.0))?;
     /// # let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
     /// let planner = Still::<f32, 2>::new(&scene, 0.010)?;
     /// arm.push(&Move::To { profile: Profile::Cubic, duration: 0.3, to: 1.57 })?;
@@ -66,7 +66,10 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return Err(Error::QueueFull { needed, free });
         }
         match place {
-            Place::Current(k) => self.current = self.current.broken_off(k),
+            Place::Current(k) => {
+                self.current = self.current.broken_off(k);
+                self.set_plain();
+            }
             Place::Waiting(index, k) => {
                 if let Some(segment) = self.queue.iter_mut().nth(index) {
                     *segment = segment.broken_off(k);

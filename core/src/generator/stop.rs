@@ -20,12 +20,14 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// A move that would be over before the hub could be stopped is finished: that is the quickest
     /// stop on its path, and within the limits it was accepted for.
     pub(crate) fn brake(&mut self, braking: &Braking<S::Scalar>, arrival: Option<Arrival>) {
+        self.landing = self.landing();
         if self.hub.rate == S::Scalar::ZERO {
             self.queue.clear();
             self.rest_at(self.hub.angle);
             // A move that was about to begin does not.
             self.hub.acceleration = S::Scalar::ZERO;
             self.current = self.tail;
+            self.set_plain();
             self.k = 0;
             self.holding = true;
             self.asleep = false;
@@ -41,6 +43,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.queue.clear();
         self.rest_at(rest);
         self.current = segment;
+        self.set_plain();
         // The right-hand value, where it drops.
         self.hub.acceleration = acceleration;
         // Wraps to the segment's tick 0 at the next tick.

@@ -1,6 +1,6 @@
 //! Symmetric band matrices and their LDLᵀ factors.
 
-use super::Scalar;
+use super::{Scalar, dot};
 
 /// Symmetric `N × N` matrix with `W − 1` sub-diagonals, row-wise: `rows[i][d] = A[i][i − d]`.
 ///
@@ -70,27 +70,82 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
         y
     }
 
+    /// The diagonal.
+    #[inline(always)]
+    pub(crate) fn diagonal(&self) -> [T; N] {
+        self.rows.map(|row| row[0])
+    }
+
+    /// `A x` of a diagonal matrix, whatever its band could hold.
+    #[inline(always)]
+    pub(crate) fn diagonal_times(&self, x: &[T; N]) -> [T; N] {
+        let mut y = *x;
+        for i in 0..N {
+            y[i] = self.rows[i][0] * x[i];
+        }
+        y
+    }
+
+    /// `A + diag(d)`.
+    #[inline(always)]
+    pub(crate) fn plus_diagonal(&self, d: &[T; N]) -> Self {
+        let mut sum = *self;
+        for i in 0..N {
+            sum.rows[i][0] += d[i];
+        }
+        sum
+    }
+
+    /// `vᵢᵀA vⱼ` for the vectors `vᵢ`, as far as the band of the result holds it. Set-up only.
+    pub(crate) fn onto<const K: usize, const V: usize>(&self, vectors: &[[T; N]; K]) -> Band<T, K, V> {
+        let mut reduced = Band::ZERO;
+        for i in 0..K {
+            let column = self.times(&vectors[i]);
+            for j in (i + 1).saturating_sub(V)..=i {
+                reduced.add(i, j, dot(&vectors[j], &column));
+            }
+        }
+        reduced
+    }
+
+    /// Solves `A x = b` for a matrix whose factors are used once: the last pivot divides.
+    #[inline(always)]
+    pub fn solve(&self, b: &[T; N]) -> [T; N] {
+        let Ldl { lower, inverse } = self.factor();
+        let mut x = *b;
+        for i in 0..N {
+            for d in 1..W {
+                if d <= i {
+                    x[i] -= lower[i][d] * x[i - d];
+                }
+            }
+        }
+        for i in 0..N - 1 {
+            x[i] = x[i] * inverse[i];
+        }
+        x[N - 1] = x[N - 1] / lower[N - 1][0];
+        for i in (0..N).rev() {
+            for d in 1..W {
+                if d <= i {
+                    x[i - d] -= lower[i][d] * x[i];
+                }
+            }
+        }
+        x
+    }
+
     /// `s A`.
     #[inline(always)]
     pub fn scaled(&self, s: T) -> Self {
         Self { rows: self.rows.map(|row| row.map(|entry| s * entry)) }
     }
 
-    /// `½ xᵀA x`, at half the cost of the product.
-    #[inline(always)]
-    pub fn half_form(&self, x: &[T; N]) -> T {
-        let mut on = self.rows[0][0] * x[0] * x[0];
-        let mut off = T::ZERO;
-        for i in 1..N {
-            on += self.rows[i][0] * x[i] * x[i];
-            for d in 1..W {
-                if d <= i {
-                    let product = self.rows[i][d] * x[i - d] * x[i];
-                    off = if i == 1 { product } else { off + product };
-                }
-            }
+    /// `½ xᵀA x` as a function of `x`.
+    pub(crate) fn half_form(mut self) -> HalfForm<T, N, W> {
+        for row in &mut self.rows {
+            row[0] = T::HALF * row[0];
         }
-        if N == 1 { T::HALF * on } else { T::HALF * on + off }
+        HalfForm { rows: self.rows }
     }
 
     /// `LDLᵀ` factors by symmetric elimination without pivoting, which a positive definite
@@ -129,6 +184,33 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
             inverse[i] = T::ONE / pivot;
         }
         Ldl { lower, inverse }
+    }
+}
+
+/// `½ xᵀA x`: the lower triangle of `A`, its diagonal halved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HalfForm<T, const N: usize, const W: usize> {
+    rows: [[T; W]; N],
+}
+
+impl<T: Scalar, const N: usize, const W: usize> HalfForm<T, N, W> {
+    /// Its value, at half the cost of the product `A x`.
+    #[inline(always)]
+    pub(crate) fn at(&self, x: &[T; N]) -> T {
+        let row = |i: usize| {
+            let mut sum = self.rows[i][0] * x[i];
+            for d in 1..W {
+                if d <= i {
+                    sum += self.rows[i][d] * x[i - d];
+                }
+            }
+            sum * x[i]
+        };
+        let mut form = row(0);
+        for i in 1..N {
+            form += row(i);
+        }
+        form
     }
 }
 

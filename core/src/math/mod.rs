@@ -9,6 +9,7 @@ mod least_squares;
 mod propagator;
 mod scalar;
 
+pub(crate) use band::HalfForm;
 pub use band::{Band, Ldl};
 pub(crate) use jacobi::generalized_eigen;
 pub(crate) use least_squares::LeastSquares;

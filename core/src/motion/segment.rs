@@ -35,6 +35,12 @@ impl<T: Scalar> Hub<T> {
         sin: T::ZERO,
         cos: T::ONE,
     };
+
+    /// Sine and cosine of where it is.
+    #[inline(never)]
+    pub(crate) fn aim(&mut self) {
+        (self.sin, self.cos) = self.angle.sin_cos();
+    }
 }
 
 /// A stretch of the motion with one formula, `u = −1..1` over its length. About the middle the
@@ -64,7 +70,30 @@ pub struct Segment<T> {
     /// What the tick before the first tick needs to know of the border within it: see
     /// [`Stepper::shift`](crate::Stepper::shift). Zero where the border is a tick.
     entry: T,
-    shape: Shape<T>,
+    /// What a cubic consists of; of the other shapes, their first coefficients.
+    low: [T; 3],
+    rest: Rest<T>,
+}
+
+/// What a shape has beyond its first three coefficients. Apart from those, so that a tick of a
+/// cubic need not look which shape it is, and taking a cubic up moves nothing else.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rest<T> {
+    Cubic,
+    /// `c₄`, `c₅`.
+    Quintic([T; 2]),
+    /// `a`, `b`.
+    Harmonic([T; 2]),
+    Bulged {
+        high: [T; 2],
+        d: [T; BULGE],
+    },
+    /// Constant rate (rad/s). `step / 2⁶⁴` turns a tick, multiplied out in integers: after 10⁹
+    /// ticks the angle is within 6e-11 turn.
+    Cruise {
+        rate: T,
+        step: i64,
+    },
 }
 
 /// Turns from the segment's middle, as a function of `u`.
@@ -79,9 +108,6 @@ pub(crate) enum Shape<T> {
     /// `c₁u + … + c₅u⁵ + (1 − u²)³(d₀ + d₁u + … + d₅u⁵)`: the second term bulges between the ends
     /// and changes neither angle, rate nor acceleration there.
     Bulged { c: [T; 5], d: [T; BULGE] },
-    /// Constant rate (rad/s). `step / 2⁶⁴` turns a tick, multiplied out in integers: after 10⁹
-    /// ticks the angle is within 6e-11 turn.
-    Cruise { rate: T, step: i64 },
 }
 
 impl<T: Scalar> Segment<T> {
@@ -104,34 +130,41 @@ impl<T: Scalar> Segment<T> {
     /// Moves the hub, but for its sine and cosine, to the segment's tick `k`, `k < count`.
     #[inline(always)]
     pub(crate) fn drive(&self, hub: &mut Hub<T>, k: u32) {
-        if let Shape::Cubic(c) = self.shape {
-            let u = self.offset + T::from_u32(k) * self.advance;
-            (hub.angle, hub.rate, hub.acceleration) = self.scaled(cubic(c, u));
+        if self.is_cubic() {
+            self.drive_cubic(hub, k);
         } else {
             self.drive_otherwise(hub, k);
         }
     }
 
+    /// [`Self::drive`] of a cubic.
+    #[inline(always)]
+    pub(crate) fn drive_cubic(&self, hub: &mut Hub<T>, k: u32) {
+        let u = self.offset + T::from_u32(k) * self.advance;
+        (hub.angle, hub.rate, hub.acceleration) = self.scaled(cubic(self.low, u));
+    }
+
     /// What is no cubic, out of the way of those that are: most ticks are theirs.
     #[inline(never)]
     fn drive_otherwise(&self, hub: &mut Hub<T>, k: u32) {
-        (hub.angle, hub.rate, hub.acceleration) = match self.shape {
-            Shape::Cruise { rate, step } => (self.origin.cruise(step, k), rate, T::ZERO),
+        (hub.angle, hub.rate, hub.acceleration) = match self.rest {
+            Rest::Cruise { rate, step } => (self.origin.cruise(step, k), rate, T::ZERO),
             _ => self.scaled(self.derivatives(self.offset + T::from_u32(k) * self.advance)),
         };
     }
 
     #[inline(always)]
     fn derivatives(&self, u: T) -> Derivatives<T> {
-        match self.shape {
-            Shape::Cubic(c) => cubic(c, u),
-            Shape::Quintic(c) => quintic(c, u),
-            Shape::Bulged { c, d } => {
-                let (base, bulge) = (quintic(c, u), bulge(&d, u));
+        let [c1, c2, c3] = self.low;
+        match self.rest {
+            Rest::Cubic => cubic(self.low, u),
+            Rest::Quintic([c4, c5]) => quintic([c1, c2, c3, c4, c5], u),
+            Rest::Bulged { high: [c4, c5], d } => {
+                let (base, bulge) = (quintic([c1, c2, c3, c4, c5], u), bulge(&d, u));
                 (base.0 + bulge.0, base.1 + bulge.1, base.2 + bulge.2)
             }
-            Shape::Harmonic { c, a, b } => harmonic(c, a, b, u),
-            Shape::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
+            Rest::Harmonic([a, b]) => harmonic([c1, c2], a, b, u),
+            Rest::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
         }
     }
 
@@ -144,8 +177,8 @@ impl<T: Scalar> Segment<T> {
     /// The hub any real number of ticks after the segment's first, for solvers that choose their
     /// own steps. May be negative down to the segment's true beginning.
     pub fn hub_at(&self, ticks: T) -> Hub<T> {
-        let (angle, rate, acceleration) = match self.shape {
-            Shape::Cruise { rate, step } => {
+        let (angle, rate, acceleration) = match self.rest {
+            Rest::Cruise { rate, step } => {
                 (self.origin.plus(T::from_fraction(step) * ticks), rate, T::ZERO)
             }
             _ => self.scaled(self.derivatives(self.offset + ticks * self.advance)),
@@ -172,7 +205,7 @@ impl<T: Scalar> Segment<T> {
     /// The same quintic with another bulge, turns; any other shape as it is.
     #[inline(always)]
     pub(crate) fn bulged(mut self, bulge: &[T; BULGE]) -> Self {
-        if let Shape::Bulged { d, .. } = &mut self.shape {
+        if let Rest::Bulged { d, .. } = &mut self.rest {
             *d = *bulge;
         }
         self
@@ -192,11 +225,40 @@ impl<T: Scalar> Segment<T> {
 
     /// θ̈ of a cubic at its beginning, at its first tick and at its last.
     pub(crate) fn accelerations(&self) -> [T; 3] {
-        let Shape::Cubic([_, c2, c3]) = self.shape else { return [T::ZERO; 3] };
+        if !self.is_cubic() {
+            return [T::ZERO; 3];
+        }
+        let [_, c2, c3] = self.low;
         let scale = self.acceleration_scale;
         let (middle, slope) = (c2 * scale, (T::TWO + T::ONE) * c3 * scale);
         let last = self.offset + T::from_u32(self.count.saturating_sub(1)) * self.advance;
         [-T::ONE, self.offset, last].map(|u| middle + slope * u)
+    }
+
+    /// Whether it is a cubic: its θ̈ is then a straight line.
+    #[inline(always)]
+    pub(crate) fn is_cubic(&self) -> bool {
+        matches!(self.rest, Rest::Cubic)
+    }
+
+    /// Becomes `other`. A cubic is copied in a fraction of the instructions that a segment with all
+    /// its coefficients takes.
+    #[inline(always)]
+    pub(crate) fn become_like(&mut self, other: &Self) {
+        self.origin = other.origin;
+        self.count = other.count;
+        self.offset = other.offset;
+        self.advance = other.advance;
+        self.rate_scale = other.rate_scale;
+        self.acceleration_scale = other.acceleration_scale;
+        self.landing = other.landing;
+        self.entry = other.entry;
+        self.low = other.low;
+        if other.is_cubic() {
+            self.rest = Rest::Cubic;
+        } else {
+            self.rest = other.rest;
+        }
     }
 
     /// The same segment, ending `count` ticks after its beginning.
@@ -231,6 +293,25 @@ impl<T: Scalar> Angle<T> {
 }
 
 impl<T: Scalar> Shape<T> {
+    fn low(&self) -> [T; 3] {
+        match *self {
+            Self::Cubic(c) => c,
+            Self::Harmonic { c: [c1, c2], .. } => [c1, c2, T::ZERO],
+            Self::Quintic([c1, c2, c3, _, _]) | Self::Bulged { c: [c1, c2, c3, _, _], .. } => {
+                [c1, c2, c3]
+            }
+        }
+    }
+
+    fn rest(&self) -> Rest<T> {
+        match *self {
+            Self::Cubic(_) => Rest::Cubic,
+            Self::Quintic([_, _, _, c4, c5]) => Rest::Quintic([c4, c5]),
+            Self::Harmonic { a, b, .. } => Rest::Harmonic([a, b]),
+            Self::Bulged { c: [_, _, _, c4, c5], d } => Rest::Bulged { high: [c4, c5], d },
+        }
+    }
+
     /// `Δ(−1)`, `Δ(1)` and `d²Δ/du²(1)`.
     fn ends(&self) -> [T; 3] {
         let n = T::from_f64;
@@ -243,7 +324,6 @@ impl<T: Scalar> Shape<T> {
             Self::Harmonic { c: [c1, c2], b, .. } => {
                 (c1, c2 - n(2.0) * b, n(2.0) * c2 + n(PI * PI) * b)
             }
-            Self::Cruise { .. } => (T::ZERO, T::ZERO, T::ZERO),
         };
         [even - odd, even + odd, bend]
     }
@@ -273,7 +353,8 @@ impl<T: Scalar> Segment<T> {
             acceleration_scale,
             landing: T::HALF * landing * acceleration_scale,
             entry: T::ZERO,
-            shape,
+            low: shape.low(),
+            rest: shape.rest(),
         }
     }
 
@@ -290,7 +371,8 @@ impl<T: Scalar> Segment<T> {
             acceleration_scale: T::ZERO,
             landing: T::ZERO,
             entry: T::ZERO,
-            shape: Shape::Cruise { rate: T::from_f64(rate), step },
+            low: [T::ZERO; 3],
+            rest: Rest::Cruise { rate: T::from_f64(rate), step },
         }
     }
 }
@@ -308,12 +390,13 @@ impl Segment<f64> {
             acceleration_scale: f(self.acceleration_scale),
             landing: f(self.landing),
             entry: f(self.entry),
-            shape: match self.shape {
-                Shape::Cubic(c) => Shape::Cubic(c.map(f)),
-                Shape::Quintic(c) => Shape::Quintic(c.map(f)),
-                Shape::Harmonic { c, a, b } => Shape::Harmonic { c: c.map(f), a: f(a), b: f(b) },
-                Shape::Bulged { c, d } => Shape::Bulged { c: c.map(f), d: d.map(f) },
-                Shape::Cruise { rate, step } => Shape::Cruise { rate: f(rate), step },
+            low: self.low.map(f),
+            rest: match self.rest {
+                Rest::Cubic => Rest::Cubic,
+                Rest::Quintic(high) => Rest::Quintic(high.map(f)),
+                Rest::Harmonic(ab) => Rest::Harmonic(ab.map(f)),
+                Rest::Bulged { high, d } => Rest::Bulged { high: high.map(f), d: d.map(f) },
+                Rest::Cruise { rate, step } => Rest::Cruise { rate: f(rate), step },
             },
         }
     }

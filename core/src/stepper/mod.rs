@@ -61,6 +61,34 @@ pub trait Stepper {
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
     fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
 
+    /// Whether there are plain ticks at all, see [`Self::is_plain`]: what has none takes no room for
+    /// them.
+    const PLAIN: bool = false;
+
+    /// Whether the scene leaves so little to do that the ticks inside a cubic are to be advanced by
+    /// [`Self::advance_in_cubic`]. Only of an arm that is not [directed](Self::is_directed).
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        false
+    }
+
+    /// [`Self::step`] and [`Self::response`] in one, where θ̈ is a straight line from the beginning of
+    /// the tick to its end: the tick that most ticks are, inlined into [`Generator::tick`]. A stepper
+    /// that is plain says here what it takes then; what it returns is the response to `after`, but for
+    /// rounding.
+    ///
+    /// [`Generator::tick`]: crate::Generator::tick
+    #[inline(always)]
+    fn advance_in_cubic(
+        &self,
+        state: &mut Self::State,
+        before: &Hub<Self::Scalar>,
+        after: &Hub<Self::Scalar>,
+    ) -> Response<Self::Scalar> {
+        self.step(state, before, after);
+        self.response(state, after)
+    }
+
     /// Called before the [`Self::step`] of a tick in which the commanded acceleration jumps or
     /// kinks between the ticks: `moment` is by how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola
     /// with the mean and the ends that `step` is given, rad/s², `s` the fraction of the tick. Steppers that take the rates

@@ -4,7 +4,7 @@ use super::oscillator::{Drive, Oscillator, check_turns, jolt};
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::{Model, Modes};
-use crate::math::{Band, Scalar, cast, dot};
+use crate::math::{Band, HalfForm, Scalar, cast, dot};
 use crate::motion::Hub;
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
@@ -15,37 +15,42 @@ use crate::motion::Hub;
 /// side's last three terms, the force, vanish and `θ̈` is a parabola; the force is taken along as a
 /// straight line to its value at the predicted end, of second order with one evaluation a tick.
 /// What remains is the small-deflection model's own error, about 0.1 (w/L)².
+///
+/// The tick works with `ωa`, `ωȧ` and the force over `ω`: a mode then rests at its force, and the
+/// coupling matrices stay symmetric.
+#[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Modal<T, const K: usize> {
-    tick: f64,
-    terms: Terms,
-    per_tick: T,
     modes: [Oscillator<T>; K],
-    /// What a kink of the motion inside a tick moves `a` and `ȧ` by, see [`jolt`].
-    jolt: [[T; 2]; K],
-    /// `Γ` and `ΦᵀSΦ`.
+    /// `bᵢ/ωᵢ`: `−ωa` at rest under `u = 1`.
+    rest: [T; K],
+    /// `Γᵢⱼ/ωᵢωⱼ`.
     spin: Band<T, K, K>,
-    shortening: Band<T, K, K>,
-    /// Tip deflection per modal coordinate.
+    /// `½ aᵀΦᵀSΦa`.
+    shortening: HalfForm<T, K, K>,
+    /// Tip deflection per `ωa`.
     tip: [T; K],
     reach: T,
-    coupling: [T; K],
-    /// `bᵢωᵢ²`.
+    /// `bᵢωᵢ`.
     support: [T; K],
     /// `J_h + J_r − bᵀb`: the hub's, and the inertia that the kept modes do not carry.
     inertia: T,
+    terms: Terms,
+    per_tick: T,
+    /// What a kink of the motion inside a tick moves `ωa` and `ωȧ` by, see [`jolt`].
+    jolt: [[T; 2]; K],
     alpha: T,
-    /// `α(J_r − bᵀb)` and `βbᵢωᵢ²`.
+    /// `α(J_r − bᵀb)` and `βbᵢωᵢ`.
     drag: T,
     loss: [T; K],
-    /// `g Π`, `g f` and `g S`.
+    /// `g Πᵢⱼ/ωᵢωⱼ`, half its form, `g fᵢ/ωᵢ` and `g S`.
     tension: Band<T, K, K>,
+    bent: HalfForm<T, K, K>,
     weight: [T; K],
     moment: T,
-    /// `ωᵢ²`.
-    stiffness: [T; K],
-    /// Coordinates below which a mode sleeps, and their rates.
+    /// What a mode's `ωa` and `ωȧ` are to be below for it to sleep.
     asleep: [[T; 2]; K],
+    tick: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -55,16 +60,16 @@ struct Terms {
     damping: bool,
 }
 
-/// Modal coordinates and their rates.
+/// Modal coordinates and their rates, times the frequencies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModalState<T, const K: usize> {
-    /// `a`, m √kg.
+    /// `ωa`, m √kg/s.
     pub coordinate: [T; K],
-    /// `ȧ`.
+    /// `ωȧ`.
     pub rate: [T; K],
-    /// Spin and gravity forces.
+    /// Spin and gravity forces over `ω`.
     force: [T; K],
-    /// `Γa`; both at the coordinates that the tick predicted.
+    /// `Γa` over `ω`; both at the coordinates that the tick predicted.
     softening: [T; K],
 }
 
@@ -82,56 +87,48 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let scene = model.scene();
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
         let modes = Modes::of(model);
-        check_turns(&modes.frequency[..K], alpha, beta, tick)?;
-        let onto =
-            |load: &[f64; N]| -> [f64; K] { core::array::from_fn(|k| dot(&modes.shape[k], load)) };
-        let between = |matrix: &Band<f64, N, W>, scale: f64| -> Band<T, K, K> {
-            let mut reduced = Band::ZERO;
-            for i in 0..K {
-                let column = onto(&matrix.times(&modes.shape[i]));
-                for j in 0..=i {
-                    reduced.add(i, j, T::from_f64(scale * column[j]));
-                }
-            }
-            reduced
-        };
-        let coupling = onto(model.coupling());
-        let squared: [f64; K] = core::array::from_fn(|k| modes.frequency[k] * modes.frequency[k]);
-        let support: [f64; K] = core::array::from_fn(|k| coupling[k] * squared[k]);
+        let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);
+        check_turns(&omega, alpha, beta, tick)?;
+        let shape: [[f64; N]; K] = core::array::from_fn(|k| modes.shape[k].map(|x| x / omega[k]));
+        let onto = |load: &[f64; N]| -> [f64; K] { shape.map(|shape| dot(&shape, load)) };
+        let between =
+            |matrix: &Band<f64, N, W>| -> Band<T, K, K> { matrix.onto(&shape).map(T::from_f64) };
+        let rest = onto(model.coupling());
+        let coupling: [f64; K] = core::array::from_fn(|k| rest[k] * omega[k]);
+        let support: [f64; K] = core::array::from_fn(|k| coupling[k] * omega[k]);
         let residual = scene.rigid_inertia() - dot(&coupling, &coupling);
+        let tension = between(&model.tension().scaled(gravity));
         Ok(Self {
-            tick,
+            modes: core::array::from_fn(|k| {
+                Oscillator::new(omega[k], alpha, beta, support[k], tick)
+                    .forced_by(omega[k] * omega[k])
+            }),
+            rest: cast(&rest),
+            spin: between(model.spin()),
+            shortening: between(model.shortening()).half_form(),
+            tip: core::array::from_fn(|k| T::from_f64(shape[k][model.tip()])),
+            reach: T::from_f64(scene.reach()),
+            support: cast(&support),
+            inertia: T::from_f64(scene.hub.inertia + residual),
             terms: Terms {
                 spin: true,
                 gravity: gravity != 0.0,
                 damping: alpha != 0.0 || beta != 0.0,
             },
             per_tick: T::from_f64(1.0 / tick),
-            modes: core::array::from_fn(|k| {
-                Oscillator::new(modes.frequency[k], alpha, beta, coupling[k], tick)
-            }),
-            jolt: core::array::from_fn(|k| {
-                jolt(modes.frequency[k], alpha, beta, coupling[k], tick)
-            }),
-            spin: between(model.spin(), 1.0),
-            shortening: between(model.shortening(), 1.0),
-            tip: core::array::from_fn(|k| T::from_f64(modes.shape[k][model.tip()])),
-            reach: T::from_f64(scene.reach()),
-            coupling: cast(&coupling),
-            support: cast(&support),
-            inertia: T::from_f64(scene.hub.inertia + residual),
+            jolt: core::array::from_fn(|k| jolt(omega[k], alpha, beta, support[k], tick)),
             alpha: T::from_f64(alpha),
             drag: T::from_f64(alpha * residual),
             loss: cast(&support.map(|b| beta * b)),
-            tension: between(model.tension(), gravity),
+            tension,
+            bent: tension.half_form(),
             weight: cast(&onto(model.weight()).map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
             asleep: core::array::from_fn(|k| {
-                let tip = modes.shape[k][model.tip()];
-                let floor = super::sleep_floor::<f64>(scene.link.length, tip);
-                [floor, modes.frequency[k] * floor].map(T::from_f64)
+                let floor = super::sleep_floor::<f64>(scene.link.length, shape[k][model.tip()]);
+                [floor, omega[k] * floor].map(T::from_f64)
             }),
-            stiffness: cast(&squared),
+            tick,
         })
     }
 
@@ -141,7 +138,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         self
     }
 
-    /// `(−θ̇²Γa + g sinθ Πa − g cosθ f, Γa)`.
+    /// `(−θ̇²Γa + g sinθ Πa − g cosθ f, Γa)`, over `ω`.
     #[inline(always)]
     fn force(&self, a: &[T; K], hub: &Hub<T>) -> [[T; K]; 2] {
         let (mut force, mut softening) = ([T::ZERO; K], [T::ZERO; K]);
@@ -176,7 +173,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     fn equilibrium(&self, hub: &Hub<T>) -> ModalState<T, K> {
         let mut stiffness = self.tension.map(|x| -(hub.sin * x));
         for k in 0..K {
-            stiffness.add(k, k, self.stiffness[k]);
+            stiffness.add(k, k, T::ONE);
         }
         let coordinate = stiffness.factor().solve(&self.weight.map(|f| -(hub.cos * f)));
         let still = Hub { rate: T::ZERO, ..*hub };
@@ -215,13 +212,56 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         }
     }
 
+    const PLAIN: bool = true;
+
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        let Terms { spin, gravity, damping } = self.terms;
+        spin && !gravity && !damping
+    }
+
+    #[inline(always)]
+    fn advance_in_cubic(
+        &self,
+        state: &mut ModalState<T, K>,
+        before: &Hub<T>,
+        after: &Hub<T>,
+    ) -> Response<T> {
+        let gained = after.acceleration - before.acceleration;
+        let mut y = [[T::ZERO; 2]; K];
+        let (mut predicted, mut driven) = ([T::ZERO; K], [T::ZERO; K]);
+        for k in 0..K {
+            let (rest, force) = (self.rest[k], state.force[k]);
+            y[k] = [state.coordinate[k], state.rate[k]];
+            y[k] = self.modes[k].rotate(y[k], rest, before.acceleration, force);
+            driven[k] = rest * gained + force;
+            predicted[k] = y[k][0] - self.modes[k].ramp(0, rest * gained);
+        }
+        let softening = self.spin.times(&predicted);
+        let square = after.rate * after.rate;
+        let force = softening.map(|f| -(square * f));
+        let (mut coordinate, mut rate) = (state.coordinate, state.rate);
+        for k in 0..K {
+            let change = force[k] - driven[k];
+            coordinate[k] = y[k][0] + self.modes[k].ramp(0, change);
+            rate[k] = y[k][1] + self.modes[k].ramp(1, change);
+        }
+        let next = ModalState { coordinate, rate, force, softening };
+        *state = next;
+        let torque = self.inertial(&next, after.acceleration);
+        Response {
+            torque: torque - self.spin_torque(&next, after.acceleration, after.rate),
+            tip: self.tip_of(&next),
+        }
+    }
+
     #[inline(always)]
     fn is_settled(&self, state: &ModalState<T, K>) -> bool {
         (0..K).all(|k| {
-            let ([near, slow], stiffness) = (self.asleep[k], self.stiffness[k]);
+            let [near, slow] = self.asleep[k];
             let rate = state.rate[k];
-            let pull = state.force[k] - stiffness * state.coordinate[k];
-            rate < slow && -rate < slow && pull < stiffness * near && -pull < stiffness * near
+            let pull = state.force[k] - state.coordinate[k];
+            rate < slow && -rate < slow && pull < near && -pull < near
         })
     }
 
@@ -229,30 +269,50 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     /// − ½ g cosθ aᵀΠa` with `u = θ̈ + αθ̇`; tip `(r + L − ½ aᵀΦᵀSΦa, ψ(L)ᵀa)`.
     #[inline(always)]
     fn response(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
-        let (a, rate) = (&state.coordinate, &state.rate);
+        let a = &state.coordinate;
         let mut u = hub.acceleration;
-        // bᵀ(ä + bu + αȧ): the drive and the drag cancel.
-        let mut torque = self.inertia * u - dot(&self.support, a);
+        let mut torque = self.inertial(state, u);
         if self.terms.damping {
             u += self.alpha * hub.rate;
-            torque += self.drag * hub.rate - dot(&self.loss, rate);
-        }
-        if self.terms.spin || self.terms.gravity {
-            torque += dot(&self.coupling, &state.force);
+            torque += self.drag * hub.rate - dot(&self.loss, &state.rate);
         }
         if self.terms.spin {
-            let twice = T::TWO * hub.rate;
-            let mut arm = *a;
-            for k in 0..K {
-                arm[k] = u * a[k] + twice * rate[k];
-            }
-            torque -= dot(&state.softening, &arm);
+            torque -= self.spin_torque(state, u, hub.rate);
         }
         if self.terms.gravity {
-            let bent = self.tension.half_form(a);
+            let bent = self.bent.at(a);
             torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, a);
         }
-        let tip = [self.reach - self.shortening.half_form(a), dot(&self.tip, a)];
-        Response { torque, tip }
+        Response { torque, tip: self.tip_of(state) }
+    }
+}
+
+impl<T: Scalar, const K: usize> Modal<T, K> {
+    /// `(J_h + J_r − bᵀb)θ̈ + bᵀ(ä + bu + αȧ + βω²ȧ)`: the drive and the drag cancel, and the force less
+    /// the spring is left.
+    #[inline(always)]
+    fn inertial(&self, state: &ModalState<T, K>, acceleration: T) -> T {
+        let mut pull = state.coordinate;
+        for k in 0..K {
+            pull[k] = pull[k] - state.force[k];
+        }
+        self.inertia * acceleration - dot(&self.support, &pull)
+    }
+
+    /// `u aᵀΓa + 2θ̇ aᵀΓȧ`.
+    #[inline(always)]
+    fn spin_torque(&self, state: &ModalState<T, K>, u: T, rate: T) -> T {
+        let twice = rate + rate;
+        let mut arm = state.coordinate;
+        for k in 0..K {
+            arm[k] = u * arm[k] + twice * state.rate[k];
+        }
+        dot(&state.softening, &arm)
+    }
+
+    #[inline(always)]
+    fn tip_of(&self, state: &ModalState<T, K>) -> [T; 2] {
+        let a = &state.coordinate;
+        [self.reach - self.shortening.at(a), dot(&self.tip, a)]
     }
 }

@@ -16,28 +16,32 @@
 //! `q = q* − c`, `d = d* − c`,
 //!
 //! which needs neither h nor `v` itself, and no difference of large numbers.
+//!
+//! Where the matrices are full (one or two elements, lumped mass), `q` is taken along the principal
+//! axes of `G` in the metric of `K`: `K` is then the identity and `G` a diagonal, and only the solve
+//! with the mass is left to couple the coordinates. The scheme is the same, at a third less work with
+//! one element. Not modes: with `K` exact on the diagonal the lowest of them loses nothing to rounding,
+//! and the spin terms stay off the coupling. Banded matrices would fill; they keep the nodes' `q`.
 
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::Model;
-use crate::math::{Band, Ldl, Scalar, cast, dot, round};
+use crate::math::{Band, HalfForm, Ldl, Scalar, cast, dot, generalized_eigen, round};
 use crate::motion::Hub;
 
 /// Newmark stepper for `N` degrees of freedom in bands of width `W`.
 ///
 /// Second order in the tick; period error `(ωh)²/12`. Unconditionally stable in the linear part.
+// The numbers of a plain tick first: within a short reach of the generator's own.
+#[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Newmark<T, const N: usize, const W: usize> {
-    tick: f64,
-    terms: Terms,
     /// `½hb` with `b = M⁻¹F`.
     turn: [T; N],
-    stiffness: Band<T, N, W>,
-    /// `G`.
+    /// `G`; a diagonal along the principal axes.
     spin: Band<T, N, W>,
     /// `4/h² M + 2/h (αM + βK) + K`, and its factors for ticks on which nothing is added to it.
     effective: Band<T, N, W>,
-    factors: Ldl<T, N, W>,
     /// `−4/h² F`.
     coupling: [T; N],
     /// `J_h + J_r − Fᵀb`: `J_r − Fᵀb` is the part of the rigid inertia that `F` and `v̇` do not
@@ -46,10 +50,20 @@ pub struct Newmark<T, const N: usize, const W: usize> {
     /// `4/h`.
     twice_per_half: T,
     reach: T,
-    /// `S`.
-    shortening: Band<T, N, W>,
+    /// `½ qᵀSq`.
+    shortening: HalfForm<T, N, W>,
+    /// `w(L)` per unit of `q`.
+    tip: [T; N],
+    factors: Ldl<T, N, W>,
+    /// `K`; the identity along the principal axes.
+    stiffness: Band<T, N, W>,
+    terms: Terms,
     /// The tip's deflection is the last degree of freedom, not the last but one.
     tip_last: bool,
+    /// Weights of the squares of `c` and of `d` in what the arm may still swing by, of what it may
+    /// when it is to sleep.
+    awake: [[T; 2]; N],
+    tick: f64,
     /// `2/h (αM + βK)`.
     damping: Band<T, N, W>,
     /// `αF` and `2/h αF`.
@@ -74,10 +88,10 @@ struct Terms {
     damping: bool,
 }
 
-/// The arm's state, in m and slopes.
+/// The arm's state. Of banded matrices in m and slopes, of full ones along the principal axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vibration<T, const N: usize> {
-    /// `q`: deflection (m) and slope of each node in the hub frame.
+    /// `q`: deflection (m) and slope of each node in the hub frame, or their principal coordinates.
     pub deflection: [T; N],
     /// `½h q̇`: half of what it gains a tick.
     pub gain: [T; N],
@@ -93,42 +107,66 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
         let half = P::from_f64(0.5 * tick);
         let per_half = P::ONE / half;
-        let damping =
-            model.mass().scaled(per_half * alpha).plus(per_half * beta, model.stiffness());
-        let effective =
-            damping.plus(per_half * per_half, model.mass()).plus(P::ONE, model.stiffness());
         let turn = model.mass().factor().solve(model.coupling());
         let residual = scene.rigid_inertia() - dot(model.coupling(), &turn);
-        let band = |a: &Band<P, N, W>| a.map(round);
-        let coupling = |scale: P| cast(&model.coupling().map(|f| scale * f));
+        let awake = awake(model, half);
+        let mut nodal = [[P::ZERO; N]; N];
+        for i in 0..N {
+            nodal[i][i] = P::ONE;
+        }
+        let principal =
+            if Self::PRINCIPAL { generalized_eigen(model.stiffness(), model.spin()).1 } else { nodal };
+        let band = |a: &Band<P, N, W>| if Self::PRINCIPAL { a.onto(&principal) } else { *a };
+        let vector = |v: &[P; N]| principal.map(|axis| dot(&axis, v));
+        let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));
+        let damping = mass.scaled(per_half * alpha).plus(per_half * beta, &stiffness);
+        let effective = damping.plus(per_half * per_half, &mass).plus(P::ONE, &stiffness);
+        let coupling = vector(model.coupling());
+        let scaled = |scale: P| cast(&coupling.map(|f| scale * f));
+        // M⁻¹F along the axes of V is V⁻¹M⁻¹F, and V⁻¹ = VᵀK.
+        let turn = if Self::PRINCIPAL { vector(&model.stiffness().times(&turn)) } else { turn };
         Ok(Self {
-            tick,
+            turn: cast(&turn.map(|b| half * b)),
+            spin: band(model.spin()).map(round),
+            effective: effective.map(round),
+            coupling: scaled(-per_half * per_half),
+            inertia: round(scene.hub.inertia + residual),
+            twice_per_half: round(P::TWO * per_half),
+            reach: round(scene.reach()),
+            shortening: band(model.shortening()).map(round).half_form(),
+            tip: principal.map(|axis| round(axis[model.tip()])),
+            factors: effective.factor().map(round),
+            stiffness: stiffness.map(round),
             terms: Terms {
                 spin: true,
                 gravity: gravity != P::ZERO,
                 damping: alpha != P::ZERO || beta != P::ZERO,
             },
-            turn: cast(&turn.map(|b| half * b)),
-            stiffness: band(model.stiffness()),
-            spin: band(model.spin()),
-            factors: effective.factor().map(round),
-            effective: band(&effective),
-            coupling: coupling(-per_half * per_half),
-            inertia: round(scene.hub.inertia + residual),
-            twice_per_half: round(P::TWO * per_half),
-            reach: round(scene.reach()),
-            shortening: band(model.shortening()),
             tip_last: model.tip() + 1 == N,
-            damping: band(&damping),
-            drag: coupling(alpha),
-            drag_torque: coupling(per_half * alpha),
+            awake: principal.map(|axis| {
+                // As far as the node that moves most.
+                let most = (0..N).fold([P::ZERO; 2], |most, i| {
+                    [0, 1].map(|of| {
+                        let moved = awake[i][of] * axis[i] * axis[i];
+                        if moved > most[of] { moved } else { most[of] }
+                    })
+                });
+                most.map(round)
+            }),
+            tick,
+            damping: damping.map(round),
+            drag: scaled(alpha),
+            drag_torque: scaled(per_half * alpha),
             alpha: round(alpha),
             rigid_drag: round(alpha * scene.rigid_inertia()),
-            tension: band(&model.tension().scaled(gravity)),
-            weight: cast(&model.weight().map(|f| gravity * f)),
+            tension: band(model.tension()).scaled(gravity).map(round),
+            weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * scene.first_moment()),
         })
     }
+
+    /// Full matrices are taken along their principal axes.
+    const PRINCIPAL: bool = W == N;
 
     /// Leaves out every term in θ̇²: no centrifugal stiffening or softening, and their share of the
     /// torque. Cheaper, and wrong as soon as `θ̇` is not small against the first frequency.
@@ -146,30 +184,91 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
     /// `w(L)`.
     #[inline(always)]
     fn tip_deflection(&self, q: &[T; N]) -> T {
-        // Both indices are constants: no bounds check, and `q` may stay in registers.
-        if self.tip_last { q[N - 1] } else { q[N.saturating_sub(2)] }
+        if Self::PRINCIPAL {
+            dot(&self.tip, q)
+        } else {
+            // Both indices are constants: no bounds check, and `q` may stay in registers.
+            if self.tip_last { q[N - 1] } else { q[N.saturating_sub(2)] }
+        }
+    }
+
+    /// `K q`.
+    #[inline(always)]
+    fn stiff(&self, q: &[T; N]) -> [T; N] {
+        if Self::PRINCIPAL { *q } else { self.stiffness.times(q) }
+    }
+
+    /// `G q`.
+    #[inline(always)]
+    fn spun(&self, q: &[T; N]) -> [T; N] {
+        if Self::PRINCIPAL { self.spin.diagonal_times(q) } else { self.spin.times(q) }
+    }
+
+    /// `q*` and `d*`, the hub having gained that much rate.
+    #[inline(always)]
+    fn predict(&self, state: &Vibration<T, N>, gained: T) -> ([T; N], [T; N]) {
+        let (mut q, mut d) = (state.deflection, state.gain);
+        for i in 0..N {
+            let d0 = d[i];
+            d[i] = d0 - state.restoring[i] - self.turn[i] * gained;
+            q[i] += d0 + d[i];
+        }
+        (q, d)
+    }
+
+    /// The state from `q*` and `d*` and what restores them.
+    #[inline(always)]
+    fn correct(mut q: [T; N], mut d: [T; N], restoring: [T; N]) -> Vibration<T, N> {
+        for i in 0..N {
+            q[i] -= restoring[i];
+            d[i] -= restoring[i];
+        }
+        Vibration { deflection: q, gain: d, restoring }
+    }
+
+    /// `[E + θ̇²G] c = f + θ̇²G q`, `E` the effective matrix.
+    #[inline(always)]
+    fn solve_turning(&self, mut force: [T; N], q: &[T; N], rate: T) -> [T; N] {
+        let square = rate * rate;
+        if Self::PRINCIPAL {
+            let change = self.spin.diagonal().map(|g| square * g);
+            for i in 0..N {
+                force[i] += change[i] * q[i];
+            }
+            self.effective.plus_diagonal(&change).solve(&force)
+        } else {
+            let change = self.spin.scaled(square);
+            let changed = change.times(q);
+            for i in 0..N {
+                force[i] += changed[i];
+            }
+            self.effective.plus(T::ONE, &change).solve(&force)
+        }
     }
 
     /// `c` from `[4/h² M + 2/h C + K_t] c = K_t q + 2/h C d + αFθ̇ + g cosθ f_g`, with
     /// `K_t = K + θ̇²G − g sinθ K_P`; the factors of set-up serve while `K_t` is `K`.
     #[inline(always)]
     fn solve(&self, q: &[T; N], d: &[T; N], hub: &Hub<T>) -> [T; N] {
-        let mut force = self.stiffness.times(q);
+        let mut force = self.stiff(q);
         self.load(&mut force, d, hub);
         let turns = self.terms.spin && hub.rate != T::ZERO;
-        if !turns && !self.terms.gravity {
-            return self.factors.solve(&force);
+        if !self.terms.gravity {
+            return if turns {
+                self.solve_turning(force, q, hub.rate)
+            } else {
+                self.factors.solve(&force)
+            };
         }
-        let change = match (turns, self.terms.gravity) {
-            (true, false) => self.spin.scaled(hub.rate * hub.rate),
-            (false, _) => self.tension.scaled(-hub.sin),
-            (true, true) => self.spin.scaled(hub.rate * hub.rate).plus(-hub.sin, &self.tension),
-        };
+        let mut change = self.tension.scaled(-hub.sin);
+        if turns {
+            change = change.plus(hub.rate * hub.rate, &self.spin);
+        }
         let changed = change.times(q);
         for i in 0..N {
             force[i] += changed[i];
         }
-        self.effective.plus(T::ONE, &change).factor().solve(&force)
+        self.effective.plus(T::ONE, &change).solve(&force)
     }
 
     /// Adds the forces that do not depend on `q`.
@@ -210,20 +309,47 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
 
     #[inline(always)]
     fn step(&self, state: &mut Vibration<T, N>, before: &Hub<T>, after: &Hub<T>) {
-        let gained = after.rate - before.rate;
-        let mut q = state.deflection;
-        let mut d = state.gain;
-        for i in 0..N {
-            let d0 = d[i];
-            d[i] = d0 - state.restoring[i] - self.turn[i] * gained;
-            q[i] += d0 + d[i];
-        }
+        let (q, d) = self.predict(state, after.rate - before.rate);
         let restoring = self.solve(&q, &d, after);
-        for i in 0..N {
-            q[i] -= restoring[i];
-            d[i] -= restoring[i];
+        *state = Self::correct(q, d, restoring);
+    }
+
+    const PLAIN: bool = N <= 2 && Self::PRINCIPAL;
+
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        let Terms { spin, gravity, damping } = self.terms;
+        spin && !gravity && !damping
+    }
+
+    #[inline(always)]
+    fn advance_in_cubic(
+        &self,
+        state: &mut Vibration<T, N>,
+        before: &Hub<T>,
+        after: &Hub<T>,
+    ) -> Response<T> {
+        let (q, d) = self.predict(state, after.rate - before.rate);
+        let restoring = self.solve_turning(self.stiff(&q), &q, after.rate);
+        let next = Self::correct(q, d, restoring);
+        *state = next;
+        let torque = self.inertial(&next, after.acceleration);
+        Response {
+            torque: torque - self.spin_torque(&next, after.acceleration, after.rate),
+            tip: self.tip_of(&next),
         }
-        *state = Vibration { deflection: q, gain: d, restoring };
+    }
+
+    /// Bounds the swing of every node by the arm's lowest frequency: none is larger than
+    /// `c/(½hω₁)²` and `d/(½hω₁)` make it.
+    #[inline(always)]
+    fn is_settled(&self, state: &Vibration<T, N>) -> bool {
+        let mut swing = T::ZERO;
+        for i in 0..N {
+            let ([c2, d2], c, d) = (self.awake[i], state.restoring[i], state.gain[i]);
+            swing += c2 * c * c + d2 * d * d;
+        }
+        swing < T::ONE
     }
 
     /// `τ = J_h θ̈ + (J_r − Fᵀb)θ̈ + αJ_r θ̇ + Fᵀ(v̇ + αq̇) + g cosθ S − g sinθ f_gᵀq
@@ -233,24 +359,66 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
     fn response(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
         let q = &state.deflection;
         let mut forced = hub.acceleration;
-        let mut torque = self.inertia * hub.acceleration + dot(&self.coupling, &state.restoring);
+        let mut torque = self.inertial(state, hub.acceleration);
         if self.terms.damping {
             forced += self.alpha * hub.rate;
             torque += self.rigid_drag * hub.rate + dot(&self.drag_torque, &state.gain);
         }
         if self.terms.spin {
-            let twice = self.twice_per_half * hub.rate;
-            let mut arm = *q;
-            for i in 0..N {
-                arm[i] = forced * q[i] + twice * state.gain[i];
-            }
-            torque -= dot(&self.spin.times(q), &arm);
+            torque -= self.spin_torque(state, forced, hub.rate);
         }
         if self.terms.gravity {
-            let bent = self.tension.half_form(q);
+            let bent = self.tension.half_form().at(q);
             torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, q);
         }
-        let tip = [self.reach - self.shortening.half_form(q), self.tip_deflection(q)];
-        Response { torque, tip }
+        Response { torque, tip: self.tip_of(state) }
     }
+}
+
+impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
+    /// `(J_h + J_r − Fᵀb) θ̈ + Fᵀv̇`.
+    #[inline(always)]
+    fn inertial(&self, state: &Vibration<T, N>, acceleration: T) -> T {
+        self.inertia * acceleration + dot(&self.coupling, &state.restoring)
+    }
+
+    /// `u qᵀGq + 2θ̇ qᵀGq̇`, `u = θ̈ + αθ̇`.
+    #[inline(always)]
+    fn spin_torque(&self, state: &Vibration<T, N>, forced: T, rate: T) -> T {
+        let q = &state.deflection;
+        let twice = self.twice_per_half * rate;
+        let mut arm = *q;
+        for i in 0..N {
+            arm[i] = forced * q[i] + twice * state.gain[i];
+        }
+        dot(&self.spun(q), &arm)
+    }
+
+    #[inline(always)]
+    fn tip_of(&self, state: &Vibration<T, N>) -> [T; 2] {
+        let q = &state.deflection;
+        [self.reach - self.shortening.at(q), self.tip_deflection(q)]
+    }
+}
+
+/// Weights of `c²` and of `d²` of each node: their sum is below 1 when no node swings by more than
+/// the floor of sleep. `half` is ½h; `ω₁²` by Rayleigh's quotient of the shape that turning bends.
+fn awake<P: Scalar, const N: usize, const W: usize>(
+    model: &Model<N, W, P>,
+    half: P,
+) -> [[P; 2]; N] {
+    let length = model.scene().link.length;
+    let bent = model.stiffness().factor().solve(model.coupling());
+    let square = dot(&bent, model.coupling()) / dot(&bent, &model.mass().times(&bent));
+    let stiff = half * half * square;
+    let floor = P::from_f64(super::SLEEP) * length;
+    let slopes = model.tip() + 1 < N;
+    core::array::from_fn(|i| {
+        // Of consistent elements every other one, of lumped ones the last.
+        let is_slope = slopes && if N.is_multiple_of(2) { i % 2 == 1 } else { i + 1 == N };
+        let reach = if is_slope { length } else { P::ONE };
+        let of_floor = reach / floor;
+        let weight = of_floor * of_floor / stiff;
+        [weight / stiff, weight]
+    })
 }

@@ -45,6 +45,18 @@ impl<T: Scalar> Stepper for Rigid<T> {
         self.weight != T::ZERO
     }
 
+    const PLAIN: bool = true;
+
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        self.weight == T::ZERO && self.drag == T::ZERO
+    }
+
+    #[inline(always)]
+    fn advance_in_cubic(&self, (): &mut (), _: &Hub<T>, hub: &Hub<T>) -> Response<T> {
+        Response { torque: self.inertia * hub.acceleration, tip: [self.reach, T::ZERO] }
+    }
+
     fn equilibrium(&self, _: &Hub<T>) {}
 
     #[inline(always)]

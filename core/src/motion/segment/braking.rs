@@ -1,6 +1,6 @@
 //! From a turning hub to rest, planned in the tick's own precision: a stop cannot wait for set-up.
 
-use super::{Hub, Segment, Shape};
+use super::{Hub, Rest, Segment};
 use crate::Error;
 use crate::math::Scalar;
 use crate::motion::{Angle, Limits};
@@ -122,7 +122,8 @@ impl<T: Scalar> Braking<T> {
             acceleration_scale: T::TWO * tau / (half * half),
             landing: T::ZERO,
             entry: T::ZERO,
-            shape: Shape::Quintic([c1, c2, c3, c4, T::ZERO]),
+            low: [c1, c2, c3],
+            rest: Rest::Quintic([c4, T::ZERO]),
         };
         (segment, origin.plus(c1 + c2 + c3 + c4))
     }
@@ -140,7 +141,8 @@ impl<T: Scalar> Segment<T> {
             acceleration_scale: T::ZERO,
             landing: T::ZERO,
             entry: T::ZERO,
-            shape: Shape::Cruise { rate: T::ZERO, step: 0 },
+            low: [T::ZERO; 3],
+            rest: Rest::Cruise { rate: T::ZERO, step: 0 },
         }
     }
 

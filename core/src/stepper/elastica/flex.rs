@@ -19,35 +19,32 @@ impl<T: Scalar, const K: usize> Flex<T, K> {
     pub const STRAIGHT: Self = Self { coordinate: [T::ZERO; K], rate: [T::ZERO; K] };
 }
 
-/// Rounds of `p̃ = ȧ − nₐ(p̃)`; each adds a digit or more.
+/// Rounds of `p̃ = ȧ − u(p̃)`; each adds a digit or more.
 const ROUNDS: usize = 16;
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// How the arm of a state bends and moves, the hub as it was at that instant.
     pub fn flex(&self, state: &ElasticaState<T, K>, hub: &Hub<T>) -> Flex<T, K> {
-        let value = self.remainder.evaluate(&state.coordinate, &state.momentum, hub);
+        let value = self.remainder.evaluate::<true>(&state.y, hub);
         Flex {
-            coordinate: state.coordinate,
-            rate: core::array::from_fn(|k| state.momentum[k] + value.force[k][0]),
+            coordinate: core::array::from_fn(|k| state.y[k][0] / self.remainder.omega(k)),
+            rate: core::array::from_fn(|k| state.y[k][1] - value.center[k][1]),
         }
     }
 
     /// The state of an arm that bends and moves so, e.g. as measured, on a hub that is as given.
     /// Set-up only.
     pub fn state_of(&self, flex: &Flex<T, K>, hub: &Hub<T>) -> ElasticaState<T, K> {
-        let mut momentum = flex.rate;
-        let mut value = self.remainder.evaluate(&flex.coordinate, &momentum, hub);
+        let mut y: [[T; 2]; K] = core::array::from_fn(|k| {
+            [self.remainder.omega(k) * flex.coordinate[k], flex.rate[k]]
+        });
+        let mut value = self.remainder.evaluate::<true>(&y, hub);
         for _ in 0..ROUNDS {
-            momentum = core::array::from_fn(|k| flex.rate[k] - value.force[k][0]);
-            value = self.remainder.evaluate(&flex.coordinate, &momentum, hub);
+            for k in 0..K {
+                y[k][1] = flex.rate[k] + value.center[k][1];
+            }
+            value = self.remainder.evaluate::<true>(&y, hub);
         }
-        ElasticaState {
-            coordinate: flex.coordinate,
-            momentum,
-            force: value.force,
-            change: [[T::ZERO; 2]; K],
-            torque: value.torque,
-            inertia: value.inertia,
-        }
+        ElasticaState::at(y, value)
     }
 }

@@ -16,14 +16,18 @@
 //! make an explicit step unstable; what drives it, and how it bends, is complete to second order.
 
 mod flex;
+mod mode;
+mod polynomial;
 mod remainder;
 
 pub use flex::Flex;
 
 use remainder::{Remainder, Value};
 
-use super::oscillator::{Drive, Oscillator, check_turns, jolt};
-use super::{Response, Stepper};
+use mode::Mode;
+
+use super::oscillator::{check_turns, jolt};
+use super::{Drive, Response, Stepper};
 use crate::Error;
 use crate::beam::{Expansion, Rod};
 use crate::math::Scalar;
@@ -57,32 +61,38 @@ pub struct Elastica<T, const K: usize> {
     /// ⅛ tick: Hermite interpolation to the middle.
     eighth_tick: T,
     alpha: T,
-    modes: [Oscillator<T>; K],
-    /// What a kink of the motion inside a tick moves `a` and `p̃` by, see [`jolt`].
+    modes: [Mode<T>; K],
+    /// What a kink of the motion inside a tick moves `ωa` and `p̃` by, see [`jolt`].
     jolt: [[T; 2]; K],
     remainder: Remainder<T, K>,
     hub_inertia: T,
-    /// Coordinates below which a mode sleeps, and their rates.
-    asleep: [[T; 2]; K],
+    /// Distance from where a mode rests, in `ωa`, below which it sleeps.
+    asleep: [T; K],
     /// What the range admits: see [`Rod::bend`].
     bend: f64,
     sag: f64,
     flexibility: f64,
 }
 
-/// The arm's state.
+/// The arm's state; [`Elastica::flex`] says what it means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticaState<T, const K: usize> {
-    /// `a`, modal coordinates, m √kg.
-    pub coordinate: [T; K],
-    /// `p̃ = p − bω`.
-    pub momentum: [T; K],
-    /// The remainder `(nₐ, n_p)` of each mode, and its change over the last step.
-    force: [[T; 2]; K],
-    change: [[T; 2]; K],
+    /// `(ωₖaₖ, p̃ₖ)` of each mode, m √kg/s.
+    y: [[T; 2]; K],
+    /// What each mode turns about, and how far that moved in the last step.
+    center: [[T; 2]; K],
+    drift: [[T; 2]; K],
     /// The hub torque but for what is proportional to θ̈, and the inertia that is.
     torque: T,
     inertia: T,
+}
+
+impl<T: Scalar, const K: usize> ElasticaState<T, K> {
+    /// With centres that do not drift.
+    fn at(y: [[T; 2]; K], value: Value<T, K>) -> Self {
+        let Value { center, torque, inertia } = value;
+        Self { y, center, drift: [[T::ZERO; 2]; K], torque, inertia }
+    }
 }
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
@@ -119,17 +129,18 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             alpha: T::from_f64(damping.alpha),
             modes: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                Oscillator::new(omega, damping.alpha, damping.beta, b, step)
+                Mode::new(omega, damping.alpha, damping.beta, b, step)
             }),
             jolt: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                jolt(omega, damping.alpha, damping.beta, b, tick)
+                let [a, p] = jolt::<f64>(omega, damping.alpha, damping.beta, b, tick);
+                [omega * a, p].map(T::from_f64)
             }),
             remainder: Remainder::new(rod, &expansion, &range),
             hub_inertia: T::from_f64(scene.hub.inertia),
             asleep: core::array::from_fn(|k| {
                 let floor = super::sleep_floor::<f64>(scene.link.length, expansion.linear[k].tip);
-                [floor, rod.frequency()[k] * floor].map(T::from_f64)
+                T::from_f64(rod.frequency()[k] * floor)
             }),
             bend,
             sag: rod.bend(0.0),
@@ -138,23 +149,43 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     }
 
     #[inline(always)]
-    fn advance(&self, state: &mut ElasticaState<T, K>, drive: &Drive<T>, end: &Hub<T>) {
-        let mut y = [[T::ZERO; 2]; K];
+    fn advance<const ALL: bool>(
+        &self,
+        state: &mut ElasticaState<T, K>,
+        drive: &Drive<T>,
+        end: &Hub<T>,
+    ) {
+        let ElasticaState { y, center, drift, .. } = state;
         for k in 0..K {
-            let at = [state.coordinate[k], state.momentum[k]];
-            y[k] = self.modes[k].predict(at, drive, state.force[k], state.change[k]);
+            y[k] = self.modes[k].predict::<ALL>(y[k], center[k], drift[k], drive);
         }
-        let Value { force, torque, inertia } =
-            self.remainder.evaluate(&y.map(|y| y[0]), &y.map(|y| y[1]), end);
+        let value = self.remainder.evaluate::<ALL>(y, end);
         for k in 0..K {
-            let change = [0, 1].map(|r| force[k][r] - state.force[k][r]);
-            let excess = [0, 1].map(|r| change[r] - state.change[k][r]);
-            [state.coordinate[k], state.momentum[k]] = self.modes[k].correct(y[k], excess);
-            state.change[k] = change;
+            let moved = [0, 1].map(|r| value.center[k][r] - center[k][r]);
+            y[k] = self.modes[k].correct(y[k], [0, 1].map(|r| moved[r] - drift[k][r]));
+            drift[k] = moved;
         }
-        state.force = force;
-        state.torque = torque;
-        state.inertia = inertia;
+        *center = value.center;
+        state.torque = value.torque;
+        state.inertia = value.inertia;
+    }
+
+    #[inline(always)]
+    fn march<const ALL: bool>(
+        &self,
+        state: &mut ElasticaState<T, K>,
+        drive: &Drive<T>,
+        before: &Hub<T>,
+        after: &Hub<T>,
+    ) {
+        match self.quality {
+            Quality::Fast => self.advance::<ALL>(state, drive, after),
+            Quality::Fine => {
+                let [first, second] = drive.halves(self.quarter);
+                self.advance::<ALL>(state, &first, &self.middle(before, after));
+                self.advance::<ALL>(state, &second, after);
+            }
+        }
     }
 
     /// The hub in the middle of a tick, by cubic Hermite interpolation.
@@ -202,59 +233,45 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
 
     fn equilibrium(&self, hub: &Hub<T>) -> ElasticaState<T, K> {
         let still = Hub { rate: T::ZERO, ..*hub };
-        let zero = [T::ZERO; K];
-        let mut coordinate = zero;
-        let mut value = self.remainder.evaluate(&coordinate, &zero, &still);
-        // Ω²a = n_p(a), half-way steps: contracting as long as the link carries its weight.
+        let mut y = [[T::ZERO; 2]; K];
+        let mut value = self.remainder.evaluate::<true>(&y, &still);
+        // Half-way steps to the centre: contracting as long as the link carries its weight.
         for _ in 0..EQUILIBRIUM_STEPS {
             for k in 0..K {
-                let next = value.force[k][1] / self.remainder.stiffness(k);
-                coordinate[k] = T::HALF * (coordinate[k] + next);
+                y[k][0] = T::HALF * (y[k][0] + value.center[k][0]);
             }
-            value = self.remainder.evaluate(&coordinate, &zero, &still);
+            value = self.remainder.evaluate::<true>(&y, &still);
         }
-        ElasticaState {
-            coordinate,
-            momentum: zero,
-            force: value.force,
-            change: [[T::ZERO; 2]; K],
-            torque: value.torque,
-            inertia: value.inertia,
-        }
+        ElasticaState::at(y, value)
     }
 
     #[inline(always)]
     fn step(&self, state: &mut ElasticaState<T, K>, before: &Hub<T>, after: &Hub<T>) {
-        let drive = if self.remainder.is_damped() {
-            Drive::between(before, after, self.per_tick, self.alpha)
+        if self.remainder.is_damped() || self.remainder.is_directed() {
+            let drive = Drive::between(before, after, self.per_tick, self.alpha);
+            self.march::<true>(state, &drive, before, after);
         } else {
-            Drive::undamped(before, after, self.per_tick)
-        };
-        match self.quality {
-            Quality::Fast => self.advance(state, &drive, after),
-            Quality::Fine => {
-                let [first, second] = drive.halves(self.quarter);
-                self.advance(state, &first, &self.middle(before, after));
-                self.advance(state, &second, after);
-            }
+            let drive = Drive::undamped(before, after, self.per_tick);
+            self.march::<false>(state, &drive, before, after);
         }
     }
 
     fn shift(&self, state: &mut ElasticaState<T, K>, moment: T) {
         for k in 0..K {
-            state.coordinate[k] += self.jolt[k][0] * moment;
-            state.momentum[k] += self.jolt[k][1] * moment;
+            for r in 0..2 {
+                state.y[k][r] += self.jolt[k][r] * moment;
+            }
         }
     }
 
     #[inline(always)]
     fn is_settled(&self, state: &ElasticaState<T, K>) -> bool {
         (0..K).all(|k| {
-            let [near, slow] = self.asleep[k];
-            let rate = state.momentum[k] + state.force[k][0];
-            let stiffness = self.remainder.stiffness(k);
-            let pull = state.force[k][1] - stiffness * state.coordinate[k];
-            rate < slow && -rate < slow && pull < stiffness * near && -pull < stiffness * near
+            let floor = self.asleep[k];
+            (0..2).all(|r| {
+                let off = state.y[k][r] - state.center[k][r];
+                off < floor && -off < floor
+            })
         })
     }
 
@@ -262,7 +279,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     fn response(&self, state: &ElasticaState<T, K>, hub: &Hub<T>) -> Response<T> {
         Response {
             torque: state.torque + (state.inertia + self.hub_inertia) * hub.acceleration,
-            tip: self.remainder.tip(&state.coordinate),
+            tip: self.remainder.tip(state.y.map(|y| y[0])),
         }
     }
 }

@@ -1,109 +1,114 @@
-//! What the exact kinematics add to the linear oscillators.
+//! What the exact kinematics add to the linear oscillators, as the centres that these turn about.
 
-use crate::beam::monomials::{EVEN, MAX_EVEN, MAX_ODD, ODD, Powers};
-use crate::beam::{Even, Expansion, Odd, Rod};
-use crate::math::{Scalar, cast, dot};
+use super::polynomial::{Axial, Even, Local, Odd, Order, Shape};
+use crate::beam::monomials::{EVEN, ODD};
+use crate::beam::{Expansion, Rod};
+use crate::math::{Scalar, cast};
 use crate::motion::Hub;
 
-/// The expansion in the tick's scalar, gravity multiplied in.
+/// The expansion in the tick's scalar and in scaled coordinates, gravity multiplied in.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Remainder<T, const K: usize> {
-    even: [Even<T, K>; MAX_EVEN],
-    odd: [Odd<T>; MAX_ODD],
-    linear: [Odd<T>; K],
+    /// `Cₖ₁`, `dₖ` and `e` without their values at rest.
+    c: [Even<T, K>; K],
+    d: [Even<T, K>; K],
+    e: Even<T, K>,
+    /// `Cₖ₂` likewise, `k > 1`.
+    second: [Axial<T>; K],
     /// `b = d(0)`, `e(0)`.
     coupling: [T; K],
-    e: T,
-    moment: T,
-    tip: T,
-    /// `ωᵢ²`, `βωᵢ²`.
-    stiffness: [T; K],
+    e_at_rest: T,
+    /// `g ∫ρA (X, Y) dx`, payload included.
+    moment_at_rest: T,
+    moment: (Even<T, K>, Odd<T, K>),
+    tip_at_rest: T,
+    tip: (Even<T, K>, Odd<T, K>),
+    /// `ωₖ`, `βωₖ²`.
+    omega: [T; K],
     loss: [T; K],
+    /// `α` and `α/ωₖ`.
     alpha: T,
+    drag: [T; K],
     gravity: bool,
-    /// Is there damping?
     damping: bool,
-    /// Where `a`, the first mode's `p̃` and the second's rate are clipped.
-    coordinate_range: [T; K],
-    momentum_range: T,
-    rate_range: T,
+    /// Beyond this sum of squares the arguments are scaled down; weights of the modes in it.
+    reach: T,
+    weight: [T; K],
 }
 
 /// The remainder at one instant.
 pub(super) struct Value<T, const K: usize> {
-    /// `(nₐ, n_p)` of each mode.
-    pub force: [[T; 2]; K],
+    /// What each mode turns about.
+    pub center: [[T; 2]; K],
     /// `ṫ + αt + ∂V/∂θ` but for what is proportional to θ̈.
     pub torque: T,
     /// What is.
     pub inertia: T,
 }
 
+/// `C`, `d`, `e` at one shape.
+struct Forms<T, const K: usize> {
+    c: [Local<T, K>; K],
+    d: [Local<T, K>; K],
+    e: Local<T, K>,
+    /// `Cₖ₂` and half its slope along the first mode.
+    second: [(T, T); K],
+}
+
 /// How the arm moves.
 struct Flow<T, const K: usize> {
-    /// `(p, v₂)`; a third is not used.
-    z: [T; K],
-    /// `Cz − dω` without its value at `a = 0`: `ȧ = p̃ + u`.
+    omega: T,
+    /// `p` and `v₂`: the third mode's velocity acts on nothing.
+    p: T,
+    v2: T,
+    /// `ȧ = p̃ + u`.
     u: [T; K],
-    /// `ȧ`.
     rate: [T; K],
     /// One over the second mode's inertia.
     lightness: T,
 }
 
-/// `C`, `d`, `e` without their values at `a = 0`, or their rates of change.
-#[derive(Clone, Copy)]
-struct Form<T, const K: usize> {
-    c: [[T; K]; K],
-    d: [T; K],
-    e: T,
-}
-
-impl<T: Scalar, const K: usize> Form<T, K> {
-    const ZERO: Self = Self { c: [[T::ZERO; K]; K], d: [T::ZERO; K], e: T::ZERO };
-
-    #[inline(always)]
-    fn add(&mut self, mu: T, term: &Even<T, K>) {
-        for i in 0..K {
-            // The third mode's own inertia is the straight link's.
-            for j in 0..=i.min(1) {
-                self.c[i][j] += mu * term.c[i][j];
-            }
-            self.d[i] += mu * term.d[i];
-        }
-        self.e += mu * term.e;
-    }
-}
-
 impl<T: Scalar, const K: usize> Remainder<T, K> {
     pub(super) fn new(rod: &Rod<K>, expansion: &Expansion<K>, range: &[f64; K]) -> Self {
         let f = T::from_f64;
-        let scene = rod.scene();
+        let (scene, omega) = (rod.scene(), rod.frequency());
         let g = scene.gravity;
-        let squared: [f64; K] = rod.frequency().map(|omega| omega * omega);
-        let odd = |term: Odd<f64>| Odd { moment: f(g * term.moment), tip: f(term.tip) };
+        let (terms, odd) = (&expansion.even, &expansion.odd);
+        let even = |of: &dyn Fn(usize) -> f64| Even::new(&EVEN, omega, of);
+        let linear = &expansion.linear;
         Self {
-            even: expansion.even.map(|term| Even {
-                c: term.c.map(|row| row.map(f)),
-                d: term.d.map(f),
-                e: f(term.e),
-                moment: f(g * term.moment),
-                tip: f(term.tip),
+            c: core::array::from_fn(|k| even(&|n| terms[n].c[k][0])),
+            d: core::array::from_fn(|k| even(&|n| terms[n].d[k])),
+            e: even(&|n| terms[n].e),
+            second: core::array::from_fn(|k| {
+                Axial::of(&even(&|n| if K > 1 { terms[n].c[k][1 % K] } else { 0.0 }))
             }),
-            odd: expansion.odd.map(odd),
-            linear: expansion.linear.map(odd),
             coupling: cast(&expansion.coupling),
-            e: f(expansion.e),
-            moment: f(g * expansion.moment),
-            tip: f(expansion.tip),
-            stiffness: cast(&squared),
-            loss: cast(&squared.map(|w2| scene.damping.beta * w2)),
+            e_at_rest: f(expansion.e),
+            moment_at_rest: f(g * expansion.moment),
+            moment: (
+                even(&|n| g * terms[n].moment),
+                Odd::new(&ODD, omega, |k| g * linear[k].moment, |n| g * odd[n].moment),
+            ),
+            tip_at_rest: f(expansion.tip),
+            tip: (
+                even(&|n| terms[n].tip),
+                Odd::new(&ODD, omega, |k| linear[k].tip, |n| odd[n].tip),
+            ),
+            omega: cast(omega),
+            loss: cast(&omega.map(|omega| scene.damping.beta * omega * omega)),
             alpha: f(scene.damping.alpha),
+            drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
             gravity: g != 0.0,
             damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
-            coordinate_range: range.map(|a| f(CLIP * a)),
-            momentum_range: f(CLIP * rod.frequency()[0] * range[0]),
-            rate_range: f(CLIP * rod.frequency()[1.min(K - 1)] * range[1.min(K - 1)]),
+            reach: f({
+                let largest = CLIP * omega[0] * range[0];
+                largest * largest
+            }),
+            weight: core::array::from_fn(|k| {
+                let share = omega[0] * range[0] / (omega[k] * range[k]);
+                f(share * share)
+            }),
         }
     }
 
@@ -119,191 +124,188 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         self.damping
     }
 
-    /// `ωᵢ²`.
-    pub(super) fn stiffness(&self, k: usize) -> T {
-        self.stiffness[k]
+    /// `ωₖ`.
+    pub(super) fn omega(&self, k: usize) -> T {
+        self.omega[k]
     }
 
-    /// The remainder for `a`, `p̃ = P − bω` and a hub; hub-frame, SI.
+    /// The remainder for `y = (ωa, p̃)` and a hub. Without `ALL` there is neither damping nor gravity.
     #[inline(always)]
-    pub(super) fn evaluate(&self, a: &[T; K], p_tilde: &[T; K], hub: &Hub<T>) -> Value<T, K> {
-        let a: [T; K] = core::array::from_fn(|k| within(a[k], self.coordinate_range[k]));
-        let powers = Powers::new(&a);
-        let mut form = Form::ZERO;
-        EVEN.each::<K>(|n, e| form.add(powers.of(e), &self.even[n]));
-        let flow = self.flow(&form, p_tilde, hub.rate);
-        let (gradient, weight) = self.gradient(&a, &powers, &flow, hub);
-        let force = core::array::from_fn(|k| {
-            let loss = if self.damping { self.loss[k] * flow.u[k] } else { T::ZERO };
-            [flow.u[k], -(gradient[k] + loss)]
+    pub(super) fn evaluate<const ALL: bool>(&self, y: &[[T; 2]; K], hub: &Hub<T>) -> Value<T, K> {
+        let (x, p) = self.within_reach(y);
+        let shape = Shape::new(x);
+        let forms = self.forms(&shape);
+        let flow = self.flow(&forms, &p, hub.rate);
+        let mut gradient = gradient(&forms, &flow);
+        let mut weight = T::ZERO;
+        if ALL && self.gravity {
+            weight = self.weigh(&shape, hub, &mut gradient);
+        }
+        let (torque, inertia) = self.torque::<ALL>(&shape, &forms, &flow, &gradient);
+        let torque = if ALL { torque + weight } else { torque };
+        let center = core::array::from_fn(|k| {
+            let drag =
+                if ALL && self.damping { self.drag[k] * flow.u[k] } else { T::ZERO };
+            let at = if ALL { drag - gradient[k] } else { -gradient[k] };
+            [at, -flow.u[k]]
         });
-        let pull = core::array::from_fn(|k| {
-            let loss = if self.damping { self.loss[k] * flow.rate[k] } else { T::ZERO };
-            -(gradient[k] + self.stiffness[k] * a[k] + loss)
-        });
-        let (torque, inertia) = self.torque(&powers, &form, &flow, &pull, hub.rate);
-        Value { force, torque: torque + weight, inertia }
+        Value { center, torque, inertia }
+    }
+
+    /// `x` and `p̃`, scaled down to what keeps the remainder bounded.
+    #[inline(always)]
+    fn within_reach(&self, y: &[[T; 2]; K]) -> ([T; K], [T; K]) {
+        let mut sum = y[0][0] * y[0][0] + y[0][1] * y[0][1];
+        for k in 1..K {
+            let mut square = y[k][0] * y[k][0];
+            if k == 1 {
+                square += y[k][1] * y[k][1];
+            }
+            sum += self.weight[k] * square;
+        }
+        let scale = self.reach / if sum > self.reach { sum } else { self.reach };
+        (y.map(|y| scale * y[0]), y.map(|y| scale * y[1]))
+    }
+
+    #[inline(always)]
+    fn forms(&self, shape: &Shape<T, K>) -> Forms<T, K> {
+        let order = |k| if k == 0 { Order::Second } else { Order::First };
+        Forms {
+            c: core::array::from_fn(|k| self.c[k].at(shape, order(k))),
+            d: core::array::from_fn(|k| self.d[k].at(shape, order(k))),
+            e: self.e.at(shape, Order::Second),
+            second: core::array::from_fn(|k| self.second[k].at(shape)),
+        }
     }
 
     /// Momentum and velocities out of `p̃`.
     #[inline(always)]
-    fn flow(&self, form: &Form<T, K>, p_tilde: &[T; K], omega: T) -> Flow<T, K> {
-        let (c, d) = (&form.c, &form.d);
-        let mut z = *p_tilde;
-        z[0] = within(p_tilde[0], self.momentum_range);
-        let mut rate = z;
-        z[0] += self.coupling[0] * omega;
+    fn flow(&self, forms: &Forms<T, K>, p_tilde: &[T; K], omega: T) -> Flow<T, K> {
+        let Forms { c, d, second, .. } = forms;
+        let p = p_tilde[0] + self.coupling[0] * omega;
+        let along = |k: usize| c[k].value * p - d[k].value * omega;
         let mut u = [T::ZERO; K];
-        let mut lightness = T::ONE;
+        u[0] = along(0);
+        let (mut v2, mut lightness) = (T::ZERO, T::ONE);
         if K > 1 {
-            // v₂ = p̃₂ + u₂, and u₂ holds c₂₂v₂.
-            lightness = T::ONE / at_least(T::ONE - c[1][1], LEAST_INERTIA);
-            let v = (p_tilde[1] + c[1][0] * z[0] - d[1] * omega) * lightness;
-            z[1] = within(v, self.rate_range);
-            rate[1] = z[1];
+            // v₂ = p̃₂ + u₂, and u₂ holds C₂₂v₂.
+            lightness = T::ONE / at_least(T::ONE - second[1].0, LEAST_INERTIA);
+            v2 = (p_tilde[1] + along(1)) * lightness;
+            u[0] += c[1].value * v2;
+            u[1] = v2 - p_tilde[1];
         }
-        for k in 0..K {
-            u[k] = c[k][0] * z[0] - d[k] * omega;
-            if K > 1 {
-                u[k] += c[k.max(1)][k.min(1)] * z[1];
-            }
-            if k != 1 {
-                rate[k] += u[k];
-            }
+        if K > 2 {
+            u[2] = along(2) + second[2].0 * v2;
         }
-        Flow { z, u, rate, lightness }
+        let rate = core::array::from_fn(|k| if k == 1 { v2 } else { p_tilde[k] + u[k] });
+        Flow { omega, p, v2, u, rate, lightness }
     }
 
-    /// `∂R/∂a` without the elastic energy, and `∂V/∂θ`.
+    /// Adds `∂V/∂x` of the weight to the gradient; returns `∂V/∂θ`.
     #[inline(always)]
-    fn gradient(
-        &self,
-        a: &[T; K],
-        powers: &Powers<T, K>,
-        flow: &Flow<T, K>,
-        hub: &Hub<T>,
-    ) -> ([T; K], T) {
-        let (z, omega) = (&flow.z, hub.rate);
-        // R's products of z and ω, half of the squares.
-        let of_first = [T::HALF * (z[0] * z[0]), omega * z[0], T::HALF * (omega * omega)];
-        let of_second =
-            if K > 1 { [z[0] * z[1], T::HALF * (z[1] * z[1]), omega * z[1]] } else { [T::ZERO; 3] };
-        let (mut gradient, mut moment) = ([T::ZERO; K], self.moment);
-        EVEN.each::<K>(|n, e| {
-            let term = &self.even[n];
-            let mut energy =
-                of_first[0] * term.c[0][0] - of_first[1] * term.d[0] + of_first[2] * term.e;
-            if K > 1 {
-                energy += of_second[0] * term.c[1][0] + of_second[1] * term.c[1][1]
-                    - of_second[2] * term.d[1];
-            }
-            if self.gravity {
-                energy += hub.sin * term.moment;
-                moment += powers.of(e) * term.moment;
-            }
-            for k in 0..K {
-                if let Some(slope) = powers.slope(e, k) {
-                    gradient[k] += energy * slope;
-                }
-            }
-        });
-        if !self.gravity {
-            return (gradient, T::ZERO);
-        }
-        let (y, slope) = self.lateral(a, powers);
+    fn weigh(&self, shape: &Shape<T, K>, hub: &Hub<T>, gradient: &mut [T; K]) -> T {
+        let (along, across) = (self.moment.0.at(shape, Order::Second), self.moment.1.slope(shape));
+        let twice = hub.sin + hub.sin;
         for k in 0..K {
-            gradient[k] += hub.cos * slope[k];
+            gradient[k] += twice * along.half_slope[k] + hub.cos * across[k];
         }
-        (gradient, hub.cos * moment - hub.sin * y)
+        hub.cos * (self.moment_at_rest + along.value) - hub.sin * self.moment.1.value(shape)
     }
 
-    /// `ṫ + αt` but for what is proportional to `θ̈`, and what is. `pull` is `−∂R/∂a` and the loss:
-    /// the drag in `Ṗ` and `αt` cancel but for `α` times what is proportional to `θ̈`.
+    /// `ṫ + αt` but for what is proportional to `θ̈`, and what is.
+    ///
+    /// `t = d·z − ωe` changes with `ṗ`, `v̇₂`, `v̇₃`, and these with `Ṗ`: the levers `M⁻¹h` of the
+    /// momenta, last mode first, gather both.
     #[inline(always)]
-    fn torque(
+    fn torque<const ALL: bool>(
         &self,
-        powers: &Powers<T, K>,
-        form: &Form<T, K>,
+        shape: &Shape<T, K>,
+        forms: &Forms<T, K>,
         flow: &Flow<T, K>,
-        pull: &[T; K],
-        omega: T,
+        gradient: &[T; K],
     ) -> (T, T) {
-        let z = &flow.z;
-        let mut change = Form::ZERO;
-        EVEN.each::<K>(|n, e| {
-            let mut rise = None;
+        let Forms { c, d, e, second } = forms;
+        let Flow { omega, p, v2, .. } = *flow;
+        let mut lever = self.coupling;
+        let mut inertia = self.e_at_rest + e.value;
+        // Half the slope of t along each mode, levers held.
+        let mut rise: [T; K] =
+            core::array::from_fn(|k| p * d[0].half_slope[k] - omega * e.half_slope[k]);
+        lever[0] += d[0].value;
+        if K > 2 {
+            // The third mode's lever is the straight link's, as its inertia is.
+            let last = lever[2];
+            inertia += last * last;
+            let by = [last * p, last * v2, last * omega];
             for k in 0..K {
-                if let Some(slope) = powers.slope(e, k) {
-                    let share = flow.rate[k] * slope;
-                    rise = Some(rise.map_or(share, |sum: T| sum + share));
-                }
+                rise[k] += by[0] * c[2].half_slope[k] - by[2] * d[2].half_slope[k];
             }
-            change.add(rise.unwrap_or(T::ZERO), &self.even[n]);
-        });
-        let mut torque = -(change.e * omega);
-        let mut inertia = -(self.e + form.e);
-        // ṗ, v̇₂, v̇₃, and the share of each that is proportional to −θ̈.
-        let (mut faster, mut share) = (*pull, [T::ZERO; K]);
-        for k in 0..K {
-            // Where the third mode is bent far its straight inertia and a lever that grows would
-            // not belong together.
-            let lever = self.coupling[k] + if k < 2 { form.d[k] } else { T::ZERO };
-            if k > 0 {
-                share[k] = lever;
-                faster[k] += change.c[k][0] * z[0] + change.c[k][1] * z[1] - change.d[k] * omega;
-                faster[k] += form.c[k][0] * faster[0];
-            }
-            if k == 1 {
-                faster[1] = faster[1] * flow.lightness;
-                share[1] = share[1] * flow.lightness;
-            } else if k > 1 {
-                faster[k] += form.c[k][1] * faster[1];
-                share[k] += form.c[k][1] * share[1];
-            }
-            torque += lever * faster[k];
-            if k < 2 {
-                torque += change.d[k] * z[k];
-            }
-            inertia -= lever * share[k];
+            rise[0] += by[1] * second[2].1;
+            lever[0] += c[2].value * last;
+            lever[1] += second[2].0 * last;
         }
-        if self.damping {
+        if K > 1 {
+            let full = self.coupling[1] + d[1].value;
+            lever[1] = (lever[1] + d[1].value) * flow.lightness;
+            let own = lever[1];
+            inertia += own * full;
+            let by = [own * p, own * v2, v2 - own * omega];
+            for k in 0..K {
+                rise[k] += by[0] * c[1].half_slope[k] + by[2] * d[1].half_slope[k];
+            }
+            rise[0] += by[1] * second[1].1;
+            lever[0] += c[1].value * own;
+        }
+        let mut torque = T::ZERO;
+        for k in 0..K {
+            let mut share = (rise[k] + rise[k]) * flow.rate[k] - lever[k] * (shape.x[k] + gradient[k]);
+            share = self.omega[k] * share;
+            if ALL && self.damping {
+                share -= lever[k] * (self.loss[k] * flow.rate[k]);
+            }
+            if k == 0 { torque = share } else { torque += share }
+        }
+        let inertia = -inertia;
+        if ALL && self.damping {
+            // The drag in Ṗ and αt cancel but for this.
             torque += self.alpha * inertia * omega;
         }
         (torque, inertia)
     }
 
-    /// `g(∫ρA Y dx + m_p Y_L)` and its gradient.
-    #[inline(always)]
-    fn lateral(&self, a: &[T; K], powers: &Powers<T, K>) -> (T, [T; K]) {
-        let mut slope = self.linear.map(|term| term.moment);
-        let mut y = dot(&slope, a);
-        ODD.each::<K>(|n, e| {
-            let weight = self.odd[n].moment;
-            y += weight * powers.of(e);
-            for k in 0..K {
-                if let Some(rise) = powers.slope(e, k) {
-                    slope[k] += weight * rise;
-                }
-            }
-        });
-        (y, slope)
-    }
-
     /// The tip `(X, Y)` in the hub frame.
     #[inline(always)]
-    pub(super) fn tip(&self, a: &[T; K]) -> [T; 2] {
-        let powers = Powers::new(a);
-        let (mut x, mut y) = (self.tip, T::ZERO);
-        EVEN.each::<K>(|n, e| x += self.even[n].tip * powers.of(e));
-        for k in 0..K {
-            y += self.linear[k].tip * a[k];
-        }
-        ODD.each::<K>(|n, e| y += self.odd[n].tip * powers.of(e));
-        [x, y]
+    pub(super) fn tip(&self, x: [T; K]) -> [T; 2] {
+        let shape = Shape::new(x);
+        let along = self.tip.0.at(&shape, Order::Second).value;
+        [self.tip_at_rest + along, self.tip.1.value(&shape)]
     }
 }
 
-/// Beyond this multiple of the fitted range the remainder's arguments are clipped.
+/// `∂R/∂x` without the elastic energy.
+#[inline(always)]
+fn gradient<T: Scalar, const K: usize>(forms: &Forms<T, K>, flow: &Flow<T, K>) -> [T; K] {
+    let Forms { c, d, e, second } = forms;
+    let Flow { omega, p, v2, .. } = *flow;
+    // R's products of p, v₂ and ω.
+    let twice = p + p;
+    let of_first = [p * p, twice * omega, omega * omega];
+    let mut gradient: [T; K] = core::array::from_fn(|k| {
+        of_first[0] * c[0].half_slope[k] - of_first[1] * d[0].half_slope[k]
+            + of_first[2] * e.half_slope[k]
+    });
+    if K > 1 {
+        let of_second = [twice * v2, (v2 + v2) * omega, v2 * v2];
+        for k in 0..K {
+            gradient[k] +=
+                of_second[0] * c[1].half_slope[k] - of_second[1] * d[1].half_slope[k];
+        }
+        gradient[0] += of_second[2] * second[1].1;
+    }
+    gradient
+}
+
+/// Beyond this multiple of the fitted range the remainder's arguments are scaled down.
 const CLIP: f64 = 1.5;
 
 /// The second mode's inertia, 1 in the straight link, is not taken to be less.
@@ -313,11 +315,4 @@ const LEAST_INERTIA: f64 = 0.25;
 fn at_least<T: Scalar>(x: T, least: f64) -> T {
     let least = T::from_f64(least);
     if x < least { least } else { x }
-}
-
-/// `x` within ± `range`.
-#[inline(always)]
-fn within<T: Scalar>(x: T, range: T) -> T {
-    let least = if x < -range { -range } else { x };
-    if least > range { range } else { least }
 }

@@ -83,8 +83,13 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
 /// Limits in rad/s and rad/s². Half a second of silence is a lost link; two missed ticks are waited
 /// for.
 const fn policy(rate: f64, acceleration: f64) -> Policy {
-    let limits =
-        Limits { rate: Some(rate), acceleration: Some(acceleration), jerk: None, torque: None };
+    let limits = Limits {
+        rate: Some(rate),
+        acceleration: Some(acceleration),
+        jerk: None,
+        torque: None,
+        moment: None,
+    };
     Policy { limits, patience: 50, missed: 2 }
 }
 

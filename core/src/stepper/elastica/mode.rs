@@ -1,0 +1,86 @@
+//! One mode, advanced exactly about a centre that moves.
+
+use crate::math::{Scalar, phi_functions};
+use crate::stepper::Drive;
+use crate::stepper::oscillator::contracting;
+
+/// `ẏ = A(y − r) − (0, b u(t))`, `y = (ωa, p̃)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`.
+///
+/// Everything in m √kg/s. The remainder `n` of the equations of motion is what moves the centre,
+/// `r = −A⁻¹n`: in these coordinates `A⁻¹` is an exchange of rows and costs nothing, and where `n`
+/// stays what it is the mode turns about `r`. With `r` changing by `δ` a step, exactly
+///
+/// `y(h) = o + δ + E(y − o) + …`, `E = exp(hA)`, `o = r + (hA)⁻¹δ`,
+///
+/// which is `hφ₁n₀ + hφ₂(n₁ − n₀)` of the exponential integrators in half the products.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mode<T> {
+    /// `E`, its determinant rounded down to at most the true one, so that rounding never feeds the
+    /// mode energy.
+    turn: [[T; 2]; 2],
+    /// Weights of `u` at the beginning, in the mean and at the end of the step.
+    drive: [[T; 3]; 2],
+    /// `1/(ωh)` and `c/(ω²h)`: `(hA)⁻¹`.
+    per_turn: T,
+    loss_per_turn: T,
+    /// `−h(φ₂/2 + φ₃)A`: corrects for the drift of the centre having been extrapolated.
+    correction: [[T; 2]; 2],
+}
+
+impl<T: Scalar> Mode<T> {
+    /// For a step of `h` s; `omega` in rad/s, `alpha` in 1/s, `beta` in s, `b` the mode's coupling
+    /// to the hub.
+    pub(super) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
+        let loss = alpha + beta * omega * omega;
+        let z = [[0.0, h * omega], [-h * omega, -h * loss]];
+        let [exponential, p1, p2, p3, _] = phi_functions(&z);
+        let f = T::from_f64;
+        Self {
+            turn: contracting(exponential),
+            // u = u₀ + c₁s + c₂s², c₁ = 6ū − 4u₀ − 2u₁, c₂ = 3(u₀ + u₁ − 2ū), s = 0..1:
+            // the response is h(φ₁u₀ + φ₂c₁ + 2φ₃c₂) times the second column.
+            drive: core::array::from_fn(|r| {
+                let (f1, f2, f3) = (h * p1[r][1], h * p2[r][1], h * p3[r][1]);
+                [f1 - 4.0 * f2 + 6.0 * f3, 6.0 * f2 - 12.0 * f3, 6.0 * f3 - 2.0 * f2]
+                    .map(|weight| f(-b * weight))
+            }),
+            per_turn: f(1.0 / (omega * h)),
+            loss_per_turn: f(loss / (omega * omega * h)),
+            correction: core::array::from_fn(|i| {
+                core::array::from_fn(|j| {
+                    let weight = |k: usize| 0.5 * p2[i][k] + p3[i][k];
+                    f(-(weight(0) * z[0][j] + weight(1) * z[1][j]))
+                })
+            }),
+        }
+    }
+
+    /// The state after a step if the centre goes on drifting by `drift` a step.
+    #[inline(always)]
+    pub(super) fn predict<const ALL: bool>(
+        &self,
+        y: [T; 2],
+        center: [T; 2],
+        drift: [T; 2],
+        u: &Drive<T>,
+    ) -> [T; 2] {
+        let mut lead = self.per_turn * drift[1];
+        if ALL {
+            lead += self.loss_per_turn * drift[0];
+        }
+        let about = [center[0] - lead, center[1] + self.per_turn * drift[0]];
+        let off = [y[0] - about[0], y[1] - about[1]];
+        [0, 1].map(|r| {
+            let (turn, drive) = (&self.turn[r], &self.drive[r]);
+            let driven = drive[0] * u.begin + drive[1] * u.mean + drive[2] * u.end;
+            (turn[0] * off[0] + turn[1] * off[1]) + driven + (about[r] + drift[r])
+        })
+    }
+
+    /// The state once the centre at the end is known: `excess` is how much further than expected
+    /// it drifted.
+    #[inline(always)]
+    pub(super) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
+        [0, 1].map(|r| y[r] + (self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1]))
+    }
+}
