@@ -35,11 +35,11 @@ pub enum Error {
         /// Unit of both.
         unit: &'static str,
     },
-    /// The hub would turn more than a radian a tick.
+    /// The hub would turn more than a radian a tick, or than the stepper carries.
     TooFast {
         /// Peak rate of the move, rad/s.
         rate: f64,
-        /// One radian a tick, rad/s.
+        /// Largest that is accepted, rad/s.
         max: f64,
     },
     /// A rest-to-rest move behind one that leaves the hub turning.
@@ -142,8 +142,8 @@ impl fmt::Display for Error {
             ),
             Self::TooFast { rate, max } => write!(
                 f,
-                "move.duration: the move peaks at {rate:.6} rad/s; accepted is up to {max} rad/s, \
-                 one radian a tick"
+                "move.duration: the move peaks at {rate:.6} rad/s; accepted is up to {max:.6} rad/s for \
+                 this arm, method and tick (never more than one radian a tick)"
             ),
             Self::NotAtRest { rate } => write!(
                 f,

@@ -4,8 +4,8 @@ use super::oscillator::{Drive, Oscillator, check_turns, jolt};
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::{Model, Modes};
-use crate::math::{Band, HalfForm, Scalar, cast, dot};
-use crate::motion::Hub;
+use crate::math::{Band, HalfForm, Scalar, cast, dot, sqrt};
+use crate::motion::{Hub, Peaks};
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
 ///
@@ -13,7 +13,7 @@ use crate::motion::Hub;
 ///
 /// with `Γ = ΦᵀGΦ`, `Π = ΦᵀK_PΦ`, `b = ΦᵀF`, `f = Φᵀf_g`. Exact for any tick where the right-hand
 /// side's last three terms, the force, vanish and `θ̈` is a parabola; the force is taken along as a
-/// straight line to its value at the predicted end, of second order with one evaluation a tick.
+/// straight line to its value at the end, of second order, within plain cubics at the predicted end.
 /// What remains is the small-deflection model's own error, about 0.1 (w/L)².
 ///
 /// The tick works with `ωa`, `ωȧ` and the force over `ω`: a mode then rests at its force, and the
@@ -51,6 +51,8 @@ pub struct Modal<T, const K: usize> {
     /// What a mode's `ωa` and `ωȧ` are to be below for it to sleep.
     asleep: [[T; 2]; K],
     tick: f64,
+    /// Rate up to which the spin terms, which are extrapolated over a tick, stay stable, rad/s.
+    fastest: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +71,7 @@ pub struct ModalState<T, const K: usize> {
     pub rate: [T; K],
     /// Spin and gravity forces over `ω`.
     force: [T; K],
-    /// `Γa` over `ω`; both at the coordinates that the tick predicted.
+    /// `Γa` over `ω`.
     softening: [T; K],
 }
 
@@ -98,13 +100,15 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let support: [f64; K] = core::array::from_fn(|k| coupling[k] * omega[k]);
         let residual = scene.rigid_inertia() - dot(&coupling, &coupling);
         let tension = between(&model.tension().scaled(gravity));
+        let spin: Band<T, K, K> = between(model.spin());
         Ok(Self {
             modes: core::array::from_fn(|k| {
                 Oscillator::new(omega[k], alpha, beta, support[k], tick)
                     .forced_by(omega[k] * omega[k])
             }),
             rest: cast(&rest),
-            spin: between(model.spin()),
+            fastest: fastest(&spin, &omega, tick),
+            spin,
             shortening: between(model.shortening()).half_form(),
             tip: core::array::from_fn(|k| T::from_f64(shape[k][model.tip()])),
             reach: T::from_f64(scene.reach()),
@@ -157,6 +161,49 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     }
 }
 
+impl<T: Scalar, const K: usize> Modal<T, K> {
+    /// The change of the force over a step that agrees with the coordinates it leads to, from that
+    /// at the predicted ones: `(I + S D) e = c`, `S = θ̇²Γ − g sinθ Π`, `D` what a mode moves by for a
+    /// change of its force by 1.
+    ///
+    /// Taken at the predicted coordinates the force would feed modes that turn more than half a turn
+    /// a tick: by `½r²` a tick and less, `r` the share of `S` in the mode's stiffness. So the step is
+    /// the same forwards and backwards, and neither feeds nor damps.
+    #[inline(always)]
+    fn implied(&self, mut change: [T; K], hub: &Hub<T>) -> [T; K] {
+        let rate2 = if self.terms.spin { hub.rate * hub.rate } else { T::ZERO };
+        let mut stiff = self.spin.scaled(rate2);
+        if self.terms.gravity {
+            stiff = stiff.plus(-hub.sin, &self.tension);
+        }
+        let mut a: [[T; K]; K] = core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                let unit = if i == j { T::ONE } else { T::ZERO };
+                unit + stiff.get(i, j) * self.modes[j].ramp(0, T::ONE)
+            })
+        });
+        // Elimination without pivoting: the diagonal is 1 and more but for weights near buckling.
+        for p in 0..K {
+            let inverse = T::ONE / a[p][p];
+            for i in p + 1..K {
+                let factor = a[i][p] * inverse;
+                for j in p..K {
+                    a[i][j] = a[i][j] - factor * a[p][j];
+                }
+                change[i] = change[i] - factor * change[p];
+            }
+            a[p][p] = inverse;
+        }
+        for p in (0..K).rev() {
+            for j in p + 1..K {
+                change[p] = change[p] - a[p][j] * change[j];
+            }
+            change[p] = change[p] * a[p][p];
+        }
+        change
+    }
+}
+
 impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     type Scalar = T;
     type State = ModalState<T, K>;
@@ -168,6 +215,13 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     #[inline(always)]
     fn is_directed(&self) -> bool {
         self.terms.gravity
+    }
+
+    fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
+        if self.terms.spin && peaks.rate > self.fastest {
+            return Err(Error::TooFast { rate: peaks.rate, max: self.fastest });
+        }
+        Ok(())
     }
 
     fn equilibrium(&self, hub: &Hub<T>) -> ModalState<T, K> {
@@ -194,12 +248,13 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             y[k] = self.modes[k].predict_forced(y[k], &drive, state.force[k]);
         }
         if self.terms.spin || self.terms.gravity {
-            let [force, softening] = self.force(&y.map(|y| y[0]), after);
+            let [force, _] = self.force(&y.map(|y| y[0]), after);
+            let change = self.implied(core::array::from_fn(|k| force[k] - state.force[k]), after);
             for k in 0..K {
-                let change = force[k] - state.force[k];
-                y[k] = self.modes[k].correct_forced(y[k], change);
+                y[k] = self.modes[k].correct_forced(y[k], change[k]);
+                state.force[k] += change[k];
             }
-            (state.force, state.softening) = (force, softening);
+            state.softening = self.spin.times(&y.map(|y| y[0]));
         }
         state.coordinate = y.map(|y| y[0]);
         state.rate = y.map(|y| y[1]);
@@ -315,4 +370,26 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let a = &state.coordinate;
         [self.reach - self.shortening.at(a), dot(&self.tip, a)]
     }
+}
+
+/// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken
+/// at a predicted state, as within plain cubics. `θ̇²Γ` is compared with `2/h²`, above which a mode that the tick resolves
+/// blows up, or with a twentieth of the `ω²` of a mode that turns more than 2 rad a tick: beyond half
+/// a turn such a scheme always feeds a mode a little.
+fn fastest<T: Scalar, const K: usize>(
+    spin: &Band<T, K, K>,
+    omega: &[f64; K],
+    tick: f64,
+) -> f64 {
+    let mut least = f64::INFINITY;
+    for k in 0..K {
+        let turn = omega[k] * tick;
+        let most = if turn < 2.0 { 2.0 / (turn * turn) } else { 0.05 };
+        // Of a mode that turning softens, not all that it has.
+        let own = spin.get(k, k).to_f64();
+        let most = if own < 0.0 { f64::min(most, 0.8) } else { most };
+        let sum: f64 = (0..K).map(|j| spin.get(k, j).to_f64().abs()).sum();
+        least = f64::min(least, most / sum.max(f64::MIN_POSITIVE));
+    }
+    sqrt(least)
 }

@@ -27,7 +27,7 @@ use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::Model;
 use crate::math::{Band, HalfForm, Ldl, Scalar, cast, dot, generalized_eigen, round};
-use crate::motion::Hub;
+use crate::motion::{Hub, Peaks};
 
 /// Newmark stepper for `N` degrees of freedom in bands of width `W`.
 ///
@@ -299,6 +299,32 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
     #[inline(always)]
     fn is_directed(&self) -> bool {
         self.terms.gravity
+    }
+
+    /// Refuses rates at which the arm has no stiffness left, upright where there is gravity. Lumped
+    /// mass overrates what turning softens: one element gives way at 1.5 ω₁.
+    fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
+        if !Self::PRINCIPAL || !self.terms.spin {
+            return Ok(());
+        }
+        let carries = |rate: f64| {
+            let rate = T::from_f64(rate);
+            let turning = self.stiffness.plus(rate * rate, &self.spin);
+            let upright = turning.plus(-T::ONE, &self.tension);
+            upright.factor().is_positive()
+        };
+        if carries(peaks.rate) {
+            return Ok(());
+        }
+        // To a hundredth; down to none for an arm that hardly stands.
+        let mut max = peaks.rate;
+        for _ in 0..2000 {
+            if carries(max) {
+                break;
+            }
+            max *= 0.99;
+        }
+        Err(Error::TooFast { rate: peaks.rate, max })
     }
 
     fn equilibrium(&self, hub: &Hub<T>) -> Vibration<T, N> {

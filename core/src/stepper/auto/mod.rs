@@ -125,7 +125,12 @@ impl<T: Scalar> Auto<T> {
         let mut best = f64::INFINITY;
         for rung in Rung::LADDER {
             let candidate = Auto::<f32>::new(scene, tick, rung, bend)?;
-            let error = ladder::expected(trial.run(candidate)?.distance, floor);
+            let error = match trial.run(candidate) {
+                Ok(outcome) => ladder::expected(outcome.distance, floor),
+                // The plan of the moves has passed: it is the rung that cannot turn so fast.
+                Err(Error::TooFast { .. }) => continue,
+                Err(error) => return Err(error),
+            };
             if error <= tolerance {
                 return Ok((Self::new(scene, tick, rung, bend)?, Choice { rung, error, bend }));
             }
