@@ -1,6 +1,8 @@
 //! The command line: words in, a library call, lines out. One command a file.
 
 mod compare;
+#[cfg(feature = "faults")]
+mod faults;
 mod merge;
 mod pareto;
 mod plan;
@@ -54,6 +56,9 @@ enum Command {
     Talk(talk::TalkArgs),
     /// Fill the tables of docs/still.md and draw its picture, or check the tables
     Still(still::StillArgs),
+    /// Inject faults around an axis, and count what comes out
+    #[cfg(feature = "faults")]
+    Faults(faults::FaultsArgs),
     /// List the embedded scenes
     Scenes,
 }
@@ -75,6 +80,8 @@ impl Cli {
             #[cfg(feature = "talk")]
             Some(Command::Talk(args)) => args.execute(),
             Some(Command::Still(args)) => args.execute(),
+            #[cfg(feature = "faults")]
+            Some(Command::Faults(args)) => args.execute(),
             Some(Command::Scenes) => {
                 for (name, about) in scenes::list() {
                     println!("{name:<20} {about}");
