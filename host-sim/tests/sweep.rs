@@ -1,12 +1,12 @@
 //! Sweeps from the command line: shards, interruptions, joins, fronts, tables.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use stillbeam_sim::solver::{Method, SolverKeys};
 use stillbeam_sim::sweep::pareto::front;
-use stillbeam_sim::sweep::row::{Row, Rows, header};
+use stillbeam_sim::sweep::row::{CaseId, Errors, Row, Rows, header};
 
 /// Nine cases: newmark with 1 and 2 elements at 10, 5 and 2.5 ms, and the rigid arm.
 const SPEC: &str = "scenes = [\"s-gravity\"]\n[[grid]]\nmethod = [\"newmark\", \"rigid\"]\n\
@@ -300,19 +300,29 @@ fn a_million_rows_are_joined_in_little_memory() {
     const SHARDS: u64 = 4;
     let bench = Bench::new();
     let mut arguments = vec!["merge".to_owned(), "all.csv".to_owned()];
+    let keys = SolverKeys {
+        method: Some(Method::Newmark),
+        elements: Some(1),
+        tick: Some(0.01),
+        spin: Some(true),
+        ..SolverKeys::default()
+    };
+    let mut row = Row {
+        id: CaseId { sweep: "5eed".to_owned(), case: 0, cases: ROWS, scene: "d-fast".to_owned() },
+        keys,
+        errors: Errors { tip_max: 0.13, tip_rms: 0.05, residual: None, torque: 0.4 },
+        cost: None,
+    };
     for shard in 1..=SHARDS {
         let name = format!("{shard}.csv");
-        let mut file = std::io::BufWriter::new(fs::File::create(bench.path(&name)).unwrap());
-        writeln!(file, "{}", header().join(",")).unwrap();
+        let mut file =
+            csv::WriterBuilder::new().has_headers(false).from_path(bench.path(&name)).unwrap();
+        file.write_record(header()).unwrap();
         for case in (shard..=ROWS).step_by(SHARDS as usize) {
-            writeln!(
-                file,
-                "5eed,{case},{ROWS},d-fast,newmark,1,consistent,,,0.01,f32,true,0.13,0.05,,0.4,1.5,24,\
-                 200,40.0,60.0"
-            )
-            .unwrap();
+            row.id.case = case;
+            row.write(&mut file).unwrap();
         }
-        file.into_inner().unwrap();
+        file.flush().unwrap();
         arguments.push(name);
     }
     let program = env!("CARGO_BIN_EXE_stillbeam-sim");

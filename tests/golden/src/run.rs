@@ -81,7 +81,7 @@ fn one<M: Method>(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Resu
 }
 
 /// Arms whose moves are planned anew, still, and are changed half-way.
-const STILL_SCENES: [&str; 4] = ["d-fast", "a-tip30", "b-tip30-damped-hub", "s-gravity"];
+pub const STILL_SCENES: [&str; 4] = ["d-fast", "a-tip30", "b-tip30-damped-hub", "s-gravity"];
 
 impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Runner<'_, F> {
     /// Plans made where they run: every bit of them is in the setpoints.
