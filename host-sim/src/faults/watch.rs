@@ -12,7 +12,8 @@ use super::board::Step;
 /// acceleration, `V` that of rate and `h` the tick:
 ///
 /// - the shaft's angle is continuous: from tick to tick it turns by the mean of the two rates times
-///   h, to `¼Ah²`, twice what the trapezoidal rule can be off by where the acceleration jumps;
+///   h, to `¼Ah²`, twice what the trapezoidal rule can be off by where the acceleration jumps, and
+///   the resolution of a move's angle in f32, 2⁻¹⁶ turn for the longest that are accepted;
 /// - the rate changes by at most `Ah` a tick;
 /// - rate and acceleration keep their limits, to 1e-3 and the rounding of f32;
 /// - the first setpoint after switching on is at rest;
@@ -105,8 +106,8 @@ impl Watch {
                 let shaft = step.demand.position.in_turns() - turned.in_turns();
                 let mean = 0.5 * (f64::from(s.rate) + f64::from(last.rate));
                 let off = (self.gear * shaft.abs() - (mean * self.tick).abs()).abs();
-                // A part of a turn in f32, of hub and of shaft.
-                let resolution = 1e-6 + 2e-7 * self.gear;
+                // 2⁻¹⁶ turn of the hub, and a rounding of the shaft's turn.
+                let resolution = TAU / 65_536.0 + 2e-7 * self.gear;
                 let allowed = 0.25 * self.acceleration * self.tick * self.tick;
                 now.angle = (off - resolution).max(0.0) / allowed;
                 let change = (f64::from(s.rate) - f64::from(last.rate)).abs();
