@@ -84,12 +84,11 @@ fn resolved<T: Scalar>(start: &Start, outline: &Outline) -> Result<(), Error> {
 const LOOKS: u32 = 256;
 
 /// Refuses a move that is faster, or accelerates more, than its outline says, by 1e-3; and one that
-/// is no number. At every tick, or at [`LOOKS`] instants of a long one.
+/// is no number. Between the ticks too: a move of one tick could be anything there.
 fn honest<T: Scalar>(segment: &Segment<T>, outline: &Outline) -> Result<(), Error> {
-    let looks = outline.ticks.min(LOOKS);
-    let step = T::from_u32(outline.ticks) / T::from_u32(looks);
+    let step = T::from_u32(outline.ticks) / T::from_u32(LOOKS);
     let (rate, acceleration) = (outline.peaks.rate, outline.peaks.acceleration);
-    for look in 0..=looks {
+    for look in 0..=LOOKS {
         let hub = segment.hub_at(T::from_u32(look) * step);
         let check = |parameter, found: T, stated: f64, unit| {
             let found = found.to_f64();
