@@ -10,11 +10,15 @@
 //! computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show both.
 //!
 //! [`stress`] runs random scenes by the million and long runs.
+//! `faults` injects what can go wrong around an axis, and judges what comes out.
 //!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 
+pub mod blocks;
 pub mod compare;
 pub mod error;
+#[cfg(feature = "faults")]
+pub mod faults;
 pub mod model_choice;
 pub mod output;
 pub mod plan;

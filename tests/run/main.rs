@@ -3,7 +3,6 @@
 mod convergence;
 mod energy;
 mod exact;
-mod properties;
 mod scene_files;
 mod still;
 mod truth;

@@ -50,14 +50,55 @@ pub enum Rejected {
 
 impl Departure {
     /// Plans `motion` from here. Runs in f64.
+    ///
+    /// This is the way of moves that come over a wire, so it asks more than [`Generator::push`]: the
+    /// peaks that a still move states are not taken on trust, and a move turns by 2⁻¹⁶/ε turns at
+    /// most, 128 in f32, so that its angle is right to 2⁻¹⁶ turn.
     pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<Planned<T>, Error> {
         let mut segments = Vec::new();
         let outline = lay(motion, self.start, &self.limits, self.tick, &mut |segment| {
             // No move has more.
             let _ = segments.push(segment.cast());
         })?;
+        match (motion, segments.first()) {
+            (Move::Dwell { .. }, _) | (_, None) => {}
+            (Move::Still { .. }, Some(segment)) => {
+                resolved::<T>(&self.start, &outline)?;
+                honest(segment, &outline)?;
+            }
+            _ => resolved::<T>(&self.start, &outline)?,
+        }
         Ok(Planned { segments, start: self.start, outline })
     }
+}
+
+/// Refuses a move of so many turns that its angle would go in steps: a segment's angle is rounded as
+/// a part of its own turn. Longer ways are a spin-up, a dwell and a spin-down, which is exact.
+fn resolved<T: Scalar>(start: &Start, outline: &Outline) -> Result<(), Error> {
+    let turned = outline.end.angle.since(start.angle);
+    let most = 1.0 / 65_536.0 / T::EPSILON.to_f64();
+    Error::check("move: turns", turned, -most, most, "turns").map(drop)
+}
+
+/// Instants at which a still move is looked at: of a polynomial of degree 11 they miss 1e-3.
+const LOOKS: u32 = 256;
+
+/// Refuses a move that is faster, or accelerates more, than its outline says, by 1e-3; and one that
+/// is no number. Between the ticks too: a move of one tick could be anything there.
+fn honest<T: Scalar>(segment: &Segment<T>, outline: &Outline) -> Result<(), Error> {
+    let step = T::from_u32(outline.ticks) / T::from_u32(LOOKS);
+    let (rate, acceleration) = (outline.peaks.rate, outline.peaks.acceleration);
+    for look in 0..=LOOKS {
+        let hub = segment.hub_at(T::from_u32(look) * step);
+        let check = |parameter, found: T, stated: f64, unit| {
+            let found = found.to_f64();
+            let most = 1.001 * stated;
+            Error::check(parameter, found, -most, most, unit).map(drop)
+        };
+        check("move.peaks.rate", hub.rate, rate, "rad/s")?;
+        check("move.peaks.acceleration", hub.acceleration, acceleration, "rad/s^2")?;
+    }
+    Ok(())
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {

@@ -1,6 +1,8 @@
 //! The command line: words in, a library call, lines out. One command a file.
 
 mod compare;
+#[cfg(feature = "faults")]
+mod faults;
 mod merge;
 mod pareto;
 mod plan;
@@ -57,6 +59,9 @@ enum Command {
     Still(still::StillArgs),
     /// Run random scenes, far outside of what an arm is, by the million
     Stress(stress::StressArgs),
+    /// Inject faults around an axis, and count what comes out
+    #[cfg(feature = "faults")]
+    Faults(faults::FaultsArgs),
     /// List the embedded scenes
     Scenes,
 }
@@ -79,6 +84,8 @@ impl Cli {
             Some(Command::Talk(args)) => args.execute(),
             Some(Command::Still(args)) => args.execute(),
             Some(Command::Stress(args)) => args.execute(),
+            #[cfg(feature = "faults")]
+            Some(Command::Faults(args)) => args.execute(),
             Some(Command::Scenes) => {
                 for (name, about) in scenes::list() {
                     println!("{name:<20} {about}");

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::document;
-use stillbeam_sim::{output, progress};
+use stillbeam_sim::{blocks, output, progress};
 
 #[derive(clap::Args)]
 pub struct StillArgs {
@@ -23,10 +23,10 @@ impl StillArgs {
         let text = std::fs::read_to_string(path)
             .map_err(|cause| Error::file(path, format_args!("{cause}; accepted is a text")))?;
         let bar = progress::bar("reference rod", document::STEPS);
-        let blocks = document::blocks(&|| bar.inc(1));
+        let found = document::blocks(&|| bar.inc(1));
         bar.finish_and_clear();
         let filled =
-            document::fill(&text, &blocks?).map_err(|error| error.within(path.display()))?;
+            blocks::fill(&text, "still", &found?).map_err(|error| error.within(path.display()))?;
         if !self.check {
             output::write_whole(path, |file| file.write_all(filled.as_bytes()))?;
             let picture = path.with_extension("svg");
@@ -34,8 +34,7 @@ impl StillArgs {
             println!("{}: filled; {}: drawn", path.display(), picture.display());
             return Ok(ExitCode::SUCCESS);
         }
-        let mut lines = text.lines().zip(filled.lines());
-        if let Some((old, new)) = lines.find(|(old, new)| old != new) {
+        if let Some((old, new)) = blocks::difference(&text, &filled) {
             println!("{}: {old} is now {new}", path.display());
             println!("  `stillbeam-sim still {}` fills the tables anew", path.display());
             return Ok(ExitCode::FAILURE);

@@ -43,24 +43,6 @@ pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<(String, String)>, Error> 
     Ok(blocks)
 }
 
-/// The text with what stands between `<!-- still:NAME -->` and `<!-- /still -->` replaced.
-pub fn fill(text: &str, blocks: &[(String, String)]) -> Result<String, Error> {
-    const END: &str = "<!-- /still -->";
-    let mut text = text.to_owned();
-    for (name, block) in blocks {
-        let start = format!("<!-- still:{name} -->");
-        let missing = |marker: &str| {
-            Error::new(format_args!(
-                "{name}: accepted is a text with {start} and {marker} after it"
-            ))
-        };
-        let begin = text.find(&start).ok_or_else(|| missing(END))? + start.len();
-        let length = text[begin..].find(END).ok_or_else(|| missing(END))?;
-        text.replace_range(begin..begin + length, &format!("\n{block}"));
-    }
-    Ok(text)
-}
-
 fn arm(scene: &str) -> Result<Scene, Error> {
     Ok(scenes::open(scene)?.arm)
 }

@@ -1,0 +1,67 @@
+//! What is injected.
+
+/// A kind of fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Nothing: how often the same traffic is accepted without.
+    None,
+    /// Frames lose their end or are lost, and the line goes dead for up to a second.
+    Cut,
+    /// Bits flip, bytes come in between.
+    Garbled,
+    /// Frames overtake each other by up to 20 ticks.
+    Reordered,
+    /// Frames come up to four times, at once or later.
+    Duplicated,
+    /// Frames are whole and their numbers are not: not finite, absurd, or of a still move whose
+    /// stated peaks are not its own.
+    Nonsense,
+    /// Ticks come late by up to a period.
+    LateTicks,
+    /// Up to nine ticks in a row do not take place.
+    MissedTicks,
+    /// More moves at once than the queue holds.
+    Overfull,
+    /// The payload changes at any time, to any value.
+    Payload,
+    /// At power-up the line holds garbage, the drive reports garbage, the counter stands anywhere.
+    PowerUp,
+    /// The frames between board and drive are altered.
+    Drive,
+}
+
+impl Fault {
+    /// Every kind, in the order of the table.
+    pub const ALL: [Self; 12] = [
+        Self::None,
+        Self::Cut,
+        Self::Garbled,
+        Self::Reordered,
+        Self::Duplicated,
+        Self::Nonsense,
+        Self::LateTicks,
+        Self::MissedTicks,
+        Self::Overfull,
+        Self::Payload,
+        Self::PowerUp,
+        Self::Drive,
+    ];
+
+    /// In the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Cut => "stream cut",
+            Self::Garbled => "stream garbled",
+            Self::Reordered => "frames reordered",
+            Self::Duplicated => "frames duplicated",
+            Self::Nonsense => "nonsense in whole frames",
+            Self::LateTicks => "ticks late",
+            Self::MissedTicks => "ticks missed",
+            Self::Overfull => "queue overfull",
+            Self::Payload => "payload changed any time",
+            Self::PowerUp => "garbage at power-up",
+            Self::Drive => "drive's frames altered",
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! What the campaign has found, each as a case of its own.
+
+use stillbeam::axis::Refused;
+use stillbeam::beam::OneElement;
+use stillbeam::motion::{Peaks, Still};
+use stillbeam::stepper::Newmark;
+use stillbeam::{Generator, Move, Profile, Scene};
+use stillbeam_sim::faults::machine::{CONFIGURATIONS, TICK};
+
+type Arm = Generator<Newmark<f32, 2, 2>, 8>;
+
+fn scene() -> Scene {
+    CONFIGURATIONS[0].scene
+}
+
+fn arm() -> Arm {
+    let model = OneElement::consistent(&scene()).expect("a model");
+    let mut arm: Arm =
+        Generator::new(Newmark::new(&model, TICK).expect("a stepper"), 0.0).expect("an angle");
+    arm.limit(CONFIGURATIONS[0].policy.limits).expect("limits");
+    arm
+}
+
+/// As a board plans what came over its line.
+fn plan(motion: &Move) -> Result<(), Refused> {
+    arm().departure().plan::<f32>(motion).map(drop).map_err(Refused::Move)
+}
+
+fn planned_still() -> Move {
+    Still::<f32, 2>::new(&scene(), TICK)
+        .and_then(|s| s.plan(0.0, 0.4, 2.0))
+        .expect("a plan")
+        .motion()
+}
+
+#[test]
+fn a_still_move_as_planned_is_taken() {
+    assert_eq!(plan(&planned_still()), Ok(()));
+}
+
+/// A still move's peaks were taken on trust: any bulge passed the limits, and one that is no number
+/// went out as setpoints.
+#[test]
+fn a_still_move_must_keep_its_stated_peaks() {
+    let Move::Still { duration, to, bulge, peaks } = planned_still() else { unreachable!() };
+    let lies = [
+        Move::Still { duration, to, bulge: [f64::NAN; 6], peaks },
+        Move::Still { duration, to, bulge: bulge.map(|b| b + 0.5), peaks },
+        Move::Still { duration: 0.5 * duration, to, bulge, peaks },
+        Move::Still { duration, to, bulge, peaks: Peaks { rate: 0.9 * peaks.rate, ..peaks } },
+        Move::Still { duration, to, bulge, peaks: Peaks { rate: f64::NAN, ..peaks } },
+        // At its ends, its only ticks, it is at rest.
+        Move::Still { duration: 0.005, to, bulge, peaks },
+    ];
+    for lie in lies {
+        let refused = plan(&lie);
+        assert!(matches!(refused, Err(Refused::Move(_))), "{lie:?}: {refused:?}");
+    }
+}
+
+/// The angle of a move of many turns is known as a part of them: it went in steps.
+#[test]
+fn a_move_of_more_turns_than_a_float_resolves_is_refused() {
+    let far = |to| Move::To { profile: Profile::Quintic, duration: 1e5, to };
+    assert_eq!(plan(&far(800.0)), Ok(()));
+    let refused = plan(&far(1e5)).expect_err("16,000 turns");
+    let Refused::Move(error) = refused else { panic!("{refused:?}") };
+    assert_eq!(
+        error.to_string(),
+        "move: turns = 15915.494309189535: accepted is -128 to 128 turns"
+    );
+}
