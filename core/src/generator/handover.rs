@@ -58,6 +58,14 @@ impl Departure {
         })?;
         Ok(Planned { segments, start: self.start, outline })
     }
+
+    pub(crate) fn start(&self) -> &Start {
+        &self.start
+    }
+
+    pub(crate) fn limits(&self) -> &Limits {
+        &self.limits
+    }
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
