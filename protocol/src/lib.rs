@@ -6,8 +6,9 @@
 //! CRC-32 behind it, both COBS-encoded, a zero byte at the end: [`frame`]. A frame has at most
 //! [`frame::MAX`] bytes; what is garbled is dropped whole and decoding never panics.
 //!
-//! The firmware answers every request with one report that carries the request's sequence number,
-//! in the order in which they came. In between it sends, for every tick and axis, the setpoint
+//! The firmware answers every request with one report that carries the request's sequence number.
+//! Moves and payloads are answered once they are planned, in the order in which they came; every
+//! other request is at once, even while a move is being planned. In between the firmware sends, for every tick and axis, the setpoint
 //! ([`Report::Tick`]).
 //!
 //! [`slcan`] is the text form of CAN frames, for a bus that is captured.

@@ -31,6 +31,13 @@ pub enum Command {
     Stop,
     /// One more move behind the others.
     Move(Move),
+    /// One more move behind the others, after which the arm is at rest; planned on the target.
+    Still {
+        /// Angle at the end, rad.
+        to: f64,
+        /// s; the shortest within the limits if none.
+        duration: Option<f64>,
+    },
     /// The payload is another; at rest only.
     Payload(Payload),
     /// The angle where the arm stands, rad, is this one from now on; disabled only.

@@ -38,6 +38,10 @@ pub enum Refusal<'a> {
     Stale,
     /// The drive has not said where the shaft is.
     NotMeasured,
+    /// Too many moves and payloads are being planned.
+    Busy,
+    /// The firmware has no planner of still moves.
+    NoPlanner,
     /// There are only so many axes.
     Axis(u8),
 }
@@ -66,7 +70,7 @@ impl From<Error> for Refusal<'static> {
                 range("move.duration", duration, shortest, f64::INFINITY, "s")
             }
             Error::NotStill { residual, .. } => {
-                range("move: vibration left", residual, 0.0, 0.0, "of the length")
+                range("move: vibration left", residual, 0.0, 0.01, "of the length")
             }
             Error::DeflectsTooFar { deflection, most } => {
                 range("move: deflection", deflection, 0.0, most, "of the length")
@@ -124,6 +128,10 @@ impl fmt::Display for Refusal<'_> {
             Self::Stale => write!(f, "move = planned before a stop: accepted when sent again"),
             Self::NotMeasured => {
                 write!(f, "drive = silent: accepted once it has reported an encoder angle")
+            }
+            Self::Busy => write!(f, "planner = busy: accepted once it has answered"),
+            Self::NoPlanner => {
+                write!(f, "still = no planner: accepted by a firmware with the feature `still`")
             }
             Self::Axis(axes) => write!(f, "axis: accepted is 0 to {}", axes.saturating_sub(1)),
         }

@@ -29,6 +29,7 @@ fn commands() -> impl Strategy<Value = Command> {
         Just(Command::Stop),
         Just(Command::Describe),
         Just(Command::Status),
+        (any(), prop::option::of(any())).prop_map(|(to, duration)| Command::Still { to, duration }),
         moves.prop_map(Command::Move),
         (any(), any()).prop_map(|(mass, inertia)| Command::Payload(Payload { mass, inertia })),
         any().prop_map(Command::Home),
@@ -51,7 +52,7 @@ fn longest() -> [Report<'static>; 4] {
         acceleration: Some(1.0),
         jerk: Some(1.0),
         torque: Some(1.0),
-        moment: None,
+        moment: Some(1.0),
     };
     let direct = Joint::direct(0.05);
     let ratio = stillbeam::motor::Ratio { motor: u16::MAX, link: u16::MAX };

@@ -13,6 +13,7 @@
 //! | new arm (payload) | at rest only; the angle stays, the torque is the new arm's |
 
 mod pace;
+mod still;
 
 use heapless::Deque;
 
@@ -218,7 +219,8 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         self.mode = if rests { Mode::Stopped } else { Mode::Stopping };
     }
 
-    /// Where a move begins that is planned now; for [`Departure::plan`], outside of the tick.
+    /// Where a move begins that is planned now; for [`Departure::plan`] and
+    /// [`Departure::plan_still`], outside of the tick.
     pub fn departure(&self) -> Result<Departure, Refused> {
         match self.mode {
             Mode::Enabled => Ok(self.generator.departure()),

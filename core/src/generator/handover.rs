@@ -70,6 +70,14 @@ impl Departure {
         }
         Ok(Planned { segments, start: self.start, outline })
     }
+
+    pub(crate) fn start(&self) -> &Start {
+        &self.start
+    }
+
+    pub(crate) fn limits(&self) -> &Limits {
+        &self.limits
+    }
 }
 
 /// Refuses a move of so many turns that its angle would go in steps: a segment's angle is rounded as

@@ -33,6 +33,8 @@ pub(super) struct Axis {
     accepted: VecDeque<(u32, Command)>,
     /// Ticks before which the firmware heard the host.
     heard: VecDeque<u32>,
+    /// Ticks that did not take place, with the number of the tick after them.
+    missed: VecDeque<(u32, u32)>,
     pub(super) history: Vec<Tick<f32>>,
 }
 
@@ -42,8 +44,8 @@ impl Comparison {
         let hub = Angle { turns: 0, part: 0.05 * (1 + self.axes.len()) as f32 };
         let shaft = replica.train().mapping().to_motor(hub);
         let drive = Drive::new(replica.node(), shaft.in_turns() as f32);
-        let (accepted, heard) = (VecDeque::new(), VecDeque::new());
-        self.axes.push(Axis { replica, drive, accepted, heard, history: Vec::new() });
+        let (accepted, heard, missed) = Default::default();
+        self.axes.push(Axis { replica, drive, accepted, heard, missed, history: Vec::new() });
     }
 
     /// There are so many axes.
@@ -82,6 +84,21 @@ impl Comparison {
         for axis in &mut self.axes {
             axis.heard.push_back(tick);
         }
+    }
+
+    /// So many ticks will not take place before tick `tick`.
+    pub(super) fn miss(&mut self, tick: u32, missed: u32) {
+        if missed > 0 {
+            for axis in &mut self.axes {
+                axis.missed.push_back((tick, missed));
+            }
+        }
+    }
+
+    /// Number of the latest tick that has come.
+    pub(super) fn latest(&self) -> u32 {
+        let latest = self.ticks.first().and_then(|queue| queue.back());
+        latest.map_or(self.next.saturating_sub(1), |(tick, _)| tick.number)
     }
 
     /// A setpoint has come.
@@ -145,6 +162,9 @@ impl Comparison {
             let shown = axis.replica.train().mapping().to_motor(tick.setpoint.angle);
             let shaft = if emulated { axis.drive.shaft() } else { shown };
             axis.replica.apply(&command, shaft)?;
+        }
+        while let Some((_, missed)) = axis.missed.pop_front_if(|(at, _)| *at <= tick.number) {
+            axis.replica.missed(missed);
         }
         if !emulated && let (Some(cause), Mode::Enabled) = (cause, axis.replica.mode()) {
             axis.replica.stop(cause);

@@ -66,9 +66,11 @@ impl Emulator {
         Ok((Self { child, grants, bus, log }, link))
     }
 
-    /// Grants one tick, once so many bytes of link and bus are in.
-    pub(super) fn grant(&mut self, bytes: [u8; 2]) -> std::io::Result<()> {
-        self.grants.write_all(&bytes)?;
+    /// Grants one tick, once so many bytes of link and bus are in, and keeps it from running for so
+    /// many µs.
+    pub(super) fn grant(&mut self, bytes: [u8; 2], stall: u16) -> std::io::Result<()> {
+        let ([link, bus], [low, high]) = (bytes, stall.to_le_bytes());
+        self.grants.write_all(&[link, bus, low, high])?;
         self.grants.flush()
     }
 

@@ -23,6 +23,8 @@ pub struct Machine {
     emulator: Option<Emulator>,
     /// What waits for the next grants: of the link, of the bus.
     outbox: [VecDeque<u8>; 2],
+    /// µs for which the next tick is kept from running.
+    stall: u16,
     heard: Instant,
 }
 
@@ -54,7 +56,7 @@ impl Machine {
     }
 
     fn new(link: Box<dyn Line>, emulator: Option<Emulator>) -> Self {
-        Self { link, emulator, outbox: Default::default(), heard: Instant::now() }
+        Self { link, emulator, outbox: Default::default(), stall: 0, heard: Instant::now() }
     }
 
     /// Whether time passes only by [`Machine::grant`], and the bus can be listened to.
@@ -76,6 +78,11 @@ impl Machine {
         self.outbox[1].extend(bytes);
     }
 
+    /// Keeps the next tick that is granted from running for so many µs.
+    pub fn stall(&mut self, microseconds: u16) {
+        self.stall = microseconds;
+    }
+
     /// Lets the next tick take place, once the bytes sent before it are in. Whether there were
     /// none left to send after it.
     pub fn grant(&mut self) -> Result<bool, Error> {
@@ -84,9 +91,10 @@ impl Machine {
             let n = line.len().min(CHUNK);
             line.drain(..n).collect::<Vec<u8>>()
         };
+        let stall = core::mem::take(&mut self.stall);
         let [link, bus] = self.outbox.each_mut().map(chunk);
         let sent = self.link.write_all(&link).and_then(|()| emulator.bus.write_all(&bus));
-        sent.and_then(|()| emulator.grant([link.len() as u8, bus.len() as u8]))
+        sent.and_then(|()| emulator.grant([link.len() as u8, bus.len() as u8], stall))
             .map_err(|error| broken("link", error))?;
         Ok(self.outbox.iter().all(VecDeque::is_empty))
     }

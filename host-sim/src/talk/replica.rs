@@ -3,6 +3,7 @@
 use stillbeam::axis::{Axis, Cause, Mode, Policy, Tick};
 use stillbeam::beam::OneElement;
 use stillbeam::drive::odrive::Node;
+use stillbeam::motion::Still;
 use stillbeam::motor::{Demand, Drivetrain};
 use stillbeam::stepper::Newmark;
 use stillbeam::{Angle, Move, Payload, Scene};
@@ -23,8 +24,10 @@ pub struct Replica {
     scene: Scene,
     tick: f64,
     node: Node,
-    /// Whether the drive was on at the last tick.
-    on: bool,
+    /// Whether the drive was on at the last tick; at the first it is told.
+    on: Option<bool>,
+    /// Set up when first asked.
+    planner: Option<Still<f32, 2>>,
 }
 
 impl Replica {
@@ -46,7 +49,7 @@ impl Replica {
         let mut train = Drivetrain::new(&joint, direction, 0.0)?;
         // To the bit, which the zero in turns need not be.
         train.home(zero, Angle { turns: 0, part: 0.0 });
-        Ok(Self { axis, train, scene, tick, node: Node::new(node)?, on: false })
+        Ok(Self { axis, train, scene, tick, node: Node::new(node)?, on: None, planner: None })
     }
 
     /// Carries out what the firmware has accepted.
@@ -65,6 +68,7 @@ impl Replica {
                 Ok(())
             }
             Command::Move(motion) => return self.follow(&motion),
+            Command::Still { to, duration } => return self.follow_still(to, duration),
             Command::Payload(payload) => return self.reload(payload),
             Command::Home(angle) => {
                 self.train.home(shaft, Angle::from_radians(angle).cast());
@@ -80,7 +84,19 @@ impl Replica {
         self.axis.take(&planned).map(drop).map_err(apart)
     }
 
+    fn follow_still(&mut self, to: f64, duration: Option<f64>) -> Result<(), Error> {
+        let departure = self.axis.departure().map_err(apart)?;
+        let planner = match self.planner.take() {
+            Some(planner) => planner,
+            None => Still::new(&self.scene, self.tick)?,
+        };
+        let planned = departure.plan_still(&planner, &self.scene.link, to, duration);
+        self.planner = Some(planner);
+        self.axis.take(&planned?).map(drop).map_err(apart)
+    }
+
     fn reload(&mut self, payload: Payload) -> Result<(), Error> {
+        self.planner = None;
         self.scene.payload = payload;
         self.axis.replace(stepper(&self.scene, self.tick)?).map_err(apart)
     }
@@ -88,6 +104,11 @@ impl Replica {
     /// A word from the host was heard.
     pub fn heard(&mut self) {
         self.axis.heard();
+    }
+
+    /// So many ticks did not take place before the coming one.
+    pub fn missed(&mut self, ticks: u32) {
+        self.axis.missed(ticks);
     }
 
     /// Takes the firmware's word for a stop that the host cannot foresee.
@@ -104,8 +125,8 @@ impl Replica {
     /// What the drive is told at a tick: the demand while it is on, and whether it is switched.
     pub fn told(&mut self, tick: &Tick<f32>) -> (Option<Demand<f32>>, Option<bool>) {
         let on = tick.mode != Mode::Disabled;
-        let switched = (on != self.on).then_some(on);
-        self.on = on;
+        let switched = (self.on != Some(on)).then_some(on);
+        self.on = Some(on);
         (on.then(|| self.train.demand(&tick.setpoint)), switched)
     }
 

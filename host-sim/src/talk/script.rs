@@ -18,6 +18,8 @@ pub enum Step {
     Wait(f64),
     /// As wait, without a word to the firmware.
     Silence(f64),
+    /// Keep the firmware from its tick for a time, s.
+    Stall(f64),
     /// Go on until every axis rests.
     Rest,
 }
@@ -48,9 +50,8 @@ pub const DEMONSTRATION: [&str; 20] = [
 ];
 
 /// The words that a step may be.
-const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, spin A DURATION RATE, \
-     dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence \
-     SECONDS, rest";
+const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, still A TO \
+     [DURATION], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest";
 
 impl FromStr for Step {
     type Err = Error;
@@ -60,6 +61,7 @@ impl FromStr for Step {
         let step = match words.next().unwrap_or("") {
             "rest" => Some(Self::Rest),
             "wait" => number(words.next()).map(Self::Wait),
+            "stall" => number(words.next()).map(Self::Stall),
             "silence" => number(words.next()).map(Self::Silence),
             verb => {
                 let axis = words.next().and_then(|word| word.parse().ok());
@@ -82,6 +84,12 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
             let profile = Profile::named(words.next()?)?;
             let (duration, to) = (number(words.next())?, number(words.next())?);
             Command::Move(Move::To { profile, duration, to })
+        }
+        "still" => {
+            let to = number(words.next())?;
+            let duration =
+                words.next().map(|word| number(Some(word)).ok_or(())).transpose().ok()?;
+            Command::Still { to, duration }
         }
         "spin" => {
             let (duration, rate) = (number(words.next())?, number(words.next())?);
@@ -116,6 +124,10 @@ impl Step {
             }
             Self::Silence(seconds) => {
                 session.keep_silent(ticks(seconds, session)?)?;
+                Ok(modes(session))
+            }
+            Self::Stall(seconds) => {
+                session.stall(seconds)?;
                 Ok(modes(session))
             }
             Self::Rest => {

@@ -13,6 +13,9 @@ use crate::error::Error;
 /// Ticks between two heartbeats.
 const HEARTBEAT: u32 = 10;
 
+/// Ticks within which every request is answered: the longest search for a still move, many times.
+const LONGEST: u32 = 100_000;
+
 /// The firmware's answer to a request.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
@@ -36,6 +39,10 @@ pub struct Session {
     /// Number of the next tick to be made, where time is granted.
     upcoming: u32,
     silent: bool,
+    /// The tick after which a heartbeat was last sent.
+    beaten: u32,
+    /// Something was sent that the firmware has not heard.
+    unheard: bool,
 }
 
 impl Session {
@@ -54,6 +61,8 @@ impl Session {
             // The first tick needs no grant.
             upcoming: 1,
             silent: false,
+            beaten: 0,
+            unheard: false,
         };
         let mut axis = 0;
         let mut axes = 1;
@@ -67,19 +76,28 @@ impl Session {
         Ok(session)
     }
 
-    /// Sends a request and goes on until it is answered.
+    /// Sends a request and goes on until it is answered: at once, or after the ticks that a plan
+    /// takes.
     ///
     /// # Errors
     /// The firmware is gone, or does otherwise than the host.
     pub fn ask(&mut self, axis: u8, command: Command) -> Result<Answer, Error> {
         let sequence = self.send(axis, command)?;
+        let mut waited = 0;
         while self.open.contains(&sequence) {
+            self.beat()?;
             self.exchange()?;
+            waited += 1;
+            if waited > LONGEST {
+                return Err(Error::new(format_args!("firmware: no answer for {LONGEST} ticks")));
+            }
         }
         let place = self.answers.iter().position(|(of, _)| *of == sequence);
         let (_, answer) = place
             .and_then(|place| self.answers.remove(place))
             .ok_or_else(|| Error::new("firmware: an answer without content"))?;
+        // Heartbeats' own.
+        self.answers.clear();
         if let Answer::Accepted(tick) = answer {
             self.comparison.accept(axis, tick, command);
         }
@@ -94,12 +112,7 @@ impl Session {
     pub fn wait(&mut self, ticks: u32) -> Result<(), Error> {
         let end = self.comparison.next().saturating_add(ticks);
         while self.comparison.next() < end {
-            if !self.silent
-                && self.open.is_empty()
-                && self.comparison.next().is_multiple_of(HEARTBEAT)
-            {
-                self.send(0, Command::Heartbeat)?;
-            }
+            self.beat()?;
             self.exchange()?;
             self.comparison.compare(&mut self.machine)?;
             self.answers.clear();
@@ -116,6 +129,27 @@ impl Session {
         let outcome = self.wait(ticks);
         self.silent = false;
         outcome
+    }
+
+    /// Keeps the firmware from its tick for a time, s, as a fault of it would: in QEMU alone.
+    ///
+    /// # Errors
+    /// As [`Session::ask`]; a board, or a time beyond 0 to 65 ms.
+    pub fn stall(&mut self, seconds: f64) -> Result<(), Error> {
+        let refused = |why| {
+            Error::new(format_args!("stall = {seconds} s: accepted is 0 to 0.065 s in QEMU{why}"))
+        };
+        if !self.machine.is_emulated() {
+            return Err(refused(", not on a board"));
+        }
+        if !(0.0..=0.065).contains(&seconds) {
+            return Err(refused(""));
+        }
+        self.machine.stall((1e6 * seconds) as u16);
+        // It begins after a tick, with the next one due a tick later.
+        let missed = (seconds / self.tick()) as u32;
+        self.comparison.miss(self.upcoming, missed.saturating_sub(1));
+        self.wait(1)
     }
 
     /// Goes on until every axis rests.
@@ -190,7 +224,18 @@ impl Session {
             .map_err(|error| Error::new(format_args!("request: {error:?}")))?;
         self.machine.send(bytes)?;
         self.open.push_back(self.sequence);
+        self.unheard = true;
         Ok(self.sequence)
+    }
+
+    /// Every so many ticks a word, unless silence is asked for.
+    fn beat(&mut self) -> Result<(), Error> {
+        let latest = self.comparison.latest();
+        if !self.silent && latest.wrapping_sub(self.beaten) >= HEARTBEAT {
+            self.beaten = latest;
+            self.send(0, Command::Heartbeat)?;
+        }
+        Ok(())
     }
 
     /// One more tick, and all that comes with it.
@@ -202,11 +247,11 @@ impl Session {
             self.machine.send_to_bus(&axis.drive.estimates());
         }
         let all_sent = self.machine.grant()?;
-        if all_sent && !self.open.is_empty() {
+        if all_sent && core::mem::take(&mut self.unheard) {
             self.comparison.heard(self.upcoming);
         }
-        // Answers come before the tick that was granted.
-        while (all_sent && !self.open.is_empty()) || !self.comparison.has(self.upcoming) {
+        // Answers come before the tick that was granted, but for those that take a plan.
+        while !self.comparison.has(self.upcoming) {
             self.take_in()?;
         }
         self.upcoming += 1;

@@ -1,9 +1,10 @@
-//! Requests of the host. Planning and set-up happen here, at the lowest priority; the tick is masked
-//! while their results are handed over, no longer.
+//! Requests of the host. What changes at once is done here, with the tick masked for as long; what
+//! has to be planned is handed down to [`plan`], so that a stop never waits for a plan.
 
+use embassy_futures::select::{Either, select};
 use embedded_io_async::Read;
-use stillbeam::axis::{Cause, Mode, Refused};
-use stillbeam::{Angle, Error, Move, Payload, Rejected, Scene};
+use stillbeam::axis::{Cause, Mode};
+use stillbeam::{Angle, Error};
 use stillbeam_firmware::stack;
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status};
@@ -11,48 +12,79 @@ use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status}
 use crate::axes::{self, AXES, CONFIGURATIONS};
 use crate::board::{self, LinkReader};
 use crate::link;
+use crate::plan::{self, DONE, Done, JOBS, Job, Work};
 use crate::shared::{self, Joint};
 
-type Outcome<T> = Result<T, Refusal<'static>>;
+pub type Outcome<T> = Result<T, Refusal<'static>>;
 
-/// Takes requests one by one and answers each.
+/// Takes requests one by one and answers each, at once or when it is planned.
 #[embassy_executor::task]
 pub async fn run(mut line: LinkReader) {
-    let mut scenes: [Scene; AXES] = CONFIGURATIONS.map(|configuration| configuration.scene);
     let mut splitter = Splitter::new();
     let mut bytes = [0; 32];
     loop {
-        // A line that fails is silent; the axes' patience sees to the rest.
-        let n = line.read(&mut bytes).await.unwrap_or(0);
+        let n = match select(line.read(&mut bytes), DONE.receive()).await {
+            // A line that fails is silent; the axes' patience sees to the rest.
+            Either::First(n) => n.unwrap_or(0),
+            Either::Second(Done { sequence, outcome }) => {
+                link::send(&accepted(sequence, outcome)).await;
+                continue;
+            }
+        };
         for &byte in &bytes[..n] {
             let Some(frame) = splitter.push(byte) else { continue };
             match frame.and_then(decode::<Request>) {
-                Ok(request) => link::send(&answer(&request, &mut scenes)).await,
+                Ok(request) => {
+                    if let Some(report) = answer(&request) {
+                        link::send(&report).await;
+                    }
+                }
                 Err(_) => shared::with(|s| s.counters.garbled += 1),
             }
         }
     }
 }
 
-fn answer(request: &Request, scenes: &mut [Scene; AXES]) -> Report<'static> {
+/// The answer to a request, unless that has to be planned first.
+fn answer(request: &Request) -> Option<Report<'static>> {
     let Request { sequence, axis, command } = *request;
     shared::with(|s| s.joints.iter_mut().for_each(|joint| joint.axis.heard()));
     let axis = usize::from(axis);
     let outcome = match command {
         Command::Describe => {
-            describe(axis, scenes).map(|description| Report::Description { sequence, description })
+            describe(axis).map(|description| Report::Description { sequence, description })
         }
         Command::Status => status(axis).map(|status| Report::Status { sequence, status }),
-        _ => carry_out(axis, command, scenes).map(|tick| Report::Accepted { sequence, tick }),
+        Command::Move(motion) => return hand_down(sequence, axis, Work::Move(motion)),
+        Command::Still { to, duration } => {
+            return hand_down(sequence, axis, Work::Still { to, duration });
+        }
+        Command::Payload(payload) => return hand_down(sequence, axis, Work::Payload(payload)),
+        Command::Enable
+        | Command::Disable
+        | Command::Stop
+        | Command::Home(_)
+        | Command::Heartbeat => Ok(accepted(sequence, change(axis, command))),
     };
-    outcome.unwrap_or_else(|refusal| Report::Refused { sequence, refusal })
+    Some(outcome.unwrap_or_else(|refusal| Report::Refused { sequence, refusal }))
 }
 
-/// Carries a request out and returns the first tick that it shows in.
-fn carry_out(axis: usize, command: Command, scenes: &mut [Scene; AXES]) -> Outcome<u32> {
+fn accepted(sequence: u16, outcome: Outcome<u32>) -> Report<'static> {
+    match outcome {
+        Ok(tick) => Report::Accepted { sequence, tick },
+        Err(refusal) => Report::Refused { sequence, refusal },
+    }
+}
+
+/// To the planner; answered by its [`DONE`].
+fn hand_down(sequence: u16, axis: usize, work: Work) -> Option<Report<'static>> {
+    let full = JOBS.try_send(Job { sequence, axis, work }).is_err();
+    full.then_some(Report::Refused { sequence, refusal: Refusal::Busy })
+}
+
+/// Carries out what needs no plan and returns the first tick that it shows in.
+fn change(axis: usize, command: Command) -> Outcome<u32> {
     match command {
-        Command::Move(motion) => plan(axis, &motion),
-        Command::Payload(payload) => reload(axis, payload, scenes),
         Command::Enable => on(axis, |joint| {
             let shaft = joint.measured.ok_or(Refusal::NotMeasured)?;
             Ok(joint.axis.enable(joint.train.mapping().to_link(shaft))?)
@@ -66,52 +98,17 @@ fn carry_out(axis: usize, command: Command, scenes: &mut [Scene; AXES]) -> Outco
             Ok(())
         }),
         Command::Home(angle) => home(axis, angle),
-        Command::Heartbeat | Command::Describe | Command::Status => on(axis, |_| Ok(())),
+        _ => on(axis, |_| Ok(())),
     }
 }
 
 /// Changes an axis with the tick masked.
-fn on(axis: usize, change: impl FnOnce(&mut Joint) -> Outcome<()>) -> Outcome<u32> {
+pub fn on(axis: usize, change: impl FnOnce(&mut Joint) -> Outcome<()>) -> Outcome<u32> {
     shared::with(|s| {
         let joint = s.joints.get_mut(axis).ok_or(Refusal::Axis(AXES as u8))?;
         let tick = joint.axis.clock();
         change(joint).map(|()| tick)
     })
-}
-
-/// Plans with the tick running and hands the plan over. Where the axis' motion has changed meanwhile
-/// it is planned once more.
-fn plan(axis: usize, motion: &Move) -> Outcome<u32> {
-    let mut last = Refused::Queue(Rejected::Stale);
-    for _ in 0..2 {
-        let departure = shared::with(|s| {
-            let joint = s.joints.get(axis).ok_or(Refusal::Axis(AXES as u8))?;
-            joint.axis.departure().map_err(Refusal::from)
-        })?;
-        let planned = departure.plan(motion)?;
-        let taken = shared::with(|s| match s.joints.get_mut(axis) {
-            Some(joint) => joint.axis.take(&planned).map(|_| joint.axis.clock()),
-            None => Err(last),
-        });
-        match taken {
-            Ok(tick) => return Ok(tick),
-            Err(refused) => last = refused,
-        }
-        if last != Refused::Queue(Rejected::Stale) {
-            break;
-        }
-    }
-    Err(last.into())
-}
-
-/// Sets the arm with another payload up and puts it in the place of the old one.
-fn reload(axis: usize, payload: Payload, scenes: &mut [Scene; AXES]) -> Outcome<u32> {
-    let scene = scenes.get_mut(axis).ok_or(Refusal::Axis(AXES as u8))?;
-    let changed = Scene { payload, ..*scene };
-    let stepper = axes::stepper(&changed)?;
-    let tick = on(axis, |joint| Ok(joint.axis.replace(stepper)?))?;
-    *scene = changed;
-    Ok(tick)
 }
 
 /// Names the angle where a disabled axis stands.
@@ -138,16 +135,14 @@ fn home(axis: usize, angle: f64) -> Outcome<u32> {
     })
 }
 
-fn describe(axis: usize, scenes: &[Scene; AXES]) -> Outcome<Description<'static>> {
-    let (Some(configuration), Some(scene)) = (CONFIGURATIONS.get(axis), scenes.get(axis)) else {
-        return Err(Refusal::Axis(AXES as u8));
-    };
+fn describe(axis: usize) -> Outcome<Description<'static>> {
+    let configuration = CONFIGURATIONS.get(axis).ok_or(Refusal::Axis(AXES as u8))?;
     let zero = shared::with(|s| s.joints.get(axis).map(|joint| joint.train.mapping().zero()));
     Ok(Description {
         axes: AXES as u8,
         method: axes::METHOD,
         tick: axes::TICK,
-        scene: *scene,
+        scene: plan::scene(axis)?,
         policy: configuration.policy,
         joint: configuration.joint,
         direction: configuration.direction,

@@ -14,7 +14,8 @@ use crate::tick::{Setpoint, TO_DRIVE};
 /// What is known of a drive.
 #[derive(Clone, Copy, Default)]
 struct Drive {
-    on: bool,
+    /// As it was last told; a drive may still be on when this board begins anew.
+    on: Option<bool>,
     sent: Option<Sequence>,
     moving: bool,
     peak: TorquePeak,
@@ -66,8 +67,8 @@ async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive)
         }
         drive.moving = moving;
     }
-    if on != drive.on {
-        drive.on = on;
+    if drive.on != Some(on) {
+        drive.on = Some(on);
         defmt::info!("axis {}: {}", axis, tick.mode);
         if let Some(frame) = node.set_axis_state::<ClassicFrame>(on) {
             bus.send(&frame, tick.sequence()).await;

@@ -3,10 +3,11 @@
 //! | task | executor | what it does |
 //! |---|---|---|
 //! | [`tick::run`] | highest | steps every axis, hands the setpoints on |
-//! | [`drive::send`], [`drive::receive`] | lowest | frames to the drives, encoder angles from them |
-//! | [`command::run`] | lowest | requests of the host: plans, sets up, answers |
-//! | [`link::setpoints`] | lowest | every setpoint to the host |
-//! | [`report::run`] | lowest | a line a second over defmt |
+//! | [`drive::send`], [`drive::receive`] | middle | frames to the drives, encoder angles from them |
+//! | [`command::run`] | middle | requests of the host: carries out, hands down, answers |
+//! | [`link::setpoints`] | middle | every setpoint to the host |
+//! | [`report::run`] | middle | a line a second over defmt |
+//! | [`plan::run`] | lowest | plans moves, sets arms up |
 //!
 //! One board, chosen by a feature; everything it differs in is in its file.
 #![no_std]
@@ -19,20 +20,23 @@ mod board;
 mod command;
 mod drive;
 mod link;
+mod plan;
 mod report;
 mod shared;
+mod still;
 mod tick;
 
 use cortex_m_rt::entry;
 use embassy_executor::{InterruptExecutor, SendSpawner, Spawner};
 use stillbeam_firmware::stack;
 
-/// The tick's executor, above the others; the board's interrupt polls it.
+/// The executors, each of an interrupt, the most urgent first; the board's handlers poll them. The
+/// last is not the thread's, so that the processor sleeps for as long as nothing is pended.
 static TICK: InterruptExecutor = InterruptExecutor::new();
-
-/// Everybody else's executor, at the lowest priority. An interrupt too, and not the thread, so that
-/// the processor sleeps for as long as nothing is pended.
+/// Drives, link, requests, report.
 static TASKS: InterruptExecutor = InterruptExecutor::new();
+/// Plans.
+static PLANS: InterruptExecutor = InterruptExecutor::new();
 
 #[entry]
 fn main() -> ! {
@@ -41,7 +45,8 @@ fn main() -> ! {
         defmt::panic!("axes.rs: {}", error);
     }
     let devices = board::set_up();
-    let (tick, tasks) = board::start(&TICK, &TASKS);
+    let [tick, tasks, plans] = board::start([&TICK, &TASKS, &PLANS]);
+    plans.spawn(plan::run().expect("one of each"));
     tasks.spawn(started(devices, tick).expect("one of each"));
     loop {
         board::idle();

@@ -6,12 +6,14 @@ use core::cell::RefCell;
 use embassy_sync::blocking_mutex::CriticalSectionMutex;
 use heapless::Vec;
 use stillbeam::motor::Drivetrain;
-use stillbeam::{Angle, Error};
+use stillbeam::{Angle, Error, Scene};
 
 use crate::axes::{self, AXES, Axis, CONFIGURATIONS, Configuration};
 
 /// One axis.
 pub struct Joint {
+    /// The arm as it is now.
+    pub scene: Scene,
     /// Generator and policy.
     pub axis: Axis,
     /// Link to motor.
@@ -86,7 +88,7 @@ fn add(configuration: &Configuration) -> Result<(), Error> {
     let train = Drivetrain::new(joint, *direction, *zero)?;
     with(|shared| {
         // As many as there are configurations.
-        let _ = shared.joints.push(Joint { axis, train, measured: None });
+        let _ = shared.joints.push(Joint { scene: *scene, axis, train, measured: None });
     });
     Ok(())
 }

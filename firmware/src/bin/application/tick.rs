@@ -4,7 +4,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
-use embassy_time::{Duration, Ticker};
+use embassy_time::{Duration, Instant, Timer};
 use stillbeam::axis::{Cause, Pace, Tick};
 
 use crate::axes::{AXES, TICK};
@@ -35,16 +35,17 @@ pub static TO_HOST: Outlet = Channel::new();
 /// Deadline: over before the next tick is due. Only steps the axes and hands their setpoints on.
 #[embassy_executor::task]
 pub async fn run() {
-    let mut ticker = Ticker::every(Duration::from_micros((TICK * 1e6) as u64));
+    let period = Duration::from_micros((TICK * 1e6) as u64);
+    let mut due = Instant::now();
     let mut pace = Pace::new(board::PERIOD);
     loop {
-        ticker.next().await;
+        due += period;
+        Timer::at(due).await;
         let begin = board::counts();
         let timing = pace.arrive(begin);
-        if timing.missed > 0 {
-            // No burst to catch up: the path waits.
-            ticker.reset();
-        }
+        // No burst to catch up: the path waits. The phase is kept, which a ticker that is reset to
+        // now would not do.
+        due += period * timing.missed;
         shared::with(|shared| {
             for (i, joint) in shared.joints.iter_mut().enumerate() {
                 if timing.missed > 0 {

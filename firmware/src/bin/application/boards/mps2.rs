@@ -10,8 +10,9 @@
 //! Cortex-M4F takes on average; a tick of 10 ms has 156,250 instructions. (The bench's shift of 10
 //! counts more exactly and leaves a tick only 9,765.)
 //!
-//! **Lock-step.** If there is a host on QEMU's standard input, it grants every tick with two bytes:
-//! how many bytes of UART 0 and of UART 1 have to be in before time goes on. Time stands still while
+//! **Lock-step.** If there is a host on QEMU's standard input, it grants every tick with four bytes:
+//! how many bytes of UART 0 and of UART 1 have to be in before time goes on, and for how many µs the
+//! tick is kept from running, which shows what late and missed ticks do. Time stands still while
 //! the board waits: a semihosting call takes no virtual time, and with both timers stopped and the
 //! processor asleep QEMU's clock has nowhere to go.
 
@@ -70,12 +71,9 @@ pub fn set_up() -> Devices {
     }
 }
 
-/// Starts the executors of the tick and of the tasks below it.
-pub fn start(
-    tick: &'static InterruptExecutor,
-    tasks: &'static InterruptExecutor,
-) -> (SendSpawner, SendSpawner) {
-    (tick.start(Irq::Tick), tasks.start(Irq::Tasks))
+/// Starts the executors, the most urgent first.
+pub fn start([tick, tasks, plans]: [&'static InterruptExecutor; 3]) -> [SendSpawner; 3] {
+    [tick.start(Irq::Tick), tasks.start(Irq::Tasks), plans.start(Irq::Plans)]
 }
 
 /// Starts the tasks that only this board has.
@@ -122,6 +120,8 @@ enum Irq {
     Bus = 2,
     Alarm = 8,
     /// Of no device.
+    Plans = 29,
+    /// Of no device.
     Tasks = 30,
     /// Of no device.
     Tick = 31,
@@ -134,13 +134,14 @@ unsafe impl InterruptNumber for Irq {
     }
 }
 
-/// Of the tick, above the lines, below the alarm; of the tasks, below all.
-const PRIORITIES: [(Irq, u8); 5] = [
+/// Of the tick, above the lines, below the alarm; of the tasks, below those; of the plans, below all.
+const PRIORITIES: [(Irq, u8); 6] = [
     (Irq::Alarm, 0x20),
     (Irq::Tick, 0x40),
     (Irq::Link, 0x60),
     (Irq::Bus, 0x60),
-    (Irq::Tasks, 0xe0),
+    (Irq::Tasks, 0xc0),
+    (Irq::Plans, 0xe0),
 ];
 
 unsafe extern "C" {
@@ -169,6 +170,11 @@ extern "C" fn on_tasks() {
     unsafe { crate::TASKS.on_interrupt() }
 }
 
+extern "C" fn on_plans() {
+    // SAFETY: as above.
+    unsafe { crate::PLANS.on_interrupt() }
+}
+
 #[unsafe(link_section = ".vector_table.interrupts")]
 #[unsafe(no_mangle)]
 static __INTERRUPTS: [unsafe extern "C" fn(); 32] = {
@@ -176,6 +182,7 @@ static __INTERRUPTS: [unsafe extern "C" fn(); 32] = {
     table[Irq::Link as usize] = on_link;
     table[Irq::Bus as usize] = on_bus;
     table[Irq::Alarm as usize] = on_alarm;
+    table[Irq::Plans as usize] = on_plans;
     table[Irq::Tasks as usize] = on_tasks;
     table[Irq::Tick as usize] = on_tick;
     table

@@ -6,16 +6,27 @@
 //!
 //! LPUART1 (PA2, PA3: the ST-LINK's serial port, 921,600 baud) is the host; FDCAN1 (PA11 receive,
 //! PA12 transmit, to a transceiver) the bus at 250 kbit/s, an ODrive's default. Report over RTT.
+//!
+//! Everything counts on the board's crystal X3, 24 MHz: CAN tolerates some 0.5 % between two nodes,
+//! which the processor's own oscillator may be off by alone.
+
+use core::cell::RefCell;
 
 use cortex_m::peripheral::{DCB, DWT};
 use defmt_rtt as _;
 use embassy_executor::{InterruptExecutor, SendSpawner, Spawner};
+use embassy_stm32::can::config::TxBufferMode;
 use embassy_stm32::can::{self, CanConfigurator, CanRx, CanTx};
 use embassy_stm32::interrupt::{self, InterruptExt, Priority};
-use embassy_stm32::peripherals::{FDCAN1, LPUART1};
-use embassy_stm32::rcc::{Pll, PllMul, PllPreDiv, PllQDiv, PllRDiv, PllSource, Sysclk, mux};
+use embassy_stm32::peripherals::{FDCAN1, IWDG, LPUART1};
+use embassy_stm32::rcc::{
+    Hse, HseMode, Pll, PllMul, PllPreDiv, PllRDiv, PllSource, Sysclk, mux,
+};
+use embassy_stm32::time::Hertz;
 use embassy_stm32::usart::{self, BufferedUart, BufferedUartRx, BufferedUartTx};
+use embassy_stm32::wdg::IndependentWatchdog;
 use embassy_stm32::{Config, bind_interrupts, interrupt as handler};
+use embassy_sync::blocking_mutex::CriticalSectionMutex;
 use embedded_can::Frame;
 use stillbeam::drive::{ClassicFrame, Sequence};
 
@@ -25,7 +36,15 @@ pub const UNIT: &str = "cycles";
 pub const PERIOD: u32 = 1_700_000;
 
 const BAUD: u32 = 921_600;
+/// 24 MHz make 6 × 16 quanta a bit at 250 kbit/s, 3 × 16 at 500, 3 × 8 at 1 Mbit/s, sampled at 87.5 %.
 const CAN_BITRATE: u32 = 250_000;
+
+/// Without a tick for this long the board begins anew, drives off. The oscillator that it counts by
+/// is off by up to 10 %.
+const WATCHDOG_MICROSECONDS: u32 = 100_000;
+
+static WATCHDOG: CriticalSectionMutex<RefCell<Option<IndependentWatchdog<'static, IWDG>>>> =
+    CriticalSectionMutex::new(RefCell::new(None));
 
 /// The devices that the application uses.
 pub struct Devices {
@@ -62,9 +81,19 @@ pub fn set_up() -> Devices {
 
     let mut bus = CanConfigurator::new(p.FDCAN1, p.PA11, p.PA12, Irqs);
     bus.set_bitrate(CAN_BITRATE);
+    // In the order in which they are sent: a priority queue may swap frames of one drive.
+    let config = bus.config().set_tx_buffer_mode(TxBufferMode::Fifo);
+    bus.set_config(config);
     let filter = can::filter::StandardFilter::accept_all_into_fifo0();
     bus.properties().set_standard_filter(can::filter::StandardFilterSlot::_0, filter);
     let (writer, reader, _) = bus.into_normal_mode().split();
+    // Below the tick. The time driver's alarm stays above it, at P0.
+    interrupt::LPUART1.set_priority(Priority::P6);
+    interrupt::FDCAN1_IT0.set_priority(Priority::P6);
+    interrupt::FDCAN1_IT1.set_priority(Priority::P6);
+    let mut watchdog = IndependentWatchdog::new(p.IWDG, WATCHDOG_MICROSECONDS);
+    watchdog.unleash();
+    WATCHDOG.lock(|slot| *slot.borrow_mut() = Some(watchdog));
     Devices {
         link_reader,
         link_writer,
@@ -73,21 +102,22 @@ pub fn set_up() -> Devices {
     }
 }
 
-/// 16 MHz / 4 × 85 = 340 MHz: / 2 for the core, / 4 for CAN.
+/// 24 MHz / 6 × 85 = 340 MHz, / 2 for the core; 24 MHz as they are for CAN.
 fn clocks() -> Config {
     let mut config = Config::default();
-    config.rcc.hsi = true;
+    config.rcc.hsi = false;
+    config.rcc.hse = Some(Hse { freq: Hertz::mhz(24), mode: HseMode::Oscillator });
     config.rcc.pll = Some(Pll {
-        source: PllSource::HSI,
-        prediv: PllPreDiv::DIV4,
+        source: PllSource::HSE,
+        prediv: PllPreDiv::DIV6,
         mul: PllMul::MUL85,
         divp: None,
-        divq: Some(PllQDiv::DIV4),
+        divq: None,
         divr: Some(PllRDiv::DIV2),
     });
     config.rcc.sys = Sysclk::PLL1_R;
     config.rcc.boost = true;
-    config.rcc.mux.fdcansel = mux::Fdcansel::PLL1_Q;
+    config.rcc.mux.fdcansel = mux::Fdcansel::HSE;
     config
 }
 
@@ -99,15 +129,16 @@ fn buffers() -> [&'static mut [u8]; 2] {
     [transmit, receive]
 }
 
-/// Starts the executors of the tick and of the tasks below it, on interrupts of devices that are not
-/// used.
-pub fn start(
-    tick: &'static InterruptExecutor,
-    tasks: &'static InterruptExecutor,
-) -> (SendSpawner, SendSpawner) {
+/// Starts the executors, the most urgent first, on interrupts of devices that are not used.
+pub fn start([tick, tasks, plans]: [&'static InterruptExecutor; 3]) -> [SendSpawner; 3] {
     interrupt::UART4.set_priority(Priority::P2);
-    interrupt::UART5.set_priority(Priority::P15);
-    (tick.start(interrupt::UART4), tasks.start(interrupt::UART5))
+    interrupt::UART5.set_priority(Priority::P14);
+    interrupt::USART3.set_priority(Priority::P15);
+    [
+        tick.start(interrupt::UART4),
+        tasks.start(interrupt::UART5),
+        plans.start(interrupt::USART3),
+    ]
 }
 
 #[handler]
@@ -120,6 +151,12 @@ unsafe fn UART4() {
 unsafe fn UART5() {
     // SAFETY: as above.
     unsafe { crate::TASKS.on_interrupt() }
+}
+
+#[handler]
+unsafe fn USART3() {
+    // SAFETY: as above.
+    unsafe { crate::PLANS.on_interrupt() }
 }
 
 /// Starts the tasks that only this board has: none.
@@ -146,12 +183,15 @@ pub fn microseconds(counts: u32) -> u32 {
     counts / 170
 }
 
-/// A tick has been made: nobody waits for it here.
-pub fn ticked() {}
+/// A tick has been made: the one thing that keeps the watchdog quiet.
+pub fn ticked() {
+    WATCHDOG.lock(|watchdog| watchdog.borrow_mut().iter_mut().for_each(IndependentWatchdog::pet));
+}
 
-/// The drives' own watchdogs stop them.
+/// No more ticks, no more frames: the drives' own watchdogs stop them, and this board's begins anew.
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
+    cortex_m::interrupt::disable();
     if let Some(place) = info.location() {
         defmt::error!("panic at {=str}:{}", place.file(), place.line());
     }
@@ -166,8 +206,8 @@ pub struct BusWriter {
 }
 
 impl BusWriter {
-    /// Queues a frame; where three wait already, the last of them gives way. The sequence number
-    /// has no place in the frame.
+    /// Queues a frame; where three wait already, waits for one of them. The sequence number has no
+    /// place in the frame.
     pub async fn send(&mut self, frame: &ClassicFrame, _: Sequence) {
         let frame = if frame.is_remote_frame() {
             can::frame::Frame::new_remote(frame.id(), frame.dlc()).ok()

@@ -22,7 +22,7 @@ pub fn ticked() {
 #[embassy_executor::task]
 pub async fn keep_step() {
     let Ok(mut host) = File::open(c"/dev/stdin") else { return };
-    let mut granted = [0; 2];
+    let mut granted = [0; 4];
     let mut first = true;
     let mut awaited = [0u32; 2];
     loop {
@@ -36,7 +36,8 @@ pub async fn keep_step() {
             Err(_) if first => return,
             Err(_) => semihosting::process::exit(0),
         }
-        for (awaited, granted) in awaited.iter_mut().zip(granted) {
+        let [link, bus, low, high] = granted;
+        for (awaited, granted) in awaited.iter_mut().zip([link, bus]) {
             *awaited += u32::from(granted);
         }
         time().hold();
@@ -50,5 +51,16 @@ pub async fn keep_step() {
             });
         }
         time().go_on();
+        stall(u16::from_le_bytes([low, high]));
+    }
+}
+
+/// Keeps everything from running for so many µs, the tick too: what a fault would do.
+fn stall(microseconds: u16) {
+    if microseconds > 0 {
+        cortex_m::interrupt::free(|_| {
+            let begin = time().reading();
+            while time().reading().wrapping_sub(begin) < 25 * u32::from(microseconds) {}
+        });
     }
 }

@@ -1,0 +1,40 @@
+//! Still moves of an axis: planned beside the tick, like every other move.
+
+use crate::math::Scalar;
+use crate::motion::{Departure as Origin, Still};
+use crate::{Departure, Error, Link, Planned};
+
+impl Departure {
+    /// Plans a move to `to` rad after which the arm is at rest: in `duration` s, rounded to whole
+    /// ticks, or if none is told in the shortest time within the limits. Every limit is kept by the
+    /// planner's model, torque and bending moment included; `link` is the planner's.
+    ///
+    /// From rest, as a queue of moves that end at rest leaves it, in any number of ticks from now.
+    /// Runs for 10⁵ to 10⁸ instructions: at a low priority, never in the tick.
+    ///
+    /// # Errors
+    /// A hub that still turns there, a duration too short, a limit that is exceeded, each with its
+    /// value and what is accepted.
+    pub fn plan_still<T: Scalar, const K: usize>(
+        &self,
+        planner: &Still<T, K>,
+        link: &Link,
+        to: f64,
+        duration: Option<f64>,
+    ) -> Result<Planned<T>, Error> {
+        let start = self.start();
+        if start.rate != 0.0 {
+            return Err(Error::NotAtRest { rate: start.rate });
+        }
+        let (origin, limits) = (Origin::at_rest(start.angle), self.limits());
+        let still = match duration {
+            None => planner.shortest_from(&origin, None, to, limits)?.0,
+            Some(duration) => {
+                let still = planner.plan_from(&origin, None, to, duration)?;
+                planner.survey(&still, None).admit(limits, link.length)?;
+                still
+            }
+        };
+        self.plan(&still.motion())
+    }
+}

@@ -1,0 +1,102 @@
+//! Planning and set-up, below everything else: however long they take, ticks, drives and requests go
+//! on. The tick is masked while their results are handed over, no longer.
+
+use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
+use embassy_sync::channel::Channel;
+use stillbeam::axis::Refused;
+use stillbeam::{Departure, Error, Move, Payload, Planned, Rejected, Scene};
+use stillbeam_protocol::Refusal;
+
+use crate::axes::{self, AXES};
+use crate::command::{Outcome, on};
+use crate::shared;
+use crate::still::Planners;
+
+/// What is to be planned or set up.
+#[derive(Clone, Copy)]
+pub struct Job {
+    /// The request's.
+    pub sequence: u16,
+    pub axis: usize,
+    pub work: Work,
+}
+
+#[derive(Clone, Copy)]
+pub enum Work {
+    Move(Move),
+    Still { to: f64, duration: Option<f64> },
+    Payload(Payload),
+}
+
+/// What came of it: the first tick that it shows in.
+pub struct Done {
+    pub sequence: u16,
+    pub outcome: Outcome<u32>,
+}
+
+/// Jobs that wait; whoever asks for one more is told that the planner is busy.
+pub static JOBS: Channel<CriticalSectionRawMutex, Job, 2> = Channel::new();
+/// To whoever answers.
+pub static DONE: Channel<CriticalSectionRawMutex, Done, 1> = Channel::new();
+
+/// Takes jobs one by one.
+#[embassy_executor::task]
+pub async fn run() {
+    let mut planners = Planners::default();
+    loop {
+        let Job { sequence, axis, work } = JOBS.receive().await;
+        let outcome = match work {
+            Work::Move(motion) => follow(axis, |departure| departure.plan(&motion)),
+            Work::Still { to, duration } => planners
+                .of(axis)
+                .and_then(|planner| follow(axis, |d| planner.plan(d, to, duration))),
+            Work::Payload(payload) => {
+                planners.forget(axis);
+                reload(axis, payload)
+            }
+        };
+        DONE.send(Done { sequence, outcome }).await;
+    }
+}
+
+/// Plans with the tick running and hands the plan over. Where the axis' motion has changed meanwhile
+/// it is planned once more.
+fn follow(axis: usize, plan: impl Fn(&Departure) -> Result<Planned<f32>, Error>) -> Outcome<u32> {
+    let mut last = Refused::Queue(Rejected::Stale);
+    for _ in 0..2 {
+        let departure = shared::with(|s| {
+            let joint = s.joints.get(axis).ok_or(Refusal::Axis(AXES as u8))?;
+            joint.axis.departure().map_err(Refusal::from)
+        })?;
+        let planned = plan(&departure)?;
+        let taken = shared::with(|s| match s.joints.get_mut(axis) {
+            Some(joint) => joint.axis.take(&planned).map(|_| joint.axis.clock()),
+            None => Err(last),
+        });
+        match taken {
+            Ok(tick) => return Ok(tick),
+            Err(refused) => last = refused,
+        }
+        if last != Refused::Queue(Rejected::Stale) {
+            break;
+        }
+    }
+    Err(last.into())
+}
+
+/// Sets the arm with another payload up and puts it in the place of the old one.
+fn reload(axis: usize, payload: Payload) -> Outcome<u32> {
+    let scene = scene(axis)?;
+    let changed = Scene { payload, ..scene };
+    let stepper = axes::stepper(&changed)?;
+    on(axis, |joint| {
+        joint.axis.replace(stepper)?;
+        joint.scene = changed;
+        Ok(())
+    })
+}
+
+/// The arm as it is now.
+pub fn scene(axis: usize) -> Outcome<Scene> {
+    shared::with(|s| s.joints.get(axis).map(|joint| joint.scene)).ok_or(Refusal::Axis(AXES as u8))
+}

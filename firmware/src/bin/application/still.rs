@@ -1,0 +1,82 @@
+//! Planners of still moves, one an axis, set up when they are first asked: some seconds of a slow
+//! core's time, which nobody else waits for. With the feature `still`; what it takes stands in
+//! docs/firmware.md.
+
+#[cfg(feature = "still")]
+mod planner {
+    use stillbeam::motion::Still;
+    use stillbeam::{Departure, Error, Link, Planned};
+
+    use crate::axes::{AXES, TICK};
+    use crate::command::Outcome;
+    use crate::plan::scene;
+
+    /// The planner of one arm: its exact rod in two modes.
+    pub struct Planner {
+        still: Still<f32, 2>,
+        link: Link,
+    }
+
+    impl Planner {
+        pub fn plan(
+            &self,
+            departure: &Departure,
+            to: f64,
+            duration: Option<f64>,
+        ) -> Result<Planned<f32>, Error> {
+            departure.plan_still(&self.still, &self.link, to, duration)
+        }
+    }
+
+    #[derive(Default)]
+    pub struct Planners([Option<Planner>; AXES]);
+
+    impl Planners {
+        /// The axis' planner, set up if there is none yet.
+        pub fn of(&mut self, axis: usize) -> Outcome<&Planner> {
+            let scene = scene(axis)?;
+            let planner = &mut self.0[axis];
+            if planner.is_none() {
+                *planner = Some(Planner { still: Still::new(&scene, TICK)?, link: scene.link });
+            }
+            planner.as_ref().ok_or(stillbeam_protocol::Refusal::NoPlanner)
+        }
+
+        /// The arm is another.
+        pub fn forget(&mut self, axis: usize) {
+            if let Some(planner) = self.0.get_mut(axis) {
+                *planner = None;
+            }
+        }
+    }
+}
+
+#[cfg(not(feature = "still"))]
+mod planner {
+    use stillbeam::{Departure, Error, Planned};
+    use stillbeam_protocol::Refusal;
+
+    use crate::command::Outcome;
+
+    /// None is built in.
+    pub enum Planner {}
+
+    impl Planner {
+        pub fn plan(&self, _: &Departure, _: f64, _: Option<f64>) -> Result<Planned<f32>, Error> {
+            match *self {}
+        }
+    }
+
+    #[derive(Default)]
+    pub struct Planners;
+
+    impl Planners {
+        pub fn of(&mut self, _: usize) -> Outcome<&Planner> {
+            Err(Refusal::NoPlanner)
+        }
+
+        pub fn forget(&mut self, _: usize) {}
+    }
+}
+
+pub use planner::Planners;
