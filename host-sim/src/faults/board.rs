@@ -219,6 +219,8 @@ impl Board {
                     mode => return Err(Refusal::Mode(mode)),
                 }
             }
+            // As a firmware without the planner of still moves.
+            Command::Still { .. } => return Err(Refusal::NoPlanner),
             Command::Move(_) | Command::Heartbeat | Command::Describe | Command::Status => {}
         }
         Ok(())

@@ -94,6 +94,8 @@ fn kind(refusal: &Refusal<'_>) -> &'static str {
         Refusal::NotAtRest => "not at rest",
         Refusal::Stale => "stale",
         Refusal::NotMeasured => "not measured",
+        Refusal::Busy => "busy",
+        Refusal::NoPlanner => "no planner",
         Refusal::Axis(_) => "no such axis",
     }
 }
