@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::campaign::{self, Interruption, Refusals, Rest};
-use stillbeam_sim::plan::document;
+use stillbeam_sim::blocks;
 use stillbeam_sim::{output, progress};
 
 const SEED: u64 = 20_260_101;
@@ -27,13 +27,13 @@ fn main() -> Result<(), Error> {
     let interrupted = campaign::interruptions(SEED, arms, EACH, &|| bar.inc(1))?;
     bar.finish_and_clear();
     let text = std::fs::read_to_string(&path).map_err(|cause| Error::file(&path, cause))?;
-    let blocks = [
+    let campaigns = [
         ("campaign-rests".to_owned(), of_rests(&rested)),
         ("campaign-interruptions".to_owned(), of_interruptions(&interrupted)),
     ];
-    let filled = document::fill(&text, &blocks)?;
+    let filled = blocks::fill(&text, "still", &campaigns)?;
     output::write_whole(&path, |file| file.write_all(filled.as_bytes()))?;
-    for (_, block) in &blocks {
+    for (_, block) in &campaigns {
         println!("{block}");
     }
     Ok(())
