@@ -141,7 +141,7 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
     }
 
     /// `½ xᵀA x` as a function of `x`.
-    pub(crate) fn half_form(mut self) -> HalfForm<T, N, W> {
+    pub fn half_form(mut self) -> HalfForm<T, N, W> {
         for row in &mut self.rows {
             row[0] = T::HALF * row[0];
         }
