@@ -3,9 +3,9 @@
 
 use std::path::PathBuf;
 
+use stillbeam_sim::blocks;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::campaign::{self, Interruption, Refusals, Rest};
-use stillbeam_sim::blocks;
 use stillbeam_sim::{output, progress};
 
 const SEED: u64 = 20_260_101;

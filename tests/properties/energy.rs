@@ -18,7 +18,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 fn positive<const N: usize, const W: usize>(a: &Band<f64, N, W>, x: &[f64]) -> TestCaseResult {
     prop_assert!(a.factor().is_positive());
     let x: [f64; N] = core::array::from_fn(|i| x[i] / a.get(i, i).sqrt());
-    prop_assert!(a.half_form(&x) > 0.0);
+    prop_assert!(a.half_form().at(&x) > 0.0);
     Ok(())
 }
 
@@ -69,7 +69,7 @@ fn newmark(scene: &Scene, turn: &Turn) -> Vec<f64> {
     let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("a stepper");
     afterwards(stepper, turn, |arm| {
         let (q, rate) = (arm.state().deflection, arm.stepper().deflection_rate(arm.state()));
-        model.mass().half_form(&rate) + model.stiffness().half_form(&q)
+        model.mass().half_form().at(&rate) + model.stiffness().half_form().at(&q)
     })
 }
 

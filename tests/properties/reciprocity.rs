@@ -26,7 +26,7 @@ fn reciprocal<const N: usize, const W: usize>(
         loads.each_ref().map(|load| core::array::from_fn(|i| load[i] / scale[i].max(1e-300)));
     let (there, back) = (dot(&x, &a.times(&y)), dot(&y, &a.times(&x)));
     prop_assert!((there - back).abs() <= 1e-12, "{there:e} and {back:e}");
-    let (half, form) = (a.half_form(&x), 0.5 * dot(&x, &a.times(&x)));
+    let (half, form) = (a.half_form().at(&x), 0.5 * dot(&x, &a.times(&x)));
     prop_assert!((half - form).abs() <= 1e-12, "{half:e} and {form:e}");
     if definite {
         let factors = a.factor();

@@ -33,16 +33,16 @@ fn small<S: Stepper<Scalar = f64>, const N: usize, const W: usize>(
     let (sin, cos) = arm.hub().angle.sin_cos();
     let carried = 0.5 * scene.rigid_inertia() * omega * omega
         + omega * dot(model.coupling(), rate)
-        + model.mass().half_form(rate)
-        - omega * omega * model.spin().half_form(q);
-    let raised =
-        sin * (scene.first_moment() - model.tension().half_form(q)) + cos * dot(model.weight(), q);
+        + model.mass().half_form().at(rate)
+        - omega * omega * model.spin().half_form().at(q);
+    let raised = sin * (scene.first_moment() - model.tension().half_form().at(q))
+        + cos * dot(model.weight(), q);
     let energy = 0.5 * scene.hub.inertia * omega * omega
         + carried
-        + model.stiffness().half_form(q)
+        + model.stiffness().half_form().at(q)
         + scene.gravity * raised;
     let loss = 2.0 * scene.damping.alpha * carried
-        + 2.0 * scene.damping.beta * model.stiffness().half_form(rate);
+        + 2.0 * scene.damping.beta * model.stiffness().half_form().at(rate);
     Balance { energy, loss, work: arm.setpoint().torque * omega }
 }
 

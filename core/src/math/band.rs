@@ -97,7 +97,10 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
     }
 
     /// `vᵢᵀA vⱼ` for the vectors `vᵢ`, as far as the band of the result holds it. Set-up only.
-    pub(crate) fn onto<const K: usize, const V: usize>(&self, vectors: &[[T; N]; K]) -> Band<T, K, V> {
+    pub(crate) fn onto<const K: usize, const V: usize>(
+        &self,
+        vectors: &[[T; N]; K],
+    ) -> Band<T, K, V> {
         let mut reduced = Band::ZERO;
         for i in 0..K {
             let column = self.times(&vectors[i]);
@@ -189,14 +192,14 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
 
 /// `½ xᵀA x`: the lower triangle of `A`, its diagonal halved.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct HalfForm<T, const N: usize, const W: usize> {
+pub struct HalfForm<T, const N: usize, const W: usize> {
     rows: [[T; W]; N],
 }
 
 impl<T: Scalar, const N: usize, const W: usize> HalfForm<T, N, W> {
     /// Its value, at half the cost of the product `A x`.
     #[inline(always)]
-    pub(crate) fn at(&self, x: &[T; N]) -> T {
+    pub fn at(&self, x: &[T; N]) -> T {
         let row = |i: usize| {
             let mut sum = self.rows[i][0] * x[i];
             for d in 1..W {

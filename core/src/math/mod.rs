@@ -9,8 +9,7 @@ mod least_squares;
 mod propagator;
 mod scalar;
 
-pub(crate) use band::HalfForm;
-pub use band::{Band, Ldl};
+pub use band::{Band, HalfForm, Ldl};
 pub(crate) use jacobi::generalized_eigen;
 pub(crate) use least_squares::LeastSquares;
 pub(crate) use propagator::phi_functions;

@@ -376,11 +376,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 /// at a predicted state, as within plain cubics. `θ̇²Γ` is compared with `2/h²`, above which a mode that the tick resolves
 /// blows up, or with a twentieth of the `ω²` of a mode that turns more than 2 rad a tick: beyond half
 /// a turn such a scheme always feeds a mode a little.
-fn fastest<T: Scalar, const K: usize>(
-    spin: &Band<T, K, K>,
-    omega: &[f64; K],
-    tick: f64,
-) -> f64 {
+fn fastest<T: Scalar, const K: usize>(spin: &Band<T, K, K>, omega: &[f64; K], tick: f64) -> f64 {
     let mut least = f64::INFINITY;
     for k in 0..K {
         let turn = omega[k] * tick;

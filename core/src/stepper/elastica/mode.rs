@@ -81,6 +81,7 @@ impl<T: Scalar> Mode<T> {
     /// it drifted.
     #[inline(always)]
     pub(super) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
-        [0, 1].map(|r| y[r] + (self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1]))
+        [0, 1]
+            .map(|r| y[r] + (self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1]))
     }
 }

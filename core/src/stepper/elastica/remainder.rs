@@ -144,8 +144,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         let (torque, inertia) = self.torque::<ALL>(&shape, &forms, &flow, &gradient);
         let torque = if ALL { torque + weight } else { torque };
         let center = core::array::from_fn(|k| {
-            let drag =
-                if ALL && self.damping { self.drag[k] * flow.u[k] } else { T::ZERO };
+            let drag = if ALL && self.damping { self.drag[k] * flow.u[k] } else { T::ZERO };
             let at = if ALL { drag - gradient[k] } else { -gradient[k] };
             [at, -flow.u[k]]
         });
@@ -258,7 +257,8 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         }
         let mut torque = T::ZERO;
         for k in 0..K {
-            let mut share = (rise[k] + rise[k]) * flow.rate[k] - lever[k] * (shape.x[k] + gradient[k]);
+            let mut share =
+                (rise[k] + rise[k]) * flow.rate[k] - lever[k] * (shape.x[k] + gradient[k]);
             share = self.omega[k] * share;
             if ALL && self.damping {
                 share -= lever[k] * (self.loss[k] * flow.rate[k]);
@@ -297,8 +297,7 @@ fn gradient<T: Scalar, const K: usize>(forms: &Forms<T, K>, flow: &Flow<T, K>) -
     if K > 1 {
         let of_second = [twice * v2, (v2 + v2) * omega, v2 * v2];
         for k in 0..K {
-            gradient[k] +=
-                of_second[0] * c[1].half_slope[k] - of_second[1] * d[1].half_slope[k];
+            gradient[k] += of_second[0] * c[1].half_slope[k] - of_second[1] * d[1].half_slope[k];
         }
         gradient[0] += of_second[2] * second[1].1;
     }
