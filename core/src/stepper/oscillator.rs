@@ -13,9 +13,8 @@ use crate::motion::Hub;
 /// depends on `n`, with `n` constant (ETD2RK; Cox and Matthews, J. Comput. Phys. 176, 2002).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Oscillator<T> {
-    /// `exp(hA)`, its determinant rounded down to at most the true one, so that rounding never
-    /// feeds the mode energy.
-    exponential: [[T; 2]; 2],
+    /// `exp(hA) − I`, see [`contracting`].
+    gain: [[T; 2]; 2],
     /// Weights of `u` at the beginning, in the mean and at the end of the step.
     drive: [[T; 3]; 2],
     /// `hφ₁`, `hφ₂`: weights of `n` at the beginning, and of its change over the step.
@@ -73,10 +72,10 @@ impl<T: Scalar> Oscillator<T> {
     /// For a step of `h` s; `omega` in rad/s, `alpha` in 1/s, `beta` in s, `b` the mode's coupling
     /// to the hub.
     pub(crate) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
-        let [exponential, p1, p2, p3, _] = phi_of(omega, alpha, beta, h);
+        let [_, p1, p2, p3, _] = phi_of(omega, alpha, beta, h);
         let cast = |matrix: [[f64; 2]; 2]| matrix.map(|row| row.map(|x| T::from_f64(h * x)));
         Self {
-            exponential: contracting(exponential),
+            gain: contracting(gain(&matrix(omega, alpha, beta, h), &p1)),
             // u = u₀ + c₁s + c₂s², c₁ = 6ū − 4u₀ − 2u₁, c₂ = 3(u₀ + u₁ − 2ū), s = 0..1:
             // the response is h(φ₁u₀ + φ₂c₁ + 2φ₃c₂) times the second column.
             drive: core::array::from_fn(|r| {
@@ -107,10 +106,9 @@ impl<T: Scalar> Oscillator<T> {
     /// the load at the beginning, the rotation is all there is.
     #[inline(always)]
     pub(super) fn rotate(&self, [a, v]: [T; 2], rest: T, begin: T, force: T) -> [T; 2] {
-        let [[cos, sin], [back, _]] = self.exponential;
-        let lag = rest * begin - force;
-        let a = a + lag;
-        [cos * a + sin * v - lag, back * a + cos * v]
+        let [[versine, sin], [back, _]] = self.gain;
+        let off = a + (rest * begin - force);
+        [a + (versine * off + sin * v), v + (back * off + versine * v)]
     }
 
     /// What to add for a load that changes by `change` over the step.
@@ -150,12 +148,22 @@ impl<T: Scalar> Oscillator<T> {
 
     #[inline(always)]
     fn free(&self, r: usize, y: [T; 2], drive: &Drive<T>) -> T {
-        self.exponential[r][0] * y[0]
-            + self.exponential[r][1] * y[1]
-            + self.drive[r][0] * drive.begin
+        let driven = self.drive[r][0] * drive.begin
             + self.drive[r][1] * drive.mean
-            + self.drive[r][2] * drive.end
+            + self.drive[r][2] * drive.end;
+        y[r] + (self.gain[r][0] * y[0] + self.gain[r][1] * y[1] + driven)
     }
+}
+
+/// `hA`.
+fn matrix(omega: f64, alpha: f64, beta: f64, h: f64) -> [[f64; 2]; 2] {
+    let stiffness = omega * omega;
+    [[0.0, h], [-h * stiffness, -h * (alpha + beta * stiffness)]]
+}
+
+/// `exp Z − I = Z φ₁(Z)`, to full relative precision for small steps.
+pub(super) fn gain(z: &[[f64; 2]; 2], p1: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    [0, 1].map(|i| [0, 1].map(|j| z[i][0] * p1[0][j] + z[i][1] * p1[1][j]))
 }
 
 /// `φ₀ … φ₄` of `hA`, by way of `(ωa, p)`, in which the matrix is as small as it can be and equally
@@ -197,28 +205,47 @@ pub(super) fn jolt<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64)
     .map(T::from_f64)
 }
 
-/// Determinants below this are not held down: see [`contracting`].
-const MOST_DAMPED: f64 = 0.999;
+/// Where the determinant falls short of 1 by more than this it is not held down.
+const DAMPED: f64 = 1e-3;
 
-/// Rounds the exponential so that the determinant of the rounded matrix does not exceed the true
-/// one. Rounded to nearest it may, and a mode would then grow: 3 % in 10⁶ ticks were seen in f32.
+/// Rounds `F = exp(hA) − I` so that the determinant of `I + F` does not exceed the true one. Rounded
+/// to nearest it may, and a mode would then grow.
+///
+/// `F` rather than the exponential: a frequency is `√(2 − tr exp(hA))`, of which an f32 near 1 leaves
+/// `ε/(ωh)²`, and what rounding down takes from the energy is as much smaller.
 pub(super) fn contracting<T: Scalar>(exact: [[f64; 2]; 2]) -> [[T; 2]; 2] {
-    let determinant = |m: &[[f64; 2]; 2]| m[0][0] * m[1][1] - m[0][1] * m[1][0];
-    let limit = determinant(&exact).min(1.0);
-    let mut shrink = 1.0;
+    // det(I + F) − 1.
+    let excess = |f: &[[f64; 2]; 2]| {
+        (f[0][0] + f[1][1]) + (f[0][0] * f[1][1] - f[0][1] * f[1][0])
+    };
+    let limit = excess(&exact).min(0.0);
+    let nearest = exact.map(|row| row.map(T::from_f64));
     // With more damping than rounding there is nothing to mend; and where the step damps the mode
     // out, the determinant is itself but rounding, and no shrinking would bring it below its limit.
-    if limit < MOST_DAMPED {
-        return exact.map(|row| row.map(T::from_f64));
+    if limit < -DAMPED {
+        return nearest;
     }
-    loop {
-        let rounded = exact.map(|row| row.map(|x| T::from_f64(shrink * x)));
-        let as_f64 = rounded.map(|row| row.map(T::to_f64));
-        // In f64 the product of two f32 is exact, and the sum's rounding far below an f32's.
-        if determinant(&as_f64) <= limit {
-            return rounded;
+    // What one rounding changes the determinant by.
+    let [[aa, ap], [pa, pp]] = exact.map(|row| row.map(f64::abs));
+    let unit = 0.125 * (aa + pp + ap * pa) * T::EPSILON.to_f64();
+    let mut rounded = nearest;
+    let mut shrunk = 0.0;
+    // In f64 the product of two f32 is exact, and the sum's rounding far below an f32's; of f64
+    // themselves a few steps more are on the safe side of what cannot be told.
+    for _ in 0..MOST_STEPS {
+        if excess(&rounded.map(|row| row.map(T::to_f64))) <= limit {
+            break;
         }
-        // In f64 at least what makes 1 less.
-        shrink -= (0.125 * T::EPSILON.to_f64()).max(f64::EPSILON);
+        shrunk += unit;
+        rounded = core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                let identity = if i == j { shrunk } else { 0.0 };
+                T::from_f64((1.0 - shrunk) * exact[i][j] - identity)
+            })
+        });
     }
+    rounded
 }
+
+/// Steps of an eighth of a rounding; some ten are enough.
+const MOST_STEPS: u32 = 1000;

@@ -2,7 +2,7 @@
 
 use crate::math::{Scalar, phi_functions};
 use crate::stepper::Drive;
-use crate::stepper::oscillator::contracting;
+use crate::stepper::oscillator::{contracting, gain};
 
 /// `ẏ = A(y − r) − (0, b u(t))`, `y = (ωa, p̃)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`.
 ///
@@ -10,13 +10,13 @@ use crate::stepper::oscillator::contracting;
 /// `r = −A⁻¹n`: in these coordinates `A⁻¹` is an exchange of rows and costs nothing, and where `n`
 /// stays what it is the mode turns about `r`. With `r` changing by `δ` a step, exactly
 ///
-/// `y(h) = o + δ + E(y − o) + …`, `E = exp(hA)`, `o = r + (hA)⁻¹δ`,
+/// `y(h) = y + δ + (E − I)(y − o) + …`, `E = exp(hA)`, `o = r + (hA)⁻¹δ`,
 ///
 /// which is `hφ₁n₀ + hφ₂(n₁ − n₀)` of the exponential integrators in half the products.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mode<T> {
-    /// `E`, its determinant rounded down to at most the true one, so that rounding never feeds the
-    /// mode energy.
+    /// `E − I`, the determinant of `E` rounded down to at most the true one, so that rounding never
+    /// feeds the mode energy.
     turn: [[T; 2]; 2],
     /// Weights of `u` at the beginning, in the mean and at the end of the step.
     drive: [[T; 3]; 2],
@@ -33,10 +33,10 @@ impl<T: Scalar> Mode<T> {
     pub(super) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
         let loss = alpha + beta * omega * omega;
         let z = [[0.0, h * omega], [-h * omega, -h * loss]];
-        let [exponential, p1, p2, p3, _] = phi_functions(&z);
+        let [_, p1, p2, p3, _] = phi_functions(&z);
         let f = T::from_f64;
         Self {
-            turn: contracting(exponential),
+            turn: contracting(gain(&z, &p1)),
             // u = u₀ + c₁s + c₂s², c₁ = 6ū − 4u₀ − 2u₁, c₂ = 3(u₀ + u₁ − 2ū), s = 0..1:
             // the response is h(φ₁u₀ + φ₂c₁ + 2φ₃c₂) times the second column.
             drive: core::array::from_fn(|r| {
@@ -73,7 +73,7 @@ impl<T: Scalar> Mode<T> {
         [0, 1].map(|r| {
             let (turn, drive) = (&self.turn[r], &self.drive[r]);
             let driven = drive[0] * u.begin + drive[1] * u.mean + drive[2] * u.end;
-            (turn[0] * off[0] + turn[1] * off[1]) + driven + (about[r] + drift[r])
+            y[r] + ((turn[0] * off[0] + turn[1] * off[1]) + driven + drift[r])
         })
     }
 
