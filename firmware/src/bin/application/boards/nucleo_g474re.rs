@@ -19,9 +19,7 @@ use embassy_stm32::can::config::TxBufferMode;
 use embassy_stm32::can::{self, CanConfigurator, CanRx, CanTx};
 use embassy_stm32::interrupt::{self, InterruptExt, Priority};
 use embassy_stm32::peripherals::{FDCAN1, IWDG, LPUART1};
-use embassy_stm32::rcc::{
-    Hse, HseMode, Pll, PllMul, PllPreDiv, PllRDiv, PllSource, Sysclk, mux,
-};
+use embassy_stm32::rcc::{Hse, HseMode, Pll, PllMul, PllPreDiv, PllRDiv, PllSource, Sysclk, mux};
 use embassy_stm32::time::Hertz;
 use embassy_stm32::usart::{self, BufferedUart, BufferedUartRx, BufferedUartTx};
 use embassy_stm32::wdg::IndependentWatchdog;
@@ -134,11 +132,7 @@ pub fn start([tick, tasks, plans]: [&'static InterruptExecutor; 3]) -> [SendSpaw
     interrupt::UART4.set_priority(Priority::P2);
     interrupt::UART5.set_priority(Priority::P14);
     interrupt::USART3.set_priority(Priority::P15);
-    [
-        tick.start(interrupt::UART4),
-        tasks.start(interrupt::UART5),
-        plans.start(interrupt::USART3),
-    ]
+    [tick.start(interrupt::UART4), tasks.start(interrupt::UART5), plans.start(interrupt::USART3)]
 }
 
 #[handler]
