@@ -107,10 +107,13 @@ impl fmt::Display for Refusal<'_> {
         match *self {
             Self::Range { parameter, value, min, max, unit } => {
                 let space = if unit.is_empty() { "" } else { " " };
-                write!(
-                    f,
-                    "{parameter} = {value}{space}{unit}: accepted is {min} to {max}{space}{unit}"
-                )
+                let (value, min, max) = (Short(value), Short(min), Short(max));
+                write!(f, "{parameter} = {value}{space}{unit}: accepted is ")?;
+                if max.0 == f64::INFINITY {
+                    write!(f, "from {min}{space}{unit}")
+                } else {
+                    write!(f, "{min} to {max}{space}{unit}")
+                }
             }
             Self::Queue { needed, free } => {
                 write!(f, "move takes {needed} segments of the queue: accepted is up to {free} now")
@@ -134,6 +137,20 @@ impl fmt::Display for Refusal<'_> {
                 write!(f, "still = no planner: accepted by a firmware with the feature `still`")
             }
             Self::Axis(axes) => write!(f, "axis: accepted is 0 to {}", axes.saturating_sub(1)),
+        }
+    }
+}
+
+/// A number in the digits of an f32: enough for a reader, and what was typed stays as it was typed.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let short = self.0 as f32;
+        if short.is_finite() && (short != 0.0 || self.0 == 0.0) {
+            fmt::Display::fmt(&short, f)
+        } else {
+            fmt::Display::fmt(&self.0, f)
         }
     }
 }

@@ -7,4 +7,5 @@ mod policy;
 mod protocol;
 mod script;
 mod slcan;
+mod still;
 mod stop;

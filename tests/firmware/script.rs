@@ -2,7 +2,7 @@
 
 use stillbeam::{Move, Payload, Profile};
 use stillbeam_protocol::Command;
-use stillbeam_sim::talk::{DEMONSTRATION, Step};
+use stillbeam_sim::talk::{DEMONSTRATION, FAULTS, FIRST, STILL, Step};
 
 #[test]
 fn words_are_steps() {
@@ -14,14 +14,27 @@ fn words_are_steps() {
     assert_eq!(step("payload 0 0.05"), Step::Ask(0, Command::Payload(payload)));
     assert_eq!(step("wait 0.35"), Step::Wait(0.35));
     assert_eq!(step("stop 3"), Step::Ask(3, Command::Stop));
-    for text in DEMONSTRATION {
+    assert_eq!(step("still 0 1.5"), Step::Ask(0, Command::Still { to: 1.5, duration: None }));
+    let timed = Command::Still { to: 1.5, duration: Some(0.9) };
+    assert_eq!(step("still 0 1.5 0.9"), Step::Ask(0, timed));
+    assert_eq!(step("stall 0.014"), Step::Stall(0.014));
+    for text in [&DEMONSTRATION[..], &FIRST, &STILL, &FAULTS].concat() {
         step(text);
     }
 }
 
 #[test]
 fn what_is_no_step_is_named_with_what_is_accepted() {
-    for bad in ["", "jump 0", "move", "move 0 cubic 1", "move x cubic 1 1", "stop 300", "rest 1"] {
+    for bad in [
+        "",
+        "jump 0",
+        "move",
+        "move 0 cubic 1",
+        "move x cubic 1 1",
+        "stop 300",
+        "rest 1",
+        "still 0 1 x",
+    ] {
         let error = bad.parse::<Step>().unwrap_err().to_string();
         assert!(error.starts_with(&format!("step = \"{bad}\": accepted is enable A,")), "{error}");
         assert!(!error.contains('\n'));

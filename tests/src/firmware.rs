@@ -29,20 +29,25 @@ pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, Str
     build_variant(bin, Some((variable, value)))
 }
 
-/// Builds the application for a board, by the board's feature.
+/// Builds the application for a board, by the board's feature and others behind it.
 ///
 /// # Errors
 /// As [`build`].
-pub fn application(board: &str) -> Result<PathBuf, String> {
+pub fn application(features: &str) -> Result<PathBuf, String> {
     require_target(TARGET)?;
     let _one = BUILDING.lock();
     let folder = root().join("target/firmware");
     run(cargo()
         .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", "application"])
-        .args(["--features", board, "--profile", "application", "--target", TARGET])
+        .args(["--features", features, "--profile", "application", "--target", TARGET])
         .arg("--target-dir")
         .arg(&folder))?;
-    keep(&folder, "application", "application", &format!("application-{board}"))
+    keep(
+        &folder,
+        "application",
+        "application",
+        &format!("application-{}", features.replace(',', "-")),
+    )
 }
 
 fn build_variant(bin: &str, variable: Option<(&str, &str)>) -> Result<PathBuf, String> {

@@ -4,7 +4,9 @@
 use std::fmt::Write;
 
 use stillbeam_protocol::Command;
-use stillbeam_sim::talk::{Answer, DEMONSTRATION, Machine, Session, converse};
+use stillbeam_sim::talk::{
+    Answer, DEMONSTRATION, FAULTS, FIRST, Machine, STILL, Session, converse,
+};
 
 use crate::{firmware, image, root};
 
@@ -27,11 +29,18 @@ pub struct Block {
 /// # Errors
 /// What is missing, or does not build or run.
 pub fn blocks() -> Result<Vec<Block>, String> {
-    let (transcript, cost, stack) = talk()?;
+    let whole = talk("mps2", &DEMONSTRATION, "stillbeam-sim talk")?;
+    let first = talk("mps2", &FIRST, &spelled(&FIRST))?;
+    let faults = talk("mps2", &FAULTS, &spelled(&FAULTS))?;
+    let still = talk("mps2,still", &STILL, &spelled(&STILL))?;
+    let stack = whole.stack.max(faults.stack);
     Ok(vec![
-        Block { name: "transcript", text: transcript },
-        Block { name: "sizes", text: sizes(stack)? },
-        Block { name: "axes", text: axes(cost)? },
+        Block { name: "transcript", text: whole.transcript },
+        Block { name: "first", text: first.transcript },
+        Block { name: "faults", text: faults.transcript },
+        Block { name: "still", text: still.transcript },
+        Block { name: "sizes", text: sizes(stack, still.stack)? },
+        Block { name: "axes", text: axes(whole.cost)? },
     ])
 }
 
@@ -49,14 +58,40 @@ pub fn replace(page: &str, blocks: &[Block]) -> Result<String, String> {
     })
 }
 
-/// The demonstration's transcript, the cost of a tick of both axes in a move, and the worst stack.
-fn talk() -> Result<(String, u32, u32), String> {
-    let image = firmware::application("mps2")?;
-    let mut text = "```text\n$ stillbeam-sim talk\n".to_owned();
+/// A conversation with the emulated board.
+struct Talk {
+    transcript: String,
+    /// Instructions of a tick of both axes, in a move.
+    cost: u32,
+    /// Deepest, bytes.
+    stack: u32,
+}
+
+/// The command that takes these steps.
+fn spelled(steps: &[&str]) -> String {
+    let quoted = steps.iter().map(|step| match step.contains(' ') {
+        true => format!("\"{step}\""),
+        false => (*step).to_owned(),
+    });
+    let mut lines = vec!["stillbeam-sim talk".to_owned()];
+    for step in quoted {
+        match lines.last_mut() {
+            Some(line) if line.len() + step.len() < 96 => {
+                write!(line, " {step}").expect("a string")
+            }
+            _ => lines.push(format!("    {step}")),
+        }
+    }
+    lines.join(" \\\n")
+}
+
+fn talk(features: &str, steps: &[&str], command: &str) -> Result<Talk, String> {
+    let image = firmware::application(features)?;
+    let mut text = format!("```text\n$ {command}\n");
     let mut moving = 0;
     let mut run = || {
         let mut session = Session::begin(Machine::emulate(&image)?)?;
-        converse(&mut session, &DEMONSTRATION, &mut |line| {
+        converse(&mut session, steps, &mut |line| {
             writeln!(text, "{line}").expect("a string");
             let words: Vec<&str> = line.split_whitespace().collect();
             if let [_, "s", "|", _, "tick:", cost, "instructions", ..] = words.as_slice() {
@@ -66,17 +101,26 @@ fn talk() -> Result<(String, u32, u32), String> {
         session.ask(0, Command::Status)
     };
     match run() {
-        Ok(Answer::Status(status)) => Ok((text + "```\n", moving, status.stack)),
+        Ok(Answer::Status(status)) => {
+            Ok(Talk { transcript: text + "```\n", cost: moving, stack: status.stack })
+        }
         Ok(other) => Err(format!("status: {other:?}")),
         Err(error) => Err(error.to_string()),
     }
 }
 
-fn sizes(stack: u32) -> Result<String, String> {
-    let mut text = "| board | flash | statics | deepest stack |\n|---|---|---|---|\n".to_owned();
-    for (board, stack) in [("mps2", stack.to_string()), ("nucleo-g474re", "not run".to_owned())] {
-        let footprint = image::footprint(&firmware::application(board)?)?;
-        writeln!(text, "| {board} | {} | {} | {stack} |", footprint.flash, footprint.ram)
+fn sizes(stack: u32, still: u32) -> Result<String, String> {
+    let mut text = "| features | flash | statics | deepest stack |\n|---|---|---|---|\n".to_owned();
+    let not_run = || "not run".to_owned();
+    let images = [
+        ("mps2", stack.to_string()),
+        ("mps2,still", still.to_string()),
+        ("nucleo-g474re", not_run()),
+        ("nucleo-g474re,still", not_run()),
+    ];
+    for (features, stack) in images {
+        let footprint = image::footprint(&firmware::application(features)?)?;
+        writeln!(text, "| {features} | {} | {} | {stack} |", footprint.flash, footprint.ram)
             .expect("a string");
     }
     Ok(text)

@@ -5,18 +5,25 @@ use std::path::Path;
 
 use stillbeam::axis::Mode;
 use stillbeam_protocol::{Command, Status};
-use stillbeam_sim::talk::{Answer, DEMONSTRATION, Machine, Session, Step};
+use stillbeam_sim::talk::{Answer, DEMONSTRATION, FAULTS, Machine, STILL, Session, Step};
 use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 
 /// Whole application on the emulated board.
 const FLASH: u64 = 64 * 1024;
 const RAM: u64 = 16 * 1024;
+/// With the planner of still moves.
+const STILL_FLASH: u64 = 112 * 1024;
+const STILL_RAM: u64 = 32 * 1024;
 
 /// Instructions of a tick of 10 ms at 64 ns each.
 const TICK: u32 = 156_250;
 
 fn begin() -> Session {
-    let image = firmware::application("mps2").unwrap_or_else(|error| panic!("{error}"));
+    begin_with("mps2")
+}
+
+fn begin_with(features: &str) -> Session {
+    let image = firmware::application(features).unwrap_or_else(|error| panic!("{error}"));
     Machine::emulate(&image).and_then(Session::begin).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -37,11 +44,12 @@ fn status(session: &mut Session) -> Status {
 /// The demonstration, what came of each step, and what was logged.
 fn demonstration() -> (Session, Vec<String>) {
     let mut session = begin();
-    let mut lines = Vec::new();
-    for text in DEMONSTRATION {
-        lines.push(format!("{text}: {}", take(&mut session, text)));
-    }
+    let lines = run(&mut session, &DEMONSTRATION);
     (session, lines)
+}
+
+fn run(session: &mut Session, steps: &[&str]) -> Vec<String> {
+    steps.iter().map(|text| format!("{text}: {}", take(session, text))).collect()
 }
 
 #[test]
@@ -81,6 +89,104 @@ fn the_firmware_and_the_host_agree_to_the_bit_through_the_whole_policy() {
     // A stop out of the tick included, and still far from its 10 ms.
     assert!(status.worst < TICK / 20, "{status:?}");
     assert!(status.late < 100, "no planning holds a tick up: {status:?}");
+}
+
+/// Every setpoint of a still move that the target has planned is the host's own plan's, or the
+/// conversation would have ended with an error.
+#[test]
+fn still_moves_are_planned_on_the_target_while_ticks_and_drives_go_on() {
+    let mut session = begin_with("mps2,still");
+    let lines = run(&mut session, &STILL);
+    let accepted =
+        lines.iter().filter(|line| line.starts_with("still") && line.contains("accepted before"));
+    assert_eq!(accepted.count(), 4, "{lines:#?}");
+    let outcome = |text: &str| lines.iter().find(|line| line.starts_with(text)).expect("a step");
+    let short = outcome("still 0 0.5 0.1");
+    assert!(short.contains("refused: move.duration = 0.1 s: accepted is "), "{short}");
+    let fast = outcome("still 0 -1.5 0.9");
+    assert!(fast.contains("refused: limits.") && fast.contains("accepted is 0 to "), "{fast}");
+    let rests = session.history(0).last().expect("ticks").setpoint;
+    assert_near("angle", rests.angle.radians(), 1.2, 1e-6);
+    assert_eq!(rests.rate, 0.0);
+    let status = status(&mut session);
+    // Plans take many ticks, and no tick, frame or setpoint waits for them.
+    assert!(session.now() > 200 && status.late < 100, "{status:?}");
+    assert_eq!([status.missed, status.overruns, status.dropped], [0; 3], "{status:?}");
+}
+
+/// A plan takes seconds on this board; a stop that comes meanwhile acts at once, and the plan that it
+/// makes stale is refused.
+#[test]
+fn a_stop_does_not_wait_for_a_plan() {
+    let mut session = begin_with("mps2,still");
+    take(&mut session, "enable 0");
+    take(&mut session, "spin 0 0.5 2");
+    take(&mut session, "spin 0 0.5 0");
+    let posted = session.post(0, Command::Still { to: 1.0, duration: None }).expect("sent");
+    take(&mut session, "wait 0.3");
+    let before = session.now();
+    let stopped = session.ask(0, Command::Stop);
+    assert!(matches!(stopped, Ok(Answer::Accepted(tick)) if tick <= before + 1), "{stopped:?}");
+    let Ok(Answer::Refused(why)) = session.answer(posted) else { panic!("it was stopped") };
+    assert!(why.contains("mode = Stopped") || why.contains("planned before a stop"), "{why}");
+    assert!(session.now() > before + 20, "the plan was still being made");
+}
+
+#[test]
+fn a_firmware_without_the_planner_says_so() {
+    let mut session = begin();
+    take(&mut session, "enable 0");
+    let said = take(&mut session, "still 0 1.0");
+    assert!(said.contains("refused: still = no planner"), "{said}");
+}
+
+/// Requests that the planner has no room for are refused at once.
+#[test]
+fn a_busy_planner_says_so() {
+    let mut session = begin_with("mps2,still");
+    take(&mut session, "enable 0");
+    let still = Command::Still { to: 1.0, duration: None };
+    let posted: Vec<_> = (0..4).map(|_| session.post(0, still).expect("sent")).collect();
+    let last = *posted.last().expect("four");
+    // Two wait for the planner, which has not begun.
+    let Ok(Answer::Refused(why)) = session.answer(last) else { panic!("there is no room") };
+    assert_eq!(why, "planner = busy: accepted once it has answered");
+}
+
+/// The host runs its own axes through the same late and missed ticks; setpoints are compared to the
+/// bit.
+#[test]
+fn late_ticks_change_nothing_and_missed_ones_stretch_or_stop_the_path() {
+    let mut session = begin();
+    let lines = run(&mut session, &FAULTS);
+    let status = status(&mut session);
+    assert_eq!(status.missed, 1 + 3, "{lines:#?}");
+    assert!((4_000..9_000).contains(&status.late), "{status:?}");
+    assert_eq!(status.cause, Some(stillbeam::axis::Cause::MissedTicks));
+    assert_eq!(status.dropped, 0, "no burst: {status:?}");
+    let log = session.log();
+    assert!(
+        log.iter().any(|(_, line)| line.contains("MissedTicks")) || lines[11].contains("stopped")
+    );
+}
+
+/// What a missed tick is late by is not carried along: the ticks keep their phase.
+#[test]
+fn lateness_of_missed_ticks_does_not_add_up() {
+    let mut session = begin();
+    for stall in 1..=6 {
+        take(&mut session, "stall 0.025");
+        assert_eq!(status(&mut session).missed, stall);
+    }
+    assert!(status(&mut session).late < 9_000);
+}
+
+#[test]
+fn a_stall_beyond_what_can_be_granted_is_refused() {
+    let mut session = begin();
+    let step: Step = "stall 0.1".parse().expect("a step");
+    let error = step.take(&mut session).expect_err("too long").to_string();
+    assert_eq!(error, "stall = 0.1 s: accepted is 0 to 0.065 s in QEMU");
 }
 
 /// In virtual time nothing depends on how fast this machine is. An instruction is 1.6 counts of the
@@ -126,15 +232,22 @@ fn homing_names_the_angle_and_moves_no_shaft() {
 
 #[test]
 fn the_application_keeps_its_budgets() {
-    let image = firmware::application("mps2").unwrap_or_else(|error| panic!("{error}"));
-    let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
-    let (mut session, _) = demonstration();
-    let stack = u64::from(status(&mut session).stack);
-    println!("{footprint:?}, stack {stack}");
-    assert!(footprint.flash <= FLASH, "{footprint:?}");
-    assert!(stack > 1000, "the paint was really there: {stack}");
-    // Statics grow up, the stack down, in 16 KiB: what is left between them is still painted.
-    assert!(footprint.ram + stack < RAM, "{footprint:?}, stack {stack}");
+    let images = [
+        ("mps2", &DEMONSTRATION[..], FLASH, RAM),
+        ("mps2,still", &STILL[..], STILL_FLASH, STILL_RAM),
+    ];
+    for (features, steps, flash, ram) in images {
+        let image = firmware::application(features).unwrap_or_else(|error| panic!("{error}"));
+        let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
+        let mut session = begin_with(features);
+        run(&mut session, steps);
+        let stack = u64::from(status(&mut session).stack);
+        println!("{features}: {footprint:?}, stack {stack}");
+        assert!(footprint.flash <= flash, "{features}: {footprint:?}");
+        assert!(stack > 1000, "the paint was really there: {stack}");
+        // Statics grow up, the stack down: what is left between them is still painted.
+        assert!(footprint.ram + stack < ram, "{features}: {footprint:?}, stack {stack}");
+    }
 }
 
 /// A stop may come out of any tick; no panic may.
@@ -151,24 +264,29 @@ fn no_panic_is_reachable_from_an_axis_tick() {
 /// Built and measured, not run: there is no such board here, and QEMU has none.
 #[test]
 fn the_nucleo_board_builds_and_fits() {
-    let image = firmware::application("nucleo-g474re").unwrap_or_else(|error| panic!("{error}"));
-    let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
-    println!("{footprint:?}");
-    assert!((20_000..96 * 1024).contains(&footprint.flash), "{footprint:?}");
-    assert!(footprint.ram < 16 * 1024, "{footprint:?}");
+    for (features, flash) in [("nucleo-g474re", 96 * 1024), ("nucleo-g474re,still", 128 * 1024)] {
+        let image = firmware::application(features).unwrap_or_else(|error| panic!("{error}"));
+        let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
+        println!("{features}: {footprint:?}");
+        assert!((20_000..flash).contains(&footprint.flash), "{footprint:?}");
+        assert!(footprint.ram < 16 * 1024, "{footprint:?}");
+    }
 }
 
 /// The page says what happens. Instruction counts and sizes may be off by what a change of the code
 /// makes until the page is written anew; everything else is as it stands there.
 #[test]
-fn the_page_is_what_the_firmware_does() {
-    let path = root().join("docs/firmware.md");
-    let page = std::fs::read_to_string(&path).expect("docs/firmware.md");
+fn the_pages_are_what_the_firmware_does() {
     let blocks = firmware_page::blocks().unwrap_or_else(|error| panic!("{error}"));
-    let written = firmware_page::replace(&page, &blocks).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(without_counts(&page), without_counts(&written), "write it by the command it names");
+    let pages = ["docs/firmware.md", "README.md"].map(|name| {
+        let page = std::fs::read_to_string(root().join(name)).expect(name);
+        let written = firmware_page::replace(&page, &blocks).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(without_counts(&page), without_counts(&written), "{name}: write it anew");
+        page
+    });
     for block in blocks {
-        assert!(page.contains(&format!("<!-- firmware: {} -->", block.name)), "{}", block.name);
+        let begin = format!("<!-- firmware: {} -->", block.name);
+        assert!(pages.iter().any(|page| page.contains(&begin)), "{} has no place", block.name);
     }
 }
 

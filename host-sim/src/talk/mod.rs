@@ -18,5 +18,5 @@ pub use emulator::Emulator;
 pub use machine::Machine;
 pub use page::page;
 pub use replica::Replica;
-pub use script::{DEMONSTRATION, Step, converse};
-pub use session::{Answer, Session};
+pub use script::{DEMONSTRATION, FAULTS, FIRST, STILL, Step, converse};
+pub use session::{Answer, Posted, Session};

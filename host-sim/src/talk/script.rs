@@ -49,6 +49,53 @@ pub const DEMONSTRATION: [&str; 20] = [
     "status 0",
 ];
 
+/// A first conversation: one move, one stop on its way.
+pub const FIRST: [&str; 8] = [
+    "enable 0",
+    "move 0 quintic 0.9 1.57",
+    "wait 0.4",
+    "stop 0",
+    "rest",
+    "move 0 cubic 0.5 0",
+    "disable 0",
+    "status 0",
+];
+
+/// Moves after which the arm is at rest, planned by the firmware: in a given time, in the shortest,
+/// behind another move, with another payload; one too short, one beyond a limit.
+pub const STILL: [&str; 13] = [
+    "enable 0",
+    "enable 1",
+    "still 0 1.57 1.2",
+    "rest",
+    "still 0 0.4",
+    "still 0 -0.2 1.5",
+    "rest",
+    "still 0 0.5 0.1",
+    "still 0 -1.5 0.9",
+    "payload 0 0.05",
+    "still 0 1.2 1.6",
+    "rest",
+    "status 0",
+];
+
+/// A late tick, a missed one and too many of them, in the middle of moves.
+pub const FAULTS: [&str; 13] = [
+    "enable 0",
+    "move 0 quintic 1.7 1.57",
+    "wait 0.3",
+    "stall 0.014",
+    "status 0",
+    "stall 0.025",
+    "status 0",
+    "rest",
+    "move 0 quintic 1.7 0",
+    "wait 0.5",
+    "stall 0.045",
+    "rest",
+    "status 0",
+];
+
 /// The words that a step may be.
 const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, still A TO \
      [DURATION], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest";
@@ -150,6 +197,7 @@ pub fn converse(
 ) -> Result<(), Error> {
     let parsed: Vec<Step> = steps.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
     print(&format!("{} axes, a tick of {} ms", session.axes(), 1e3 * session.tick()));
+    logged(session, print);
     for (text, step) in steps.iter().zip(parsed) {
         let begin = f64::from(session.now()) * session.tick();
         let said = step.take(session)?;
@@ -186,12 +234,13 @@ fn said(answer: &Answer) -> String {
         Answer::Refused(why) => format!("refused: {why}"),
         Answer::Status(status) => format!(
             "{:?}; a tick costs {} instructions, {} at worst; {} us late at most, {} missed, {} \
-             dropped, {} garbled; stack {} bytes",
+             overruns, {} dropped, {} garbled; stack {} bytes",
             status.mode,
             status.cost,
             status.worst,
             status.late,
             status.missed,
+            status.overruns,
             status.dropped,
             status.garbled,
             status.stack

@@ -27,6 +27,14 @@ pub enum Answer {
     Status(Status),
 }
 
+/// A request on its way.
+#[derive(Clone, Copy, Debug)]
+pub struct Posted {
+    sequence: u16,
+    axis: u8,
+    command: Command,
+}
+
 /// A conversation.
 pub struct Session {
     machine: Machine,
@@ -82,7 +90,25 @@ impl Session {
     /// # Errors
     /// The firmware is gone, or does otherwise than the host.
     pub fn ask(&mut self, axis: u8, command: Command) -> Result<Answer, Error> {
-        let sequence = self.send(axis, command)?;
+        let posted = self.post(axis, command)?;
+        self.answer(posted)
+    }
+
+    /// Sends a request, for [`Session::answer`]. In between others may be asked; if a move is
+    /// accepted meanwhile, the host learns it too late to run along.
+    ///
+    /// # Errors
+    /// The line is broken.
+    pub fn post(&mut self, axis: u8, command: Command) -> Result<Posted, Error> {
+        self.send(axis, command).map(|sequence| Posted { sequence, axis, command })
+    }
+
+    /// Goes on until a request is answered.
+    ///
+    /// # Errors
+    /// As [`Session::ask`].
+    pub fn answer(&mut self, posted: Posted) -> Result<Answer, Error> {
+        let Posted { sequence, axis, command } = posted;
         let mut waited = 0;
         while self.open.contains(&sequence) {
             self.beat()?;

@@ -59,10 +59,9 @@ async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive)
             && let Some(coarse) = drive.peak.finish(TORQUE_STEP)
         {
             defmt::warn!(
-                "axis {}: torque peak {} N m is {} counts of the drive's format, under 100",
+                "axis {}: a torque peak of {=u32} counts of the drive's format, under 100",
                 axis,
-                coarse.peak,
-                coarse.counts
+                coarse.counts as u32
             );
         }
         drive.moving = moving;
