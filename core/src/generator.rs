@@ -63,6 +63,8 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
     /// Below this many, ticks of the current segment are [plain](Stepper::is_plain) ones in a cubic.
     plain: u32,
     holding: bool,
+    /// The hub rests until the current segment ends.
+    resting: bool,
     /// The hub is at rest and the arm with it: see [`Stepper::is_settled`].
     asleep: bool,
     hub: Hub<S::Scalar>,
@@ -105,6 +107,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             end,
             limits: Limits::default(),
             holding: true,
+            resting: false,
             asleep: false,
         })
     }
@@ -152,6 +155,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.current.drive_cubic(&mut self.hub, k);
             let response = self.stepper.advance_in_cubic(&mut self.state, &before, &self.hub);
             respond(&self.hub, response)
+        } else if S::PLAIN && self.resting {
+            self.tick_at_rest(k)
         } else {
             self.tick_otherwise(k)
         }
@@ -168,7 +173,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if k >= self.current.count() {
             self.turn_over();
             landing = Some(self.landing);
-        } else if !self.holding || before.rate != S::Scalar::ZERO {
+        } else if !self.resting {
             self.current.drive(&mut self.hub, k);
             if self.stepper.is_directed() {
                 self.hub.aim();
@@ -188,6 +193,21 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.setpoint()
     }
 
+    /// A tick of a hub that rests: the arm rings, or sleeps.
+    #[inline(never)]
+    fn tick_at_rest(&mut self, k: u32) -> Setpoint<S::Scalar> {
+        if k >= self.current.count() {
+            return self.tick_otherwise(k);
+        }
+        self.k = k;
+        if self.asleep {
+            return self.setpoint();
+        }
+        let response = self.stepper.advance_at_rest(&mut self.state, &self.hub);
+        self.asleep = self.stepper.is_settled(&self.state);
+        respond(&self.hub, response)
+    }
+
     /// The latest setpoint again.
     #[inline(always)]
     pub fn setpoint(&self) -> Setpoint<S::Scalar> {
@@ -199,6 +219,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn setpoint_before(&self) -> Setpoint<S::Scalar> {
         let hub = Hub { acceleration: self.landing(), ..self.hub };
         respond(&hub, self.stepper.response(&self.state, &hub))
+    }
+
+    /// The hub rests and the arm with it, within [`SLEEP`](crate::stepper::SLEEP): it is left as it is
+    /// until the next move.
+    pub fn is_asleep(&self) -> bool {
+        self.asleep
     }
 
     /// No move under way or waiting.
@@ -232,11 +258,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if self.next_k() <= 1 { self.landing } else { self.hub.acceleration }
     }
 
-    /// To be called whenever there is another current segment, or another count of its ticks.
+    /// Which way the ticks of the current segment go: to be called whenever there is another one, or
+    /// another count of its ticks.
     #[inline(always)]
-    fn set_plain(&mut self) {
+    fn set_path(&mut self) {
         let plain = S::PLAIN && self.stepper.is_plain() && self.current.is_cubic();
         self.plain = if plain { self.current.count() } else { 0 };
+        self.resting = self.current.is_rest();
     }
 
     /// Where a move that is pushed now begins.
@@ -269,7 +297,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             }
         }
         self.k = 0;
-        self.set_plain();
+        self.set_path();
         self.current.drive(&mut self.hub, 0);
         if self.stepper.is_directed() {
             self.hub.aim();

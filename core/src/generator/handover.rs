@@ -107,7 +107,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.state = self.stepper.equilibrium(&self.hub);
         self.rest_at(angle);
         self.current = self.tail;
-        self.set_plain();
+        self.set_path();
         self.k = 0;
         self.holding = true;
         self.asleep = false;

@@ -241,6 +241,12 @@ impl<T: Scalar> Segment<T> {
         matches!(self.rest, Rest::Cubic)
     }
 
+    /// Whether the hub stays where it is.
+    #[inline(always)]
+    pub(crate) fn is_rest(&self) -> bool {
+        matches!(self.rest, Rest::Cruise { rate, step: 0 } if rate == T::ZERO)
+    }
+
     /// Becomes `other`. A cubic is copied in a fraction of the instructions that a segment with all
     /// its coefficients takes.
     #[inline(always)]

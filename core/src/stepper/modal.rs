@@ -48,8 +48,9 @@ pub struct Modal<T, const K: usize> {
     bent: HalfForm<T, K, K>,
     weight: [T; K],
     moment: T,
-    /// What a mode's `ωa` and `ωȧ` are to be below for it to sleep.
-    asleep: [[T; 2]; K],
+    /// Weights of the squares of how far a mode is from rest and of `ωȧ`: their sum is below 1 when the
+    /// arm is to sleep.
+    awake: [[T; 2]; K],
     tick: f64,
 }
 
@@ -123,9 +124,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             bent: tension.half_form(),
             weight: cast(&onto(model.weight()).map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
-            asleep: core::array::from_fn(|k| {
+            awake: core::array::from_fn(|k| {
                 let floor = super::sleep_floor::<f64>(scene.link.length, shape[k][model.tip()]);
-                [floor, omega[k] * floor].map(T::from_f64)
+                [floor, omega[k] * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
             }),
             tick,
         })
@@ -147,9 +148,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             force = softening.map(|f| -(rate2 * f));
         }
         if self.terms.gravity {
-            let tension = self.tension.times(a);
+            let hanging = self.hanging(a, hub);
             for k in 0..K {
-                force[k] += hub.sin * tension[k] - hub.cos * self.weight[k];
+                force[k] += hanging[k];
             }
         }
         [force, softening]
@@ -255,20 +256,45 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     #[inline(always)]
+    fn advance_at_rest(&self, state: &mut ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
+        let mut next = *state;
+        for k in 0..K {
+            let y = [state.coordinate[k], state.rate[k]];
+            [next.coordinate[k], next.rate[k]] = self.modes[k].swing(y, state.force[k]);
+        }
+        let mut torque = T::ZERO;
+        if self.terms.gravity {
+            let hanging = self.hanging(&next.coordinate, hub);
+            for k in 0..K {
+                let y = [next.coordinate[k], next.rate[k]];
+                let change = hanging[k] - state.force[k];
+                [next.coordinate[k], next.rate[k]] = self.modes[k].correct_forced(y, change);
+            }
+            next.force = hanging;
+            torque += self.weight_torque(&next, hub);
+        }
+        if self.terms.damping {
+            torque += -dot(&self.loss, &next.rate);
+        }
+        *state = next;
+        Response { torque: torque + self.inertial(&next, T::ZERO), tip: self.tip_of(&next) }
+    }
+
+    #[inline(always)]
     fn is_settled(&self, state: &ModalState<T, K>) -> bool {
-        (0..K).all(|k| {
-            let [near, slow] = self.asleep[k];
-            let rate = state.rate[k];
+        let mut swing = T::ZERO;
+        for k in 0..K {
+            let [far, fast] = self.awake[k];
             let pull = state.force[k] - state.coordinate[k];
-            rate < slow && -rate < slow && pull < near && -pull < near
-        })
+            swing += far * pull * pull + fast * state.rate[k] * state.rate[k];
+        }
+        swing < T::ONE
     }
 
     /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ
     /// − ½ g cosθ aᵀΠa` with `u = θ̈ + αθ̇`; tip `(r + L − ½ aᵀΦᵀSΦa, ψ(L)ᵀa)`.
     #[inline(always)]
     fn response(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
-        let a = &state.coordinate;
         let mut u = hub.acceleration;
         let mut torque = self.inertial(state, u);
         if self.terms.damping {
@@ -279,8 +305,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             torque -= self.spin_torque(state, u, hub.rate);
         }
         if self.terms.gravity {
-            let bent = self.bent.at(a);
-            torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, a);
+            torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
     }
@@ -307,6 +332,23 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             arm[k] = u * arm[k] + twice * state.rate[k];
         }
         dot(&state.softening, &arm)
+    }
+
+    /// `g cosθ S − g sinθ fᵀa − ½ g cosθ aᵀΠa`.
+    #[inline(always)]
+    fn weight_torque(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> T {
+        let a = &state.coordinate;
+        hub.cos * (self.moment - self.bent.at(a)) - hub.sin * dot(&self.weight, a)
+    }
+
+    /// `g sinθ Πa − g cosθ f`, over `ω`.
+    #[inline(always)]
+    fn hanging(&self, a: &[T; K], hub: &Hub<T>) -> [T; K] {
+        let mut force = self.tension.times(a);
+        for k in 0..K {
+            force[k] = hub.sin * force[k] - hub.cos * self.weight[k];
+        }
+        force
     }
 
     #[inline(always)]

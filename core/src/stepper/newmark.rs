@@ -72,8 +72,9 @@ pub struct Newmark<T, const N: usize, const W: usize> {
     alpha: T,
     /// `αJ_r`.
     rigid_drag: T,
-    /// `g K_P`.
+    /// `g K_P`, and `½ g qᵀK_P q`.
     tension: Band<T, N, W>,
+    bent: HalfForm<T, N, W>,
     /// `g f_g`.
     weight: [T; N],
     /// `g S`, S the first moment.
@@ -121,6 +122,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));
         let damping = mass.scaled(per_half * alpha).plus(per_half * beta, &stiffness);
         let effective = damping.plus(per_half * per_half, &mass).plus(P::ONE, &stiffness);
+        let tension = band(model.tension()).scaled(gravity);
         let coupling = vector(model.coupling());
         let scaled = |scale: P| cast(&coupling.map(|f| scale * f));
         // M⁻¹F along the axes of V is V⁻¹M⁻¹F, and V⁻¹ = VᵀK.
@@ -159,7 +161,8 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
             drag_torque: scaled(per_half * alpha),
             alpha: round(alpha),
             rigid_drag: round(alpha * scene.rigid_inertia()),
-            tension: band(model.tension()).scaled(gravity).map(round),
+            tension: tension.map(round),
+            bent: tension.map(round).half_form(),
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * scene.first_moment()),
         })
@@ -251,7 +254,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
     #[inline(always)]
     fn solve(&self, q: &[T; N], d: &[T; N], hub: &Hub<T>) -> [T; N] {
         let mut force = self.stiff(q);
-        self.load(&mut force, d, hub);
+        self.damp(&mut force, d, hub.rate);
         let turns = self.terms.spin && hub.rate != T::ZERO;
         if !self.terms.gravity {
             return if turns {
@@ -264,25 +267,32 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         if turns {
             change = change.plus(hub.rate * hub.rate, &self.spin);
         }
+        self.solve_hanging(force, q, change, hub.cos)
+    }
+
+    /// `[E + A] c = f + A q + g cosθ f_g`, `A` being `change`.
+    #[inline(always)]
+    fn solve_hanging(
+        &self,
+        mut force: [T; N],
+        q: &[T; N],
+        change: Band<T, N, W>,
+        cos: T,
+    ) -> [T; N] {
         let changed = change.times(q);
         for i in 0..N {
-            force[i] += changed[i];
+            force[i] += changed[i] + self.weight[i] * cos;
         }
         self.effective.plus(T::ONE, &change).solve(&force)
     }
 
-    /// Adds the forces that do not depend on `q`.
+    /// Adds what damping puts on a hub that turns.
     #[inline(always)]
-    fn load(&self, force: &mut [T; N], d: &[T; N], hub: &Hub<T>) {
+    fn damp(&self, force: &mut [T; N], d: &[T; N], rate: T) {
         if self.terms.damping {
             let damping = self.damping.times(d);
             for i in 0..N {
-                force[i] += damping[i] + self.drag[i] * hub.rate;
-            }
-        }
-        if self.terms.gravity {
-            for i in 0..N {
-                force[i] += self.weight[i] * hub.cos;
+                force[i] += damping[i] + self.drag[i] * rate;
             }
         }
     }
@@ -340,6 +350,40 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
         }
     }
 
+    #[inline(always)]
+    fn advance_at_rest(&self, state: &mut Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
+        // The rate is a constant here: what depends on it falls away.
+        let hub = Hub { rate: T::ZERO, acceleration: T::ZERO, ..*hub };
+        let (mut q, mut d) = (state.deflection, state.gain);
+        for i in 0..N {
+            let d0 = d[i];
+            d[i] = d0 - state.restoring[i];
+            q[i] += d0 + d[i];
+        }
+        let mut force = self.stiff(&q);
+        if self.terms.damping {
+            let damping = self.damping.times(&d);
+            for i in 0..N {
+                force[i] += damping[i];
+            }
+        }
+        let restoring = if self.terms.gravity {
+            self.solve_hanging(force, &q, self.tension.scaled(-hub.sin), hub.cos)
+        } else {
+            self.factors.solve(&force)
+        };
+        let next = Self::correct(q, d, restoring);
+        *state = next;
+        let mut torque = dot(&self.coupling, &next.restoring);
+        if self.terms.damping {
+            torque += dot(&self.drag_torque, &next.gain);
+        }
+        if self.terms.gravity {
+            torque += self.weight_torque(&next, &hub);
+        }
+        Response { torque, tip: self.tip_of(&next) }
+    }
+
     /// Bounds the swing of every node by the arm's lowest frequency: none is larger than
     /// `c/(½hω₁)²` and `d/(½hω₁)` make it.
     #[inline(always)]
@@ -357,7 +401,6 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
     /// tip `(r + L − ½ qᵀSq, w(L))`.
     #[inline(always)]
     fn response(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
-        let q = &state.deflection;
         let mut forced = hub.acceleration;
         let mut torque = self.inertial(state, hub.acceleration);
         if self.terms.damping {
@@ -368,8 +411,7 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
             torque -= self.spin_torque(state, forced, hub.rate);
         }
         if self.terms.gravity {
-            let bent = self.tension.half_form().at(q);
-            torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, q);
+            torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
     }
@@ -392,6 +434,13 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
             arm[i] = forced * q[i] + twice * state.gain[i];
         }
         dot(&self.spun(q), &arm)
+    }
+
+    /// `g cosθ S − g sinθ f_gᵀq − ½ g cosθ qᵀK_P q`.
+    #[inline(always)]
+    fn weight_torque(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> T {
+        let q = &state.deflection;
+        hub.cos * (self.moment - self.bent.at(q)) - hub.sin * dot(&self.weight, q)
     }
 
     #[inline(always)]

@@ -112,6 +112,14 @@ impl<T: Scalar> Oscillator<T> {
         [cos * a + sin * v - lag, back * a + cos * v]
     }
 
+    /// A step of the hub at rest under a constant force in units of stiffness, damped or not.
+    #[inline(always)]
+    pub(super) fn swing(&self, [a, v]: [T; 2], force: T) -> [T; 2] {
+        let [[cos, sin], [back, forth]] = self.exponential;
+        let a = a - force;
+        [cos * a + sin * v + force, back * a + forth * v]
+    }
+
     /// What to add for a load that changes by `change` over the step.
     #[inline(always)]
     pub(super) fn ramp(&self, r: usize, change: T) -> T {
