@@ -173,7 +173,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if k >= self.current.count() {
             self.turn_over();
             landing = Some(self.landing);
-        } else if !self.resting {
+        } else if S::PLAIN || !self.resting {
             self.current.drive(&mut self.hub, k);
             if self.stepper.is_directed() {
                 self.hub.aim();
@@ -200,12 +200,11 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return self.tick_otherwise(k);
         }
         self.k = k;
-        if self.asleep {
-            return self.setpoint();
+        if !self.asleep {
+            self.stepper.swing(&mut self.state, &self.hub);
+            self.asleep = self.stepper.is_settled(&self.state);
         }
-        let response = self.stepper.advance_at_rest(&mut self.state, &self.hub);
-        self.asleep = self.stepper.is_settled(&self.state);
-        respond(&self.hub, response)
+        respond(&self.hub, self.stepper.response_at_rest(&self.state, &self.hub))
     }
 
     /// The latest setpoint again.

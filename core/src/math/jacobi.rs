@@ -15,6 +15,29 @@ pub(crate) fn generalized_eigen<T: Scalar, const N: usize, const W: usize>(
     stiffness: &Band<T, N, W>,
     mass: &Band<T, N, W>,
 ) -> ([T; N], [[T; N]; N]) {
+    let (s, a, v) = diagonal(stiffness, mass);
+    let mut order: [usize; N] = core::array::from_fn(|i| i);
+    order.sort_unstable_by(|&i, &j| a[j][j].to_f64().total_cmp(&a[i][i].to_f64()));
+    let values = order.map(|i| a[i][i]);
+    let vectors = order.map(|i| back_substitute(&s, &v[i]));
+    (values, vectors)
+}
+
+/// Vectors with `vᵢᵀ K vⱼ = δᵢⱼ` and `vᵢᵀ M vⱼ = 0`, `i ≠ j`, as rows in no order; `K` positive
+/// definite, `M` symmetric.
+pub(crate) fn principal_axes<T: Scalar, const N: usize, const W: usize>(
+    stiffness: &Band<T, N, W>,
+    mass: &Band<T, N, W>,
+) -> [[T; N]; N] {
+    let (s, _, v) = diagonal(stiffness, mass);
+    v.map(|row| back_substitute(&s, &row))
+}
+
+/// `S`, `V A Vᵀ` with nothing beside the diagonal, and `V`.
+fn diagonal<T: Scalar, const N: usize, const W: usize>(
+    stiffness: &Band<T, N, W>,
+    mass: &Band<T, N, W>,
+) -> ([[T; N]; N], [[T; N]; N], [[T; N]; N]) {
     let s = cholesky(stiffness);
     let mut a = reduced(mass, &s);
     let mut v = [[T::ZERO; N]; N];
@@ -26,11 +49,7 @@ pub(crate) fn generalized_eigen<T: Scalar, const N: usize, const W: usize>(
             break;
         }
     }
-    let mut order: [usize; N] = core::array::from_fn(|i| i);
-    order.sort_unstable_by(|&i, &j| a[j][j].to_f64().total_cmp(&a[i][i].to_f64()));
-    let values = order.map(|i| a[i][i]);
-    let vectors = order.map(|i| back_substitute(&s, &v[i]));
-    (values, vectors)
+    (s, a, v)
 }
 
 /// Lower-triangular `S` with `K = S Sᵀ`.
@@ -114,6 +133,7 @@ fn sweep<T: Scalar, const N: usize>(a: &mut [[T; N]; N], v: &mut [[T; N]; N]) ->
 }
 
 /// `S⁻ᵀ y`.
+#[inline(never)]
 fn back_substitute<T: Scalar, const N: usize>(s: &[[T; N]; N], y: &[T; N]) -> [T; N] {
     let mut x = *y;
     for i in (0..N).rev() {
@@ -130,6 +150,7 @@ fn magnitude<T: Scalar>(x: T) -> T {
     if x < T::ZERO { -x } else { x }
 }
 
+#[inline(never)]
 fn root<T: Scalar>(x: T) -> T {
     T::from_f64(sqrt(x.to_f64()))
 }

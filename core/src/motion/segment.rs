@@ -249,7 +249,7 @@ impl<T: Scalar> Segment<T> {
 
     /// Becomes `other`. A cubic is copied in a fraction of the instructions that a segment with all
     /// its coefficients takes.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn become_like(&mut self, other: &Self) {
         self.origin = other.origin;
         self.count = other.count;

@@ -89,15 +89,20 @@ pub trait Stepper {
         self.response(state, after)
     }
 
-    /// [`Self::step`] and [`Self::response`] in one, where the hub has been at rest and stays so: of a
-    /// stepper with plain ticks, what it takes in any scene.
+    /// [`Self::step`] where the hub has been at rest and stays so. Of a stepper with plain ticks, what
+    /// it takes in any scene.
     #[inline(always)]
-    fn advance_at_rest(
+    fn swing(&self, state: &mut Self::State, hub: &Hub<Self::Scalar>) {
+        self.step(state, hub, hub);
+    }
+
+    /// [`Self::response`] to a hub at rest.
+    #[inline(always)]
+    fn response_at_rest(
         &self,
-        state: &mut Self::State,
+        state: &Self::State,
         hub: &Hub<Self::Scalar>,
     ) -> Response<Self::Scalar> {
-        self.step(state, hub, hub);
         self.response(state, hub)
     }
 

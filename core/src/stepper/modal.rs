@@ -256,28 +256,33 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     #[inline(always)]
-    fn advance_at_rest(&self, state: &mut ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
-        let mut next = *state;
+    fn swing(&self, state: &mut ModalState<T, K>, hub: &Hub<T>) {
+        let mut y = [[T::ZERO; 2]; K];
         for k in 0..K {
-            let y = [state.coordinate[k], state.rate[k]];
-            [next.coordinate[k], next.rate[k]] = self.modes[k].swing(y, state.force[k]);
+            y[k] = [state.coordinate[k], state.rate[k]];
+            y[k] = self.modes[k].swing(y[k], state.force[k]);
         }
-        let mut torque = T::ZERO;
         if self.terms.gravity {
-            let hanging = self.hanging(&next.coordinate, hub);
+            let hanging = self.hanging(&y.map(|y| y[0]), hub);
             for k in 0..K {
-                let y = [next.coordinate[k], next.rate[k]];
-                let change = hanging[k] - state.force[k];
-                [next.coordinate[k], next.rate[k]] = self.modes[k].correct_forced(y, change);
+                y[k] = self.modes[k].correct_forced(y[k], hanging[k] - state.force[k]);
             }
-            next.force = hanging;
-            torque += self.weight_torque(&next, hub);
+            state.force = hanging;
         }
+        state.coordinate = y.map(|y| y[0]);
+        state.rate = y.map(|y| y[1]);
+    }
+
+    #[inline(always)]
+    fn response_at_rest(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
+        let mut torque = self.inertial(state, T::ZERO);
         if self.terms.damping {
-            torque += -dot(&self.loss, &next.rate);
+            torque += -dot(&self.loss, &state.rate);
         }
-        *state = next;
-        Response { torque: torque + self.inertial(&next, T::ZERO), tip: self.tip_of(&next) }
+        if self.terms.gravity {
+            torque += self.weight_torque(state, hub);
+        }
+        Response { torque, tip: self.tip_of(state) }
     }
 
     #[inline(always)]
