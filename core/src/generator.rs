@@ -87,7 +87,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let end = Start::at_rest(from)?;
         let tail = hold(end, stepper.tick());
         // The hold before the first tick has no length: a move pushed now begins at t = 0.
-        let current = tail.cut(0);
+        let mut current = tail;
+        current.cut(0);
         let mut hub = Hub::ZERO;
         current.drive(&mut hub, 0);
         if stepper.is_directed() {
@@ -138,7 +139,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return Err(error);
         }
         if self.holding {
-            self.current = self.current.cut(self.next_k());
+            self.current.cut(self.next_k());
         }
         self.end = outline.end;
         self.tail = hold(outline.end, tick);
@@ -297,7 +298,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         self.k = 0;
         self.set_path();
-        self.current.drive(&mut self.hub, 0);
+        self.current.drive_otherwise(&mut self.hub, 0);
         if self.stepper.is_directed() {
             self.hub.aim();
         }
@@ -313,6 +314,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
 }
 
 /// The end of a move, held for as long as ticks can be counted.
+#[inline(never)]
 fn hold<T: Scalar>(end: Start, tick: f64) -> Segment<T> {
     Segment::cruise(end.angle, end.rate, u32::MAX, tick)
 }

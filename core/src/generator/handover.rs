@@ -84,7 +84,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             let _ = self.queue.push_back(segment.shifted(S::Scalar::from_f64(turned)));
         }
         if self.holding {
-            self.current = self.current.cut(self.next_k());
+            self.current.cut(self.next_k());
         }
         let end = planned.outline.end;
         self.end = Start { angle: end.angle.plus(turned), rate: end.rate };

@@ -274,7 +274,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
     }
 
     /// `[E + A] c = f + A q + g cosθ f_g`, `A` being `change`.
-    #[inline(always)]
+    #[inline(never)]
     fn solve_hanging(
         &self,
         mut force: [T; N],
@@ -441,7 +441,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
     }
 
     /// `g cosθ S − g sinθ f_gᵀq − ½ g cosθ qᵀK_P q`.
-    #[inline(always)]
+    #[inline(never)]
     fn weight_torque(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> T {
         let q = &state.deflection;
         hub.cos * (self.moment - self.bent.at(q)) - hub.sin * dot(&self.weight, q)
