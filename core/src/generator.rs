@@ -63,6 +63,8 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
     /// Below this many, ticks of the current segment are [plain](Stepper::is_plain) ones in a cubic.
     plain: u32,
     holding: bool,
+    /// The hub rests until the current segment ends.
+    resting: bool,
     /// The hub is at rest and the arm with it: see [`Stepper::is_settled`].
     asleep: bool,
     hub: Hub<S::Scalar>,
@@ -85,7 +87,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let end = Start::at_rest(from)?;
         let tail = hold(end, stepper.tick());
         // The hold before the first tick has no length: a move pushed now begins at t = 0.
-        let current = tail.cut(0);
+        let mut current = tail;
+        current.cut(0);
         let mut hub = Hub::ZERO;
         current.drive(&mut hub, 0);
         if stepper.is_directed() {
@@ -105,6 +108,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             end,
             limits: Limits::default(),
             holding: true,
+            resting: false,
             asleep: false,
         })
     }
@@ -135,7 +139,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return Err(error);
         }
         if self.holding {
-            self.current = self.current.cut(self.next_k());
+            self.current.cut(self.next_k());
         }
         self.end = outline.end;
         self.tail = hold(outline.end, tick);
@@ -152,6 +156,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.current.drive_cubic(&mut self.hub, k);
             let response = self.stepper.advance_in_cubic(&mut self.state, &before, &self.hub);
             respond(&self.hub, response)
+        } else if S::PLAIN && self.resting {
+            self.tick_at_rest(k)
         } else {
             self.tick_otherwise(k)
         }
@@ -168,7 +174,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if k >= self.current.count() {
             self.turn_over();
             landing = Some(self.landing);
-        } else if !self.holding || before.rate != S::Scalar::ZERO {
+        } else if S::PLAIN || !self.resting {
             self.current.drive(&mut self.hub, k);
             if self.stepper.is_directed() {
                 self.hub.aim();
@@ -188,6 +194,20 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.setpoint()
     }
 
+    /// A tick of a hub that rests: the arm rings, or sleeps.
+    #[inline(never)]
+    fn tick_at_rest(&mut self, k: u32) -> Setpoint<S::Scalar> {
+        if k >= self.current.count() {
+            return self.tick_otherwise(k);
+        }
+        self.k = k;
+        if !self.asleep {
+            self.stepper.swing(&mut self.state, &self.hub);
+            self.asleep = self.stepper.is_settled(&self.state);
+        }
+        respond(&self.hub, self.stepper.response_at_rest(&self.state, &self.hub))
+    }
+
     /// The latest setpoint again.
     #[inline(always)]
     pub fn setpoint(&self) -> Setpoint<S::Scalar> {
@@ -199,6 +219,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn setpoint_before(&self) -> Setpoint<S::Scalar> {
         let hub = Hub { acceleration: self.landing(), ..self.hub };
         respond(&hub, self.stepper.response(&self.state, &hub))
+    }
+
+    /// The hub rests and the arm with it, within [`SLEEP`](crate::stepper::SLEEP): it is left as it is
+    /// until the next move.
+    pub fn is_asleep(&self) -> bool {
+        self.asleep
     }
 
     /// No move under way or waiting.
@@ -232,11 +258,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if self.next_k() <= 1 { self.landing } else { self.hub.acceleration }
     }
 
-    /// To be called whenever there is another current segment, or another count of its ticks.
+    /// Which way the ticks of the current segment go: to be called whenever there is another one, or
+    /// another count of its ticks.
     #[inline(always)]
-    fn set_plain(&mut self) {
+    fn set_path(&mut self) {
         let plain = S::PLAIN && self.stepper.is_plain() && self.current.is_cubic();
         self.plain = if plain { self.current.count() } else { 0 };
+        self.resting = self.current.is_rest();
     }
 
     /// Where a move that is pushed now begins.
@@ -269,8 +297,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             }
         }
         self.k = 0;
-        self.set_plain();
-        self.current.drive(&mut self.hub, 0);
+        self.set_path();
+        self.current.drive_otherwise(&mut self.hub, 0);
         if self.stepper.is_directed() {
             self.hub.aim();
         }
@@ -286,6 +314,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
 }
 
 /// The end of a move, held for as long as ticks can be counted.
+#[inline(never)]
 fn hold<T: Scalar>(end: Start, tick: f64) -> Segment<T> {
     Segment::cruise(end.angle, end.rate, u32::MAX, tick)
 }

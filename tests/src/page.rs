@@ -14,12 +14,13 @@ const END: &str = "<!-- instructions: end -->";
 const PLAN: &str = "plan";
 
 /// Columns of the large table: heading, and the words that are skipped.
-const COLUMNS: [(&str, &[&str]); 7] = [
+const COLUMNS: [(&str, &[&str]); 8] = [
     ("all terms", &[]),
     ("no gravity", &["no-gravity"]),
     ("no damping", &["no-damping"]),
     ("neither", &["no-damping", "no-gravity"]),
     ("neither, at rest", &["no-damping", "no-gravity", "at-rest"]),
+    ("neither, asleep", &["no-damping", "no-gravity", "at-rest", "asleep"]),
     ("neither, next segment", &["no-damping", "no-gravity", "next-segment"]),
     ("neither, landing", &["no-damping", "no-gravity", "landing", "still"]),
 ];

@@ -84,6 +84,59 @@ fn split(count: &Count) -> (Option<&str>, BTreeSet<&str>) {
     (words.clone().find(path), words.filter(|word| !path(word)).collect())
 }
 
+/// A payload and a hub radius are numbers in constants: leaving them out saves nothing and costs
+/// nothing.
+#[test]
+fn payload_and_radius_change_no_operation() {
+    let counts = &bench().counts;
+    for word in ["no-payload", "no-radius"] {
+        let mut compared = 0;
+        for without in counts.iter().filter(|count| count.key[3].contains(word)) {
+            let mut key = without.key.clone();
+            key[3] = key[3].split_whitespace().filter(|w| *w != word).collect::<Vec<_>>().join(" ");
+            let with = counts.iter().find(|count| count.key == key).expect("the same path");
+            compared += 1;
+            let (a, b) = ((without.least, without.worst), (with.least, with.worst));
+            assert_eq!(a, b, "{}", without.key.join(","));
+        }
+        assert!(compared > 50, "{word}: {compared}");
+    }
+}
+
+/// Every skip is there, and each that is said to save saves: a quarter of the tick at rest, half of it
+/// asleep, and something without damping, gravity or spin.
+#[test]
+fn skips_save() {
+    let counts = &bench().counts;
+    let worst = |method: &str, size: &str, quality: &str, skip: &str| {
+        let key = [method, size, quality, skip];
+        let count = counts.iter().find(|count| count.key.iter().eq(key.iter()));
+        count.unwrap_or_else(|| panic!("no row {key:?}")).worst
+    };
+    for (method, size, quality) in [
+        ("newmark", "1", "consistent"),
+        ("newmark", "2", "consistent"),
+        ("newmark", "4", "consistent"),
+        ("modal", "2", ""),
+        ("elastica", "2", "fast"),
+    ] {
+        let all = worst(method, size, quality, "");
+        let plain = worst(method, size, quality, "no-damping no-gravity");
+        assert!(worst(method, size, quality, "no-damping") < all, "{method} {size}");
+        assert!(worst(method, size, quality, "no-gravity") < all, "{method} {size}");
+        assert!(plain < worst(method, size, quality, "no-gravity"), "{method} {size}");
+        assert!(worst(method, size, quality, "no-damping no-gravity at-rest") < plain);
+        let asleep = worst(method, size, quality, "no-damping no-gravity at-rest asleep");
+        assert!(2 * asleep < plain, "{method} {size}: {asleep} of {plain}");
+        if method != "elastica" {
+            let turning = worst(method, size, quality, "");
+            assert!(worst(method, size, quality, "no-spin") < turning, "{method} {size}");
+        }
+        let rigid = worst("rigid", "0", "", "no-damping no-gravity");
+        assert!(2 * rigid < plain, "{method} {size}: rigid {rigid} of {plain}");
+    }
+}
+
 /// The page says that these are not cycles, and has a place for the tables.
 #[test]
 fn the_page_is_honest_about_its_unit() {

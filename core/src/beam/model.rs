@@ -128,7 +128,7 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
     /// Refuses a link that could not stand upright: its small deflections would have no
     /// equilibrium there.
     fn upright(self) -> Result<Self, Error> {
-        if self.stiffness.plus(-self.scene.gravity, &self.tension).factor().is_positive() {
+        if self.stiffness.plus(-self.scene.gravity, &self.tension).factored().is_positive() {
             Ok(self)
         } else {
             Err(Error::Buckles { gravity: self.scene.gravity.to_f64() })

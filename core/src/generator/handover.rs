@@ -133,7 +133,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             let _ = self.queue.push_back(segment.shifted(S::Scalar::from_f64(turned)));
         }
         if self.holding {
-            self.current = self.current.cut(self.next_k());
+            self.current.cut(self.next_k());
         }
         let end = planned.outline.end;
         self.end = Start { angle: end.angle.plus(turned), rate: end.rate };
@@ -156,7 +156,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.state = self.stepper.equilibrium(&self.hub);
         self.rest_at(angle);
         self.current = self.tail;
-        self.set_plain();
+        self.set_path();
         self.k = 0;
         self.holding = true;
         self.asleep = false;

@@ -68,7 +68,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         match place {
             Place::Current(k) => {
                 self.current = self.current.broken_off(k);
-                self.set_plain();
+                self.set_path();
             }
             Place::Waiting(index, k) => {
                 if let Some(segment) = self.queue.iter_mut().nth(index) {

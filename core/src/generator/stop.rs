@@ -27,7 +27,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             // A move that was about to begin does not.
             self.hub.acceleration = S::Scalar::ZERO;
             self.current = self.tail;
-            self.set_plain();
+            self.set_path();
             self.k = 0;
             self.holding = true;
             self.asleep = false;
@@ -43,7 +43,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.queue.clear();
         self.rest_at(rest);
         self.current = segment;
-        self.set_plain();
+        self.set_path();
         // The right-hand value, where it drops.
         self.hub.acceleration = acceleration;
         // Wraps to the segment's tick 0 at the next tick.

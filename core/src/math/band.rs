@@ -97,6 +97,7 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
     }
 
     /// `vᵢᵀA vⱼ` for the vectors `vᵢ`, as far as the band of the result holds it. Set-up only.
+    #[inline(never)]
     pub(crate) fn onto<const K: usize, const V: usize>(
         &self,
         vectors: &[[T; N]; K],
@@ -187,6 +188,14 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
             inverse[i] = T::ONE / pivot;
         }
         Ldl { lower, inverse }
+    }
+}
+
+impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
+    /// [`Self::factor`], once for all of set-up.
+    #[inline(never)]
+    pub(crate) fn factored(&self) -> Ldl<T, N, W> {
+        self.factor()
     }
 }
 

@@ -1,25 +1,25 @@
-//! Generalised symmetric eigenproblem by cyclic Jacobi rotations. Set-up only.
+//! Generalised symmetric eigenproblem by cyclic Jacobi rotations. Set-up only, f64.
 
-use super::{Band, Scalar, sqrt};
+use super::{Band, sqrt};
 
 /// Sweeps after which the iteration stops; a 16 × 16 beam needs 6 to 8.
 const MAX_SWEEPS: usize = 30;
 
-/// Solves `K φ = λ M φ` for all `N` pairs, `K` positive definite, `M` symmetric.
+/// Solves `K φ = λ M φ` for all `N` pairs, `K` positive definite, `M` positive semi-definite.
 ///
-/// Works on `A = S⁻¹ M S⁻ᵀ` with `K = S Sᵀ`, whose eigenvalues are `μ = 1/λ`: where `M` is a mass, the
-/// lowest modes are then the largest eigenvalues, which Jacobi finds to full relative precision.
+/// Works on `A = S⁻¹ M S⁻ᵀ` with `K = S Sᵀ`, whose eigenvalues are `μ = 1/λ`: the lowest modes
+/// are then the largest eigenvalues, which Jacobi finds to full relative precision.
 /// Returns `(μ, φ)`, `μ` descending, the vectors as rows with `φᵀ K φ = 1`.
-/// Error: relative 1e-14 (f64) on the lowest half of the spectrum.
-pub(crate) fn generalized_eigen<T: Scalar, const N: usize, const W: usize>(
-    stiffness: &Band<T, N, W>,
-    mass: &Band<T, N, W>,
-) -> ([T; N], [[T; N]; N]) {
+/// Error: relative 1e-14 on the lowest half of the spectrum.
+pub(crate) fn generalized_eigen<const N: usize, const W: usize>(
+    stiffness: &Band<f64, N, W>,
+    mass: &Band<f64, N, W>,
+) -> ([f64; N], [[f64; N]; N]) {
     let s = cholesky(stiffness);
     let mut a = reduced(mass, &s);
-    let mut v = [[T::ZERO; N]; N];
+    let mut v = [[0.0; N]; N];
     for i in 0..N {
-        v[i][i] = T::ONE;
+        v[i][i] = 1.0;
     }
     for _ in 0..MAX_SWEEPS {
         if !sweep(&mut a, &mut v) {
@@ -27,42 +27,41 @@ pub(crate) fn generalized_eigen<T: Scalar, const N: usize, const W: usize>(
         }
     }
     let mut order: [usize; N] = core::array::from_fn(|i| i);
-    order.sort_unstable_by(|&i, &j| a[j][j].to_f64().total_cmp(&a[i][i].to_f64()));
+    order.sort_unstable_by(|&i, &j| a[j][j].total_cmp(&a[i][i]));
     let values = order.map(|i| a[i][i]);
     let vectors = order.map(|i| back_substitute(&s, &v[i]));
     (values, vectors)
 }
 
 /// Lower-triangular `S` with `K = S Sᵀ`.
-fn cholesky<T: Scalar, const N: usize, const W: usize>(k: &Band<T, N, W>) -> [[T; N]; N] {
-    let mut s = [[T::ZERO; N]; N];
+fn cholesky<const N: usize, const W: usize>(k: &Band<f64, N, W>) -> [[f64; N]; N] {
+    let mut s = [[0.0; N]; N];
     for i in 0..N {
         for j in 0..=i {
             let mut c = k.get(i, j);
             for e in 0..j {
                 c -= s[i][e] * s[j][e];
             }
-            s[i][j] = if i == j { root(c) } else { c / s[j][j] };
+            s[i][j] = if i == j { sqrt(c) } else { c / s[j][j] };
         }
     }
     s
 }
 
 /// `S⁻¹ M S⁻ᵀ`.
-fn reduced<T: Scalar, const N: usize, const W: usize>(
-    m: &Band<T, N, W>,
-    s: &[[T; N]; N],
-) -> [[T; N]; N] {
-    let mut a: [[T; N]; N] = core::array::from_fn(|i| core::array::from_fn(|j| m.get(i, j)));
+fn reduced<const N: usize, const W: usize>(
+    m: &Band<f64, N, W>,
+    s: &[[f64; N]; N],
+) -> [[f64; N]; N] {
+    let mut a: [[f64; N]; N] = core::array::from_fn(|i| core::array::from_fn(|j| m.get(i, j)));
     // Forward substitution on the columns, then, being symmetric, on the rows.
     for _ in 0..2 {
         for c in 0..N {
             for i in 0..N {
                 for e in 0..i {
-                    let product = s[i][e] * a[e][c];
-                    a[i][c] -= product;
+                    a[i][c] -= s[i][e] * a[e][c];
                 }
-                a[i][c] = a[i][c] / s[i][i];
+                a[i][c] /= s[i][i];
             }
         }
         for i in 0..N {
@@ -77,23 +76,20 @@ fn reduced<T: Scalar, const N: usize, const W: usize>(
 }
 
 /// One cyclic sweep; the rows of `v` collect the eigenvectors. False once nothing is left to turn.
-fn sweep<T: Scalar, const N: usize>(a: &mut [[T; N]; N], v: &mut [[T; N]; N]) -> bool {
-    // 1e-34 in f64.
-    let least = T::from_f64(0.002) * T::EPSILON * T::EPSILON;
+fn sweep<const N: usize>(a: &mut [[f64; N]; N], v: &mut [[f64; N]; N]) -> bool {
     let mut turned = false;
     for p in 0..N {
         for q in p + 1..N {
             let off = a[p][q];
             // Relative to its own diagonal pair: small eigenvalues keep their relative precision.
-            let pair = a[p][p] * a[q][q];
-            if off * off <= least * magnitude(pair) {
+            if off * off <= 1e-34 * (a[p][p] * a[q][q]).abs() {
                 continue;
             }
             turned = true;
-            let theta = (a[q][q] - a[p][p]) / (T::TWO * off);
-            let t = T::ONE / (magnitude(theta) + root(theta * theta + T::ONE));
-            let t = if theta < T::ZERO { -t } else { t };
-            let c = T::ONE / root(t * t + T::ONE);
+            let theta = (a[q][q] - a[p][p]) / (2.0 * off);
+            let t =
+                if theta < 0.0 { -1.0 } else { 1.0 } / (theta.abs() + sqrt(theta * theta + 1.0));
+            let c = 1.0 / sqrt(t * t + 1.0);
             let s = t * c;
             for i in 0..N {
                 let (x, y) = (a[i][p], a[i][q]);
@@ -114,22 +110,13 @@ fn sweep<T: Scalar, const N: usize>(a: &mut [[T; N]; N], v: &mut [[T; N]; N]) ->
 }
 
 /// `S⁻ᵀ y`.
-fn back_substitute<T: Scalar, const N: usize>(s: &[[T; N]; N], y: &[T; N]) -> [T; N] {
+fn back_substitute<const N: usize>(s: &[[f64; N]; N], y: &[f64; N]) -> [f64; N] {
     let mut x = *y;
     for i in (0..N).rev() {
-        x[i] = x[i] / s[i][i];
+        x[i] /= s[i][i];
         for j in 0..i {
-            let product = s[i][j] * x[i];
-            x[j] -= product;
+            x[j] -= s[i][j] * x[i];
         }
     }
     x
-}
-
-fn magnitude<T: Scalar>(x: T) -> T {
-    if x < T::ZERO { -x } else { x }
-}
-
-fn root<T: Scalar>(x: T) -> T {
-    T::from_f64(sqrt(x.to_f64()))
 }

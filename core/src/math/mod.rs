@@ -6,12 +6,14 @@
 mod band;
 mod jacobi;
 mod least_squares;
+mod principal;
 mod propagator;
 mod scalar;
 
 pub use band::{Band, HalfForm, Ldl};
 pub(crate) use jacobi::generalized_eigen;
 pub(crate) use least_squares::LeastSquares;
+pub(crate) use principal::principal_axes;
 pub(crate) use propagator::phi_functions;
 pub use scalar::Scalar;
 

@@ -114,7 +114,7 @@ impl<T: Scalar> Segment<T> {
     /// The hub at the segment's tick `k`, `k < count`.
     pub fn hub(&self, k: u32) -> Hub<T> {
         let mut hub = Hub::ZERO;
-        self.drive(&mut hub, k);
+        self.drive_otherwise(&mut hub, k);
         (hub.sin, hub.cos) = hub.angle.sin_cos();
         hub
     }
@@ -123,7 +123,7 @@ impl<T: Scalar> Segment<T> {
     #[inline(never)]
     pub(crate) fn angle(&self, k: u32) -> Angle<T> {
         let mut hub = Hub::ZERO;
-        self.drive(&mut hub, k);
+        self.drive_otherwise(&mut hub, k);
         hub.angle
     }
 
@@ -144,9 +144,9 @@ impl<T: Scalar> Segment<T> {
         (hub.angle, hub.rate, hub.acceleration) = self.scaled(cubic(self.low, u));
     }
 
-    /// What is no cubic, out of the way of those that are: most ticks are theirs.
+    /// [`Self::drive`], out of the way of the cubics: most ticks are theirs.
     #[inline(never)]
-    fn drive_otherwise(&self, hub: &mut Hub<T>, k: u32) {
+    pub(crate) fn drive_otherwise(&self, hub: &mut Hub<T>, k: u32) {
         (hub.angle, hub.rate, hub.acceleration) = match self.rest {
             Rest::Cruise { rate, step } => (self.origin.cruise(step, k), rate, T::ZERO),
             _ => self.scaled(self.derivatives(self.offset + T::from_u32(k) * self.advance)),
@@ -241,9 +241,15 @@ impl<T: Scalar> Segment<T> {
         matches!(self.rest, Rest::Cubic)
     }
 
+    /// Whether the hub stays where it is.
+    #[inline(always)]
+    pub(crate) fn is_rest(&self) -> bool {
+        matches!(self.rest, Rest::Cruise { rate, step: 0 } if rate == T::ZERO)
+    }
+
     /// Becomes `other`. A cubic is copied in a fraction of the instructions that a segment with all
     /// its coefficients takes.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn become_like(&mut self, other: &Self) {
         self.origin = other.origin;
         self.count = other.count;
@@ -261,9 +267,9 @@ impl<T: Scalar> Segment<T> {
         }
     }
 
-    /// The same segment, ending `count` ticks after its beginning.
-    pub(crate) fn cut(self, count: u32) -> Self {
-        Self { count, ..self }
+    /// Ends it `count` ticks after its beginning.
+    pub(crate) fn cut(&mut self, count: u32) {
+        self.count = count;
     }
 
     /// The same segment, broken off `count` ticks after its beginning.

@@ -61,8 +61,8 @@ pub trait Stepper {
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
     fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
 
-    /// Whether there are plain ticks at all, see [`Self::is_plain`]: what has none takes no room for
-    /// them.
+    /// Whether there are plain ticks at all, see [`Self::is_plain`]: a stepper that has none takes no
+    /// room for them.
     const PLAIN: bool = false;
 
     /// Whether the scene leaves so little to do that the ticks inside a cubic are to be advanced by
@@ -87,6 +87,23 @@ pub trait Stepper {
     ) -> Response<Self::Scalar> {
         self.step(state, before, after);
         self.response(state, after)
+    }
+
+    /// [`Self::step`] where the hub has been at rest and stays so. Of a stepper with plain ticks, what
+    /// it takes in any scene.
+    #[inline(always)]
+    fn swing(&self, state: &mut Self::State, hub: &Hub<Self::Scalar>) {
+        self.step(state, hub, hub);
+    }
+
+    /// [`Self::response`] to a hub at rest.
+    #[inline(always)]
+    fn response_at_rest(
+        &self,
+        state: &Self::State,
+        hub: &Hub<Self::Scalar>,
+    ) -> Response<Self::Scalar> {
+        self.response(state, hub)
     }
 
     /// Called before the [`Self::step`] of a tick in which the commanded acceleration jumps or

@@ -48,8 +48,9 @@ pub struct Modal<T, const K: usize> {
     bent: HalfForm<T, K, K>,
     weight: [T; K],
     moment: T,
-    /// What a mode's `ωa` and `ωȧ` are to be below for it to sleep.
-    asleep: [[T; 2]; K],
+    /// Weights of the squares of how far a mode is from rest and of `ωȧ`: their sum is below 1 when the
+    /// arm is to sleep.
+    awake: [[T; 2]; K],
     tick: f64,
     /// Rate up to which the spin terms, which are extrapolated over a tick, stay stable, rad/s.
     fastest: f64,
@@ -128,9 +129,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             bent: tension.half_form(),
             weight: cast(&onto(model.weight()).map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
-            asleep: core::array::from_fn(|k| {
+            awake: core::array::from_fn(|k| {
                 let floor = super::sleep_floor::<f64>(scene.link.length, shape[k][model.tip()]);
-                [floor, omega[k] * floor].map(T::from_f64)
+                [floor, omega[k] * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
             }),
             tick,
         })
@@ -152,9 +153,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             force = softening.map(|f| -(rate2 * f));
         }
         if self.terms.gravity {
-            let tension = self.tension.times(a);
+            let hanging = self.hanging(a, hub);
             for k in 0..K {
-                force[k] += hub.sin * tension[k] - hub.cos * self.weight[k];
+                force[k] += hanging[k];
             }
         }
         [force, softening]
@@ -311,20 +312,51 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     #[inline(always)]
+    fn swing(&self, state: &mut ModalState<T, K>, hub: &Hub<T>) {
+        let mut y = [[T::ZERO; 2]; K];
+        for k in 0..K {
+            y[k] = [state.coordinate[k], state.rate[k]];
+            y[k] = self.modes[k].swing(y[k], state.force[k]);
+        }
+        if self.terms.gravity {
+            let hanging = self.hanging(&y.map(|y| y[0]), hub);
+            let change = self.implied(core::array::from_fn(|k| hanging[k] - state.force[k]), hub);
+            for k in 0..K {
+                y[k] = self.modes[k].correct_forced(y[k], change[k]);
+                state.force[k] += change[k];
+            }
+        }
+        state.coordinate = y.map(|y| y[0]);
+        state.rate = y.map(|y| y[1]);
+    }
+
+    #[inline(always)]
+    fn response_at_rest(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
+        let mut torque = self.inertial(state, T::ZERO);
+        if self.terms.damping {
+            torque += -dot(&self.loss, &state.rate);
+        }
+        if self.terms.gravity {
+            torque += self.weight_torque(state, hub);
+        }
+        Response { torque, tip: self.tip_of(state) }
+    }
+
+    #[inline(always)]
     fn is_settled(&self, state: &ModalState<T, K>) -> bool {
-        (0..K).all(|k| {
-            let [near, slow] = self.asleep[k];
-            let rate = state.rate[k];
+        let mut swing = T::ZERO;
+        for k in 0..K {
+            let [far, fast] = self.awake[k];
             let pull = state.force[k] - state.coordinate[k];
-            rate < slow && -rate < slow && pull < near && -pull < near
-        })
+            swing += far * pull * pull + fast * state.rate[k] * state.rate[k];
+        }
+        swing < T::ONE
     }
 
     /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ
     /// − ½ g cosθ aᵀΠa` with `u = θ̈ + αθ̇`; tip `(r + L − ½ aᵀΦᵀSΦa, ψ(L)ᵀa)`.
     #[inline(always)]
     fn response(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
-        let a = &state.coordinate;
         let mut u = hub.acceleration;
         let mut torque = self.inertial(state, u);
         if self.terms.damping {
@@ -335,8 +367,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             torque -= self.spin_torque(state, u, hub.rate);
         }
         if self.terms.gravity {
-            let bent = self.bent.at(a);
-            torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, a);
+            torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
     }
@@ -363,6 +394,23 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             arm[k] = u * arm[k] + twice * state.rate[k];
         }
         dot(&state.softening, &arm)
+    }
+
+    /// `g cosθ S − g sinθ fᵀa − ½ g cosθ aᵀΠa`.
+    #[inline(always)]
+    fn weight_torque(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> T {
+        let a = &state.coordinate;
+        hub.cos * (self.moment - self.bent.at(a)) - hub.sin * dot(&self.weight, a)
+    }
+
+    /// `g sinθ Πa − g cosθ f`, over `ω`.
+    #[inline(always)]
+    fn hanging(&self, a: &[T; K], hub: &Hub<T>) -> [T; K] {
+        let mut force = self.tension.times(a);
+        for k in 0..K {
+            force[k] = hub.sin * force[k] - hub.cos * self.weight[k];
+        }
+        force
     }
 
     #[inline(always)]

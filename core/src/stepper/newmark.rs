@@ -26,7 +26,7 @@
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::Model;
-use crate::math::{Band, HalfForm, Ldl, Scalar, cast, dot, generalized_eigen, round};
+use crate::math::{Band, HalfForm, Ldl, Scalar, cast, dot, principal_axes, round};
 use crate::motion::{Hub, Peaks};
 
 /// Newmark stepper for `N` degrees of freedom in bands of width `W`.
@@ -72,8 +72,9 @@ pub struct Newmark<T, const N: usize, const W: usize> {
     alpha: T,
     /// `αJ_r`.
     rigid_drag: T,
-    /// `g K_P`.
+    /// `g K_P`, and `½ g qᵀK_P q`.
     tension: Band<T, N, W>,
+    bent: HalfForm<T, N, W>,
     /// `g f_g`.
     weight: [T; N],
     /// `g S`, S the first moment.
@@ -107,27 +108,39 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
         let half = P::from_f64(0.5 * tick);
         let per_half = P::ONE / half;
-        let turn = model.mass().factor().solve(model.coupling());
-        let residual = scene.rigid_inertia() - dot(model.coupling(), &turn);
-        let awake = awake(model, half);
-        let mut nodal = [[P::ZERO; N]; N];
-        for i in 0..N {
-            nodal[i][i] = P::ONE;
-        }
         let principal = if Self::PRINCIPAL {
-            generalized_eigen(model.stiffness(), model.spin()).1
+            principal_axes(model.stiffness(), model.spin())
         } else {
-            nodal
+            core::array::from_fn(|i| {
+                core::array::from_fn(|j| if i == j { P::ONE } else { P::ZERO })
+            })
         };
         let band = |a: &Band<P, N, W>| if Self::PRINCIPAL { a.onto(&principal) } else { *a };
-        let vector = |v: &[P; N]| principal.map(|axis| dot(&axis, v));
+        let vector = |v: &[P; N]| onto(&principal, v);
         let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));
         let damping = mass.scaled(per_half * alpha).plus(per_half * beta, &stiffness);
         let effective = damping.plus(per_half * per_half, &mass).plus(P::ONE, &stiffness);
+        let tension = band(model.tension()).scaled(gravity);
         let coupling = vector(model.coupling());
+        let turn = mass.factored().solve(&coupling);
+        let residual = scene.rigid_inertia() - dot(&coupling, &turn);
         let scaled = |scale: P| cast(&coupling.map(|f| scale * f));
-        // M⁻¹F along the axes of V is V⁻¹M⁻¹F, and V⁻¹ = VᵀK.
-        let turn = if Self::PRINCIPAL { vector(&model.stiffness().times(&turn)) } else { turn };
+        let tip: [P; N] = principal.map(|axis| axis[model.tip()]);
+        // (½hω₁)², by Rayleigh's quotient of the shape that turning bends.
+        let bent = if Self::PRINCIPAL { coupling } else { stiffness.factored().solve(&coupling) };
+        let stiff = half * half * dot(&bent, &coupling) / dot(&bent, &mass.times(&bent));
+        let floor = P::from_f64(super::SLEEP) * scene.link.length;
+        let awake: [P; N] = core::array::from_fn(|i| {
+            // A slope by the link's length; principal coordinates by what they move the tip together.
+            let reach = if Self::PRINCIPAL {
+                dot(&tip, &tip)
+            } else if i % 2 == 1 {
+                scene.link.length * scene.link.length
+            } else {
+                P::ONE
+            };
+            reach / (floor * floor * stiff)
+        });
         Ok(Self {
             turn: cast(&turn.map(|b| half * b)),
             spin: band(model.spin()).map(round),
@@ -137,8 +150,8 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
             twice_per_half: round(P::TWO * per_half),
             reach: round(scene.reach()),
             shortening: band(model.shortening()).map(round).half_form(),
-            tip: principal.map(|axis| round(axis[model.tip()])),
-            factors: effective.factor().map(round),
+            tip: cast(&tip),
+            factors: effective.factored().map(round),
             stiffness: stiffness.map(round),
             terms: Terms {
                 spin: true,
@@ -146,23 +159,15 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
                 damping: alpha != P::ZERO || beta != P::ZERO,
             },
             tip_last: model.tip() + 1 == N,
-            awake: principal.map(|axis| {
-                // As far as the node that moves most.
-                let most = (0..N).fold([P::ZERO; 2], |most, i| {
-                    [0, 1].map(|of| {
-                        let moved = awake[i][of] * axis[i] * axis[i];
-                        if moved > most[of] { moved } else { most[of] }
-                    })
-                });
-                most.map(round)
-            }),
+            awake: awake.map(|weight| [weight / stiff, weight].map(round)),
             tick,
             damping: damping.map(round),
             drag: scaled(alpha),
             drag_torque: scaled(per_half * alpha),
             alpha: round(alpha),
             rigid_drag: round(alpha * scene.rigid_inertia()),
-            tension: band(model.tension()).scaled(gravity).map(round),
+            tension: tension.map(round),
+            bent: tension.map(round).half_form(),
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * scene.first_moment()),
         })
@@ -254,7 +259,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
     #[inline(always)]
     fn solve(&self, q: &[T; N], d: &[T; N], hub: &Hub<T>) -> [T; N] {
         let mut force = self.stiff(q);
-        self.load(&mut force, d, hub);
+        self.damp(&mut force, d, hub.rate);
         let turns = self.terms.spin && hub.rate != T::ZERO;
         if !self.terms.gravity {
             return if turns {
@@ -267,25 +272,32 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         if turns {
             change = change.plus(hub.rate * hub.rate, &self.spin);
         }
+        self.solve_hanging(force, q, change, hub.cos)
+    }
+
+    /// `[E + A] c = f + A q + g cosθ f_g`, `A` being `change`.
+    #[inline(never)]
+    fn solve_hanging(
+        &self,
+        mut force: [T; N],
+        q: &[T; N],
+        change: Band<T, N, W>,
+        cos: T,
+    ) -> [T; N] {
         let changed = change.times(q);
         for i in 0..N {
-            force[i] += changed[i];
+            force[i] += changed[i] + self.weight[i] * cos;
         }
         self.effective.plus(T::ONE, &change).solve(&force)
     }
 
-    /// Adds the forces that do not depend on `q`.
+    /// Adds what damping puts on a hub that turns.
     #[inline(always)]
-    fn load(&self, force: &mut [T; N], d: &[T; N], hub: &Hub<T>) {
+    fn damp(&self, force: &mut [T; N], d: &[T; N], rate: T) {
         if self.terms.damping {
             let damping = self.damping.times(d);
             for i in 0..N {
-                force[i] += damping[i] + self.drag[i] * hub.rate;
-            }
-        }
-        if self.terms.gravity {
-            for i in 0..N {
-                force[i] += self.weight[i] * hub.cos;
+                force[i] += damping[i] + self.drag[i] * rate;
             }
         }
     }
@@ -369,6 +381,41 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
         }
     }
 
+    #[inline(always)]
+    fn swing(&self, state: &mut Vibration<T, N>, hub: &Hub<T>) {
+        let (mut q, mut d) = (state.deflection, state.gain);
+        for i in 0..N {
+            let d0 = d[i];
+            d[i] = d0 - state.restoring[i];
+            q[i] += d0 + d[i];
+        }
+        let mut force = self.stiff(&q);
+        if self.terms.damping {
+            let damping = self.damping.times(&d);
+            for i in 0..N {
+                force[i] += damping[i];
+            }
+        }
+        let restoring = if self.terms.gravity {
+            self.solve_hanging(force, &q, self.tension.scaled(-hub.sin), hub.cos)
+        } else {
+            self.factors.solve(&force)
+        };
+        *state = Self::correct(q, d, restoring);
+    }
+
+    #[inline(always)]
+    fn response_at_rest(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
+        let mut torque = dot(&self.coupling, &state.restoring);
+        if self.terms.damping {
+            torque += dot(&self.drag_torque, &state.gain);
+        }
+        if self.terms.gravity {
+            torque += self.weight_torque(state, hub);
+        }
+        Response { torque, tip: self.tip_of(state) }
+    }
+
     /// Bounds the swing of every node by the arm's lowest frequency: none is larger than
     /// `c/(½hω₁)²` and `d/(½hω₁)` make it.
     #[inline(always)]
@@ -386,7 +433,6 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
     /// tip `(r + L − ½ qᵀSq, w(L))`.
     #[inline(always)]
     fn response(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
-        let q = &state.deflection;
         let mut forced = hub.acceleration;
         let mut torque = self.inertial(state, hub.acceleration);
         if self.terms.damping {
@@ -397,8 +443,7 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
             torque -= self.spin_torque(state, forced, hub.rate);
         }
         if self.terms.gravity {
-            let bent = self.tension.half_form().at(q);
-            torque += hub.cos * (self.moment - bent) - hub.sin * dot(&self.weight, q);
+            torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
     }
@@ -423,6 +468,13 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         dot(&self.spun(q), &arm)
     }
 
+    /// `g cosθ S − g sinθ f_gᵀq − ½ g cosθ qᵀK_P q`.
+    #[inline(never)]
+    fn weight_torque(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> T {
+        let q = &state.deflection;
+        hub.cos * (self.moment - self.bent.at(q)) - hub.sin * dot(&self.weight, q)
+    }
+
     #[inline(always)]
     fn tip_of(&self, state: &Vibration<T, N>) -> [T; 2] {
         let q = &state.deflection;
@@ -430,24 +482,8 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
     }
 }
 
-/// Weights of `c²` and of `d²` of each node: their sum is below 1 when no node swings by more than
-/// the floor of sleep. `half` is ½h; `ω₁²` by Rayleigh's quotient of the shape that turning bends.
-fn awake<P: Scalar, const N: usize, const W: usize>(
-    model: &Model<N, W, P>,
-    half: P,
-) -> [[P; 2]; N] {
-    let length = model.scene().link.length;
-    let bent = model.stiffness().factor().solve(model.coupling());
-    let square = dot(&bent, model.coupling()) / dot(&bent, &model.mass().times(&bent));
-    let stiff = half * half * square;
-    let floor = P::from_f64(super::SLEEP) * length;
-    let slopes = model.tip() + 1 < N;
-    core::array::from_fn(|i| {
-        // Of consistent elements every other one, of lumped ones the last.
-        let is_slope = slopes && if N.is_multiple_of(2) { i % 2 == 1 } else { i + 1 == N };
-        let reach = if is_slope { length } else { P::ONE };
-        let of_floor = reach / floor;
-        let weight = of_floor * of_floor / stiff;
-        [weight / stiff, weight]
-    })
+/// `vᵢᵀf` for the axes `vᵢ`.
+#[inline(never)]
+fn onto<P: Scalar, const N: usize>(axes: &[[P; N]; N], f: &[P; N]) -> [P; N] {
+    axes.map(|axis| dot(&axis, f))
 }

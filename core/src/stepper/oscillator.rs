@@ -111,6 +111,14 @@ impl<T: Scalar> Oscillator<T> {
         [a + (versine * off + sin * v), v + (back * off + versine * v)]
     }
 
+    /// A step of the hub at rest under a constant force in units of stiffness, damped or not.
+    #[inline(always)]
+    pub(super) fn swing(&self, [a, v]: [T; 2], force: T) -> [T; 2] {
+        let [[versine, sin], [back, forth]] = self.gain;
+        let off = a - force;
+        [a + (versine * off + sin * v), v + (back * off + forth * v)]
+    }
+
     /// What to add for a load that changes by `change` over the step.
     #[inline(always)]
     pub(super) fn ramp(&self, r: usize, change: T) -> T {
@@ -215,9 +223,7 @@ const DAMPED: f64 = 1e-3;
 /// `ε/(ωh)²`, and what rounding down takes from the energy is as much smaller.
 pub(super) fn contracting<T: Scalar>(exact: [[f64; 2]; 2]) -> [[T; 2]; 2] {
     // det(I + F) − 1.
-    let excess = |f: &[[f64; 2]; 2]| {
-        (f[0][0] + f[1][1]) + (f[0][0] * f[1][1] - f[0][1] * f[1][0])
-    };
+    let excess = |f: &[[f64; 2]; 2]| (f[0][0] + f[1][1]) + (f[0][0] * f[1][1] - f[0][1] * f[1][0]);
     let limit = excess(&exact).min(0.0);
     let nearest = exact.map(|row| row.map(T::from_f64));
     // With more damping than rounding there is nothing to mend; and where the step damps the mode

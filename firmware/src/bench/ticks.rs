@@ -23,13 +23,17 @@ const FULL: Scene = Scene {
 };
 const NONE: Damping = Damping { alpha: 0.0, beta: 0.0 };
 
-/// Scenes by what they lack. Hub radius, hub inertia and payload change no operation.
-const SCENES: [(&str, Scene); 4] = [
+/// Scenes by what they lack. The last two show that payload and hub radius change no operation.
+const SCENES: [(&str, Scene); 6] = [
     ("", FULL),
     ("no-gravity", Scene { gravity: 0.0, ..FULL }),
     ("no-damping", Scene { damping: NONE, ..FULL }),
-    ("no-damping no-gravity", Scene { damping: NONE, gravity: 0.0, ..FULL }),
+    ("no-damping no-gravity", LEAN),
+    ("no-damping no-gravity no-payload", Scene { payload: NOTHING, ..LEAN }),
+    ("no-damping no-gravity no-radius", Scene { hub: Hub { radius: 0.0, inertia: 1e-4 }, ..LEAN }),
 ];
+const LEAN: Scene = Scene { damping: NONE, gravity: 0.0, ..FULL };
+const NOTHING: Payload = Payload { mass: 0.0, inertia: 0.0 };
 
 const fn to(profile: Profile, duration: f64, to: f64) -> Move {
     Move::To { profile, duration, to }
@@ -92,8 +96,18 @@ impl<C: Counter, W: Write> Bench<'_, C, W> {
         let run = Run::of(moves);
         let mut counts = [Extremes::NONE; PATHS.len()];
         for k in 0..=run.ticks + 50 {
-            let (setpoint, count) = self.watch.count(|| tick(black_box(&mut arm)));
-            counts[run.path(k, setpoint.rate == 0.0)].take(count);
+            let asleep = arm.is_asleep();
+            let (still, count) = self.count(&mut arm);
+            counts[if asleep { ASLEEP } else { run.path(k, still) }].take(count);
+        }
+        // In equilibrium from the first tick, which takes up the hold, and awake in the second.
+        let mut arm = set_up::<M>(scene).expect("accepted above");
+        for _ in 0..20 {
+            let asleep = arm.is_asleep();
+            let (_, count) = self.count(&mut arm);
+            if asleep {
+                counts[ASLEEP].take(count);
+            }
         }
         for (path, count) in PATHS.iter().zip(counts).filter(|(_, count)| *count != Extremes::NONE)
         {
@@ -110,6 +124,16 @@ impl<C: Counter, W: Write> Bench<'_, C, W> {
     }
 }
 
+impl<C: Counter, W: Write> Bench<'_, C, W> {
+    /// One tick: whether the hub stands still after it, and what it took. Apart, so that what
+    /// surrounds the call is the same for all.
+    #[inline(never)]
+    fn count<S: Stepper<Scalar = f32>>(&self, arm: &mut Generator<S, 16>) -> (bool, u32) {
+        let (setpoint, count) = self.watch.count(|| tick(black_box(arm)));
+        (setpoint.rate == 0.0, count)
+    }
+}
+
 #[inline(never)]
 fn set_up<M: Method>(scene: &Scene) -> Result<Generator<M::Stepper, 16>, Error> {
     Generator::new(M::stepper(scene, TICK)?, FROM)
@@ -122,9 +146,19 @@ fn tick<S: Stepper<Scalar = f32>>(arm: &mut Generator<S, 16>) -> Setpoint<f32> {
 }
 
 /// Words for the paths of a tick: inside a move; taking up the next segment of a move, the hub
-/// turning or `still`; taking up the hold after the last, likewise; holding a rate; at rest.
-const PATHS: [&str; 7] =
-    ["", "next-segment", "next-segment still", "landing", "landing still", "cruise", "at-rest"];
+/// turning or `still`; taking up the hold after the last, likewise; holding a rate; at rest, the arm
+/// ringing; at rest and asleep.
+const PATHS: [&str; 8] = [
+    "",
+    "next-segment",
+    "next-segment still",
+    "landing",
+    "landing still",
+    "cruise",
+    "at-rest",
+    "at-rest asleep",
+];
+const ASLEEP: usize = 7;
 
 /// At which ticks a segment ends.
 #[derive(Default)]
@@ -151,7 +185,7 @@ impl Run {
         run
     }
 
-    /// Index in [`PATHS`] of tick `k`.
+    /// Index in [`PATHS`] of tick `k` of an arm that is awake.
     fn path(&self, k: u32, still: bool) -> usize {
         let still = usize::from(still);
         match k {
