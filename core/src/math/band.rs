@@ -97,7 +97,10 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
     }
 
     /// `vᵢᵀA vⱼ` for the vectors `vᵢ`, as far as the band of the result holds it. Set-up only.
-    pub(crate) fn onto<const K: usize, const V: usize>(&self, vectors: &[[T; N]; K]) -> Band<T, K, V> {
+    pub(crate) fn onto<const K: usize, const V: usize>(
+        &self,
+        vectors: &[[T; N]; K],
+    ) -> Band<T, K, V> {
         let mut reduced = Band::ZERO;
         for i in 0..K {
             let column = self.times(&vectors[i]);

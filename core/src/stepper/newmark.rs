@@ -114,8 +114,11 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
         for i in 0..N {
             nodal[i][i] = P::ONE;
         }
-        let principal =
-            if Self::PRINCIPAL { generalized_eigen(model.stiffness(), model.spin()).1 } else { nodal };
+        let principal = if Self::PRINCIPAL {
+            generalized_eigen(model.stiffness(), model.spin()).1
+        } else {
+            nodal
+        };
         let band = |a: &Band<P, N, W>| if Self::PRINCIPAL { a.onto(&principal) } else { *a };
         let vector = |v: &[P; N]| principal.map(|axis| dot(&axis, v));
         let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));

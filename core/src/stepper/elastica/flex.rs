@@ -35,9 +35,8 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// The state of an arm that bends and moves so, e.g. as measured, on a hub that is as given.
     /// Set-up only.
     pub fn state_of(&self, flex: &Flex<T, K>, hub: &Hub<T>) -> ElasticaState<T, K> {
-        let mut y: [[T; 2]; K] = core::array::from_fn(|k| {
-            [self.remainder.omega(k) * flex.coordinate[k], flex.rate[k]]
-        });
+        let mut y: [[T; 2]; K] =
+            core::array::from_fn(|k| [self.remainder.omega(k) * flex.coordinate[k], flex.rate[k]]);
         let mut value = self.remainder.evaluate::<true>(&y, hub);
         for _ in 0..ROUNDS {
             for k in 0..K {

@@ -183,9 +183,8 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     #[inline(always)]
     fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gain: T, end: &Hub<T>) {
         let ElasticaState { y, center, drift, .. } = state;
-        let guess = core::array::from_fn(|k| {
-            self.modes[k].rotate(y[k], center[k], drift[k], begin, gain)
-        });
+        let guess =
+            core::array::from_fn(|k| self.modes[k].rotate(y[k], center[k], drift[k], begin, gain));
         let value = self.remainder.evaluate::<false>(&guess, end);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }

@@ -181,8 +181,8 @@ impl<T: Scalar, const K: usize> Odd<T, K> {
         }
         if K > 1 {
             slope[0] += self.second[0] * (x[1] * x[1]);
-            slope[1] += T::TWO * (self.second[0] * (x[0] * x[1]))
-                + n(3) * (self.second[1] * (x[1] * x[1]));
+            slope[1] +=
+                T::TWO * (self.second[0] * (x[0] * x[1])) + n(3) * (self.second[1] * (x[1] * x[1]));
         }
         slope
     }

@@ -102,11 +102,11 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             gravity: g != 0.0,
             damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
             reach: f({
-                let largest = CLIP * omega[0] * range[0];
+                let largest = REACH * omega[0] * range[0];
                 largest * largest
             }),
             weight: core::array::from_fn(|k| {
-                let share = omega[0] * range[0] / (omega[k] * range[k]);
+                let share = omega[0] * range[0] / (LOOSER * omega[k] * range[k]);
                 f(share * share)
             }),
         }
@@ -144,8 +144,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         let (torque, inertia) = self.torque::<ALL>(&shape, &forms, &flow, &gradient);
         let torque = if ALL { torque + weight } else { torque };
         let center = core::array::from_fn(|k| {
-            let drag =
-                if ALL && self.damping { self.drag[k] * flow.u[k] } else { T::ZERO };
+            let drag = if ALL && self.damping { self.drag[k] * flow.u[k] } else { T::ZERO };
             let at = if ALL { drag - gradient[k] } else { -gradient[k] };
             [at, -flow.u[k]]
         });
@@ -258,7 +257,8 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         }
         let mut torque = T::ZERO;
         for k in 0..K {
-            let mut share = (rise[k] + rise[k]) * flow.rate[k] - lever[k] * (shape.x[k] + gradient[k]);
+            let mut share =
+                (rise[k] + rise[k]) * flow.rate[k] - lever[k] * (shape.x[k] + gradient[k]);
             share = self.omega[k] * share;
             if ALL && self.damping {
                 share -= lever[k] * (self.loss[k] * flow.rate[k]);
@@ -297,16 +297,18 @@ fn gradient<T: Scalar, const K: usize>(forms: &Forms<T, K>, flow: &Flow<T, K>) -
     if K > 1 {
         let of_second = [twice * v2, (v2 + v2) * omega, v2 * v2];
         for k in 0..K {
-            gradient[k] +=
-                of_second[0] * c[1].half_slope[k] - of_second[1] * d[1].half_slope[k];
+            gradient[k] += of_second[0] * c[1].half_slope[k] - of_second[1] * d[1].half_slope[k];
         }
         gradient[0] += of_second[2] * second[1].1;
     }
     gradient
 }
 
-/// Beyond this multiple of the fitted range the remainder's arguments are scaled down.
-const CLIP: f64 = 1.5;
+/// Amplitude of the first mode beyond which the remainder's arguments are scaled down, in fitted
+/// ranges; and how much further, in their own, the others may go: what they reach is less well known,
+/// and their polynomials are of second degree only.
+const REACH: f64 = 2.1;
+const LOOSER: f64 = 4.0;
 
 /// The second mode's inertia, 1 in the straight link, is not taken to be less.
 const LEAST_INERTIA: f64 = 0.25;
