@@ -15,7 +15,7 @@ pub(crate) mod monomials;
 mod rod;
 
 pub(crate) use chain::{Chain, Load};
-pub(crate) use expansion::{Even, Expansion, Odd};
+pub(crate) use expansion::Expansion;
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
 pub use modes::Modes;
 pub use rod::{Kinetics, Rod};

@@ -77,21 +77,4 @@ impl<T: Scalar, const K: usize> Powers<T, K> {
         }
         product.unwrap_or(T::ONE)
     }
-
-    /// Its derivative with respect to `aₖ`; `None` where that is zero for every `a`.
-    #[inline(always)]
-    pub(crate) fn slope(&self, e: Exponents, k: usize) -> Option<T> {
-        let mut lower = e;
-        match e[k] {
-            0 => None,
-            1 => {
-                lower[k] = 0;
-                Some(self.of(lower))
-            }
-            n => {
-                lower[k] = n - 1;
-                Some(T::from_u32(n as u32) * self.of(lower))
-            }
-        }
-    }
 }

@@ -52,22 +52,23 @@ pub enum Quality {
 ///
 /// Error against the exact rod, fraction of L, at 10 ms with 2 modes: 1e-5 to 1e-4 for bends up to
 /// ½ rad, 1e-3 at 1 rad, 1e-2 at 1.5 rad.
+#[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Elastica<T, const K: usize> {
-    tick: f64,
-    quality: Quality,
+    modes: [Mode<T>; K],
+    remainder: Remainder<T, K>,
+    hub_inertia: T,
     per_tick: T,
     quarter: T,
     /// ⅛ tick: Hermite interpolation to the middle.
     eighth_tick: T,
     alpha: T,
-    modes: [Mode<T>; K],
-    /// What a kink of the motion inside a tick moves `ωa` and `p̃` by, see [`jolt`].
-    jolt: [[T; 2]; K],
-    remainder: Remainder<T, K>,
-    hub_inertia: T,
     /// Distance from where a mode rests, in `ωa`, below which it sleeps.
     asleep: [T; K],
+    quality: Quality,
+    /// What a kink of the motion inside a tick moves `ωa` and `p̃` by, see [`jolt`].
+    jolt: [[T; 2]; K],
+    tick: f64,
     /// What the range admits: see [`Rod::bend`].
     bend: f64,
     sag: f64,
@@ -92,6 +93,25 @@ impl<T: Scalar, const K: usize> ElasticaState<T, K> {
     fn at(y: [[T; 2]; K], value: Value<T, K>) -> Self {
         let Value { center, torque, inertia } = value;
         Self { y, center, drift: [[T::ZERO; 2]; K], torque, inertia }
+    }
+
+    /// From the prediction `guess` to the corrected state: `correct` is given the mode, its guess and
+    /// how much further than expected its centre drifted.
+    #[inline(always)]
+    fn follow(
+        &mut self,
+        guess: [[T; 2]; K],
+        value: Value<T, K>,
+        correct: impl Fn(usize, [T; 2], [T; 2]) -> [T; 2],
+    ) {
+        for k in 0..K {
+            let moved = [0, 1].map(|r| value.center[k][r] - self.center[k][r]);
+            self.y[k] = correct(k, guess[k], [0, 1].map(|r| moved[r] - self.drift[k][r]));
+            self.drift[k] = moved;
+        }
+        self.center = value.center;
+        self.torque = value.torque;
+        self.inertia = value.inertia;
     }
 }
 
@@ -148,53 +168,43 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         }
     }
 
+    /// A step, of anything that a scene can hold.
     #[inline(always)]
-    fn advance<const ALL: bool>(
-        &self,
-        state: &mut ElasticaState<T, K>,
-        drive: &Drive<T>,
-        end: &Hub<T>,
-    ) {
+    fn advance(&self, state: &mut ElasticaState<T, K>, drive: &Drive<T>, end: &Hub<T>) {
+        let damped = self.remainder.is_damped();
         let ElasticaState { y, center, drift, .. } = state;
-        for k in 0..K {
-            y[k] = self.modes[k].predict::<ALL>(y[k], center[k], drift[k], drive);
-        }
-        let value = self.remainder.evaluate::<ALL>(y, end);
-        for k in 0..K {
-            let moved = [0, 1].map(|r| value.center[k][r] - center[k][r]);
-            y[k] = self.modes[k].correct(y[k], [0, 1].map(|r| moved[r] - drift[k][r]));
-            drift[k] = moved;
-        }
-        *center = value.center;
-        state.torque = value.torque;
-        state.inertia = value.inertia;
+        let guess = core::array::from_fn(|k| {
+            self.modes[k].predict(y[k], center[k], drift[k], drive, damped)
+        });
+        let value = self.remainder.evaluate::<true>(&guess, end);
+        state.follow(guess, value, |k, y, excess| self.modes[k].correct(y, excess));
     }
 
+    /// A step without damping and gravity in which the hub's acceleration gains `gain` in a
+    /// straight line.
     #[inline(always)]
-    fn march<const ALL: bool>(
-        &self,
-        state: &mut ElasticaState<T, K>,
-        drive: &Drive<T>,
-        before: &Hub<T>,
-        after: &Hub<T>,
-    ) {
-        match self.quality {
-            Quality::Fast => self.advance::<ALL>(state, drive, after),
-            Quality::Fine => {
-                let [first, second] = drive.halves(self.quarter);
-                self.advance::<ALL>(state, &first, &self.middle(before, after));
-                self.advance::<ALL>(state, &second, after);
-            }
-        }
+    fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gain: T, end: &Hub<T>) {
+        let ElasticaState { y, center, drift, .. } = state;
+        let guess =
+            core::array::from_fn(|k| self.modes[k].rotate(y[k], center[k], drift[k], begin, gain));
+        let value = self.remainder.evaluate::<false>(&guess, end);
+        state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }
 
-    /// The hub in the middle of a tick, by cubic Hermite interpolation.
+    /// θ̇ in the middle of a tick, by cubic Hermite interpolation.
+    #[inline(always)]
+    fn middle_rate(&self, before: &Hub<T>, after: &Hub<T>) -> T {
+        T::HALF * (before.rate + after.rate)
+            + self.eighth_tick * (before.acceleration - after.acceleration)
+    }
+
+    /// The hub in the middle of a tick.
     #[inline(always)]
     fn middle(&self, before: &Hub<T>, after: &Hub<T>) -> Hub<T> {
         let between =
             |x: T, x_dot: T, y: T, y_dot: T| T::HALF * (x + y) + self.eighth_tick * (x_dot - y_dot);
         Hub {
-            rate: between(before.rate, before.acceleration, after.rate, after.acceleration),
+            rate: self.middle_rate(before, after),
             sin: between(before.sin, before.cos * before.rate, after.sin, after.cos * after.rate),
             cos: between(
                 before.cos,
@@ -247,13 +257,47 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
 
     #[inline(always)]
     fn step(&self, state: &mut ElasticaState<T, K>, before: &Hub<T>, after: &Hub<T>) {
-        if self.remainder.is_damped() || self.remainder.is_directed() {
-            let drive = Drive::between(before, after, self.per_tick, self.alpha);
-            self.march::<true>(state, &drive, before, after);
+        let drive = if self.remainder.is_damped() {
+            Drive::between(before, after, self.per_tick, self.alpha)
         } else {
-            let drive = Drive::undamped(before, after, self.per_tick);
-            self.march::<false>(state, &drive, before, after);
+            Drive::undamped(before, after, self.per_tick)
+        };
+        match self.quality {
+            Quality::Fast => self.advance(state, &drive, after),
+            Quality::Fine => {
+                let [first, second] = drive.halves(self.quarter);
+                self.advance(state, &first, &self.middle(before, after));
+                self.advance(state, &second, after);
+            }
         }
+    }
+
+    const PLAIN: bool = true;
+
+    #[inline(always)]
+    fn is_plain(&self) -> bool {
+        !self.remainder.is_damped() && !self.remainder.is_directed()
+    }
+
+    #[inline(always)]
+    fn advance_in_cubic(
+        &self,
+        state: &mut ElasticaState<T, K>,
+        before: &Hub<T>,
+        after: &Hub<T>,
+    ) -> Response<T> {
+        let begin = before.acceleration;
+        let gain = after.acceleration - begin;
+        match self.quality {
+            Quality::Fast => self.rotate(state, begin, gain, after),
+            Quality::Fine => {
+                let half = T::HALF * gain;
+                let middle = Hub { rate: self.middle_rate(before, after), ..*after };
+                self.rotate(state, begin, half, &middle);
+                self.rotate(state, begin + half, half, after);
+            }
+        }
+        self.response(state, after)
     }
 
     fn shift(&self, state: &mut ElasticaState<T, K>, moment: T) {

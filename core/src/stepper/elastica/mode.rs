@@ -25,6 +25,8 @@ pub(super) struct Mode<T> {
     loss_per_turn: T,
     /// `−h(φ₂/2 + φ₃)A`: corrects for the drift of the centre having been extrapolated.
     correction: [[T; 2]; 2],
+    /// `b/ω`: an undamped mode's centre under `u = 1` is at `−b/ω`.
+    lag: T,
 }
 
 impl<T: Scalar> Mode<T> {
@@ -46,6 +48,7 @@ impl<T: Scalar> Mode<T> {
             }),
             per_turn: f(1.0 / (omega * h)),
             loss_per_turn: f(loss / (omega * omega * h)),
+            lag: f(b / omega),
             correction: core::array::from_fn(|i| {
                 core::array::from_fn(|j| {
                     let weight = |k: usize| 0.5 * p2[i][k] + p3[i][k];
@@ -57,15 +60,16 @@ impl<T: Scalar> Mode<T> {
 
     /// The state after a step if the centre goes on drifting by `drift` a step.
     #[inline(always)]
-    pub(super) fn predict<const ALL: bool>(
+    pub(super) fn predict(
         &self,
         y: [T; 2],
         center: [T; 2],
         drift: [T; 2],
         u: &Drive<T>,
+        damped: bool,
     ) -> [T; 2] {
         let mut lead = self.per_turn * drift[1];
-        if ALL {
+        if damped {
             lead += self.loss_per_turn * drift[0];
         }
         let about = [center[0] - lead, center[1] + self.per_turn * drift[0]];
@@ -77,11 +81,45 @@ impl<T: Scalar> Mode<T> {
         })
     }
 
+    /// The same for an undamped mode and a `u` that is `begin` and gains `gain` in a straight line:
+    /// the centre moves with it, and all that is left is a rotation.
+    #[inline(always)]
+    pub(super) fn rotate(
+        &self,
+        y: [T; 2],
+        center: [T; 2],
+        drift: [T; 2],
+        begin: T,
+        gain: T,
+    ) -> [T; 2] {
+        let drift = [drift[0] - self.lag * gain, drift[1]];
+        let about = [
+            center[0] - self.lag * begin - self.per_turn * drift[1],
+            center[1] + self.per_turn * drift[0],
+        ];
+        let off = [y[0] - about[0], y[1] - about[1]];
+        let [cos, sin] = self.turn[0];
+        [
+            (cos * off[0] + sin * off[1]) + (about[0] + drift[0]),
+            (cos * off[1] - sin * off[0]) + (about[1] + drift[1]),
+        ]
+    }
+
     /// The state once the centre at the end is known: `excess` is how much further than expected
     /// it drifted.
     #[inline(always)]
     pub(super) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
-        [0, 1]
-            .map(|r| y[r] + (self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1]))
+        let weight = &self.correction;
+        [0, 1].map(|r| y[r] + (weight[r][0] * excess[0] + weight[r][1] * excess[1]))
+    }
+
+    /// The same of an undamped mode.
+    #[inline(always)]
+    pub(super) fn correct_undamped(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
+        let [along, across] = self.correction[0];
+        [
+            y[0] + (along * excess[0] + across * excess[1]),
+            y[1] + (along * excess[1] - across * excess[0]),
+        ]
     }
 }

@@ -102,11 +102,11 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             gravity: g != 0.0,
             damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
             reach: f({
-                let largest = CLIP * omega[0] * range[0];
+                let largest = REACH * omega[0] * range[0];
                 largest * largest
             }),
             weight: core::array::from_fn(|k| {
-                let share = omega[0] * range[0] / (omega[k] * range[k]);
+                let share = omega[0] * range[0] / (LOOSER * omega[k] * range[k]);
                 f(share * share)
             }),
         }
@@ -304,8 +304,11 @@ fn gradient<T: Scalar, const K: usize>(forms: &Forms<T, K>, flow: &Flow<T, K>) -
     gradient
 }
 
-/// Beyond this multiple of the fitted range the remainder's arguments are scaled down.
-const CLIP: f64 = 1.5;
+/// Amplitude of the first mode beyond which the remainder's arguments are scaled down, in fitted
+/// ranges; and how much further, in their own, the others may go: what they reach is less well known,
+/// and their polynomials are of second degree only.
+const REACH: f64 = 2.1;
+const LOOSER: f64 = 4.0;
 
 /// The second mode's inertia, 1 in the straight link, is not taken to be less.
 const LEAST_INERTIA: f64 = 0.25;
