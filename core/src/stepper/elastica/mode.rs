@@ -98,10 +98,10 @@ impl<T: Scalar> Mode<T> {
             center[1] + self.per_turn * drift[0],
         ];
         let off = [y[0] - about[0], y[1] - about[1]];
-        let [cos, sin] = self.turn[0];
+        let [versine, sin] = self.turn[0];
         [
-            (cos * off[0] + sin * off[1]) + (about[0] + drift[0]),
-            (cos * off[1] - sin * off[0]) + (about[1] + drift[1]),
+            y[0] + ((versine * off[0] + sin * off[1]) + drift[0]),
+            y[1] + ((versine * off[1] - sin * off[0]) + drift[1]),
         ]
     }
 
