@@ -29,8 +29,13 @@ fn say(words: std::fmt::Arguments<'_>) {
         // Somebody has read enough.
         std::process::exit(0);
     }
-    eprintln!("error: standard output: {error}; accepted is one that can be written");
+    complain(format_args!("standard output: {error}; accepted is one that can be written"));
     std::process::exit(Error::EXIT_CODE.into());
+}
+
+/// One line on standard error. Where that cannot be written either, the exit code has to do.
+fn complain(words: std::fmt::Arguments<'_>) {
+    let _ = writeln!(std::io::stderr(), "error: {words}");
 }
 
 fn main() -> ExitCode {
@@ -43,7 +48,7 @@ fn main() -> ExitCode {
         Err(error) => Err(usage(&error)),
     };
     result.unwrap_or_else(|error| {
-        eprintln!("error: {error}");
+        complain(format_args!("{error}"));
         ExitCode::from(Error::EXIT_CODE)
     })
 }

@@ -82,13 +82,13 @@ impl Files {
         if path.is_dir() || path.file_name().is_none() {
             return Err(Fault::Folder);
         }
-        let place = place_of(path)?;
-        let there = std::fs::metadata(&place).ok();
+        let there = std::fs::metadata(path).ok();
         if there.as_ref().is_some_and(|there| !there.is_file()) {
             let mut bytes = Vec::new();
             write(&mut bytes)?;
             return Ok(Ready::Bytes(bytes));
         }
+        let place = place_of(path)?;
         if there.is_some() {
             // A file that must not be written must not be replaced either.
             OpenOptions::new().write(true).open(&place)?;
