@@ -1,11 +1,13 @@
 //! What the campaign has found, each as a case of its own.
 
-use stillbeam::axis::Refused;
+use stillbeam::axis::{Mode, Refused};
 use stillbeam::beam::OneElement;
 use stillbeam::motion::{Peaks, Still};
 use stillbeam::stepper::Newmark;
 use stillbeam::{Generator, Move, Payload, Profile, Scene};
+use stillbeam_protocol::Command;
 use stillbeam_sim::faults::machine::{CONFIGURATIONS, TICK};
+use stillbeam_sim::faults::{Board, Drive, PERIOD};
 
 type Arm = Generator<Newmark<f32, 2, 2>, 8>;
 
@@ -92,5 +94,27 @@ fn a_payload_that_hides_the_arm_from_a_float_is_refused() {
                 assert!(setpoint.torque.is_finite() && setpoint.tip[1].abs() < 5.0);
             }
         }
+    }
+}
+
+/// Where a stop ends no shorter than the move does, the move is finished; one of less than an angle's
+/// resolution was, whatever it lasted.
+#[test]
+fn a_stop_does_not_wait_for_a_move_that_goes_nowhere() {
+    for to in [1e-12, 1e-9, 1e-7, 1e-5] {
+        let mut board = Board::new(&CONFIGURATIONS[0], 0).expect("a board");
+        let drive = Drive::at(0.125);
+        board.hear_drive(&drive.report(board.node()));
+        board.ask(Command::Home(0.0));
+        board.ask(Command::Enable);
+        board.ask(Command::Move(Move::To { profile: Profile::Cubic, duration: 1e5, to }));
+        assert!(board.answers.iter().all(Result::is_ok), "{:?}", board.answers);
+        for k in 1..40 {
+            if k == 20 {
+                board.ask(Command::Stop);
+            }
+            board.tick(k * PERIOD);
+        }
+        assert_eq!(board.axis().mode(), Mode::Stopped, "{to}");
     }
 }
