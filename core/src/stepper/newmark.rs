@@ -85,6 +85,11 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     moment: T,
 }
 
+/// Heaviest payload, in link masses over the roundings of the tick's precision: 17,000 of them in f32.
+/// The effective matrix is as ill-conditioned as the squares of the first two frequencies are apart,
+/// 80 times the ratio of the masses.
+const HEAVIEST: f64 = 0.002;
+
 /// Terms that the scene needs; the others cost nothing but a branch that never changes.
 #[derive(Clone, Copy, Debug)]
 struct Terms {
@@ -123,6 +128,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     fn set_up<P: Scalar>(model: &Model<N, W, P>, tick: f64) -> Result<Self, Error> {
         let tick = super::check_tick(tick)?;
         let scene = model.scene();
+        let most = HEAVIEST / T::EPSILON.to_f64() * scene.link.mass.to_f64();
+        Error::check("payload.mass", scene.payload.mass, 0.0, most, "kg")?;
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
         let half = P::from_f64(0.5 * tick);
         let per_half = P::ONE / half;
