@@ -58,7 +58,7 @@ pub struct Hub<T = f64> {
 pub struct Payload<T = f64> {
     /// `m_p`, kg.
     pub mass: T,
-    /// `J_p` about the tip, kg m².
+    /// `J_p` about the tip, kg m²; up to 100 (m + m_p) L².
     pub inertia: T,
 }
 
@@ -147,7 +147,12 @@ impl<T: Scalar> Scene<T> {
         Error::check("hub.radius", self.hub.radius, 0.0, 1e3, "m")?;
         Error::check("hub.inertia", self.hub.inertia, 0.0, 1e6, "kg m^2")?;
         Error::check("payload.mass", self.payload.mass, 0.0, 1e5, "kg")?;
-        Error::check("payload.inertia", self.payload.inertia, 0.0, 1e6, "kg m^2")?;
+        // A radius of gyration of ten lengths. Far beyond it, the mass of what turns hides the mass of
+        // what moves from an f32.
+        let mass = self.link.mass + self.payload.mass;
+        let square = self.link.length * self.link.length;
+        let most = (T::from_f64(100.0) * mass * square).to_f64().min(1e6);
+        Error::check("payload.inertia", self.payload.inertia, 0.0, most, "kg m^2")?;
         Error::check("damping.alpha", self.damping.alpha, 0.0, 1e3, "1/s")?;
         Error::check("damping.beta", self.damping.beta, 0.0, 1.0, "s")?;
         Error::check("gravity.acceleration", self.gravity, 0.0, 1e3, "m/s^2")?;

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
-use crate::output;
+use crate::output::Files;
 
 /// One row of a run's CSV.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,7 +51,14 @@ pub(crate) fn significant(x: f64, digits: usize) -> f64 {
 
 /// Writes the table as CSV, whole or not at all.
 pub fn write(path: &Path, rows: &[Row]) -> Result<(), Error> {
-    output::write_whole(path, |file| {
+    let mut files = Files::default();
+    add(&mut files, path, rows)?;
+    files.finish().map(drop)
+}
+
+/// Adds the table as CSV to files that are written together.
+pub fn add(files: &mut Files, path: &Path, rows: &[Row]) -> Result<(), Error> {
+    files.add(path, |file| {
         let mut csv = csv::Writer::from_writer(file);
         for row in rows {
             csv.serialize(row.rounded()).map_err(std::io::Error::other)?;
@@ -98,9 +105,14 @@ pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
     Ok(rows)
 }
 
-/// Columns of numbers under one header, for figures and studies.
-pub fn write_columns(path: &Path, header: &[&str], rows: &[Vec<f64>]) -> Result<(), Error> {
-    output::write_whole(path, |file| {
+/// Adds columns of numbers under one header, for figures and studies.
+pub fn add_columns(
+    files: &mut Files,
+    path: &Path,
+    header: &[&str],
+    rows: &[Vec<f64>],
+) -> Result<(), Error> {
+    files.add(path, |file| {
         let mut csv = csv::Writer::from_writer(file);
         csv.write_record(header)?;
         for row in rows {

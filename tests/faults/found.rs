@@ -1,11 +1,13 @@
 //! What the campaign has found, each as a case of its own.
 
-use stillbeam::axis::Refused;
+use stillbeam::axis::{Mode, Refused};
 use stillbeam::beam::OneElement;
 use stillbeam::motion::{Peaks, Still};
 use stillbeam::stepper::Newmark;
-use stillbeam::{Generator, Move, Profile, Scene};
+use stillbeam::{Generator, Move, Payload, Profile, Scene};
+use stillbeam_protocol::Command;
 use stillbeam_sim::faults::machine::{CONFIGURATIONS, TICK};
+use stillbeam_sim::faults::{Board, Drive, PERIOD};
 
 type Arm = Generator<Newmark<f32, 2, 2>, 8>;
 
@@ -69,4 +71,50 @@ fn a_move_of_more_turns_than_a_float_resolves_is_refused() {
         error.to_string(),
         "move: turns = 15915.494309189535: accepted is -128 to 128 turns"
     );
+}
+
+/// Of a payload that turns hard and weighs little, an f32 along principal axes kept a mass matrix with a
+/// negative direction: from the first tick on nothing was finite.
+#[test]
+fn a_payload_that_hides_the_arm_from_a_float_is_refused() {
+    for configuration in &CONFIGURATIONS {
+        let Scene { link, .. } = configuration.scene;
+        for mass in [0.0, 1e-30, 1e-3, 0.05] {
+            let most = 100.0 * (link.mass + mass) * link.length * link.length;
+            let with =
+                |inertia| Scene { payload: Payload { mass, inertia }, ..configuration.scene };
+            let error = with(1.001 * most).validate().expect_err("beyond ten lengths");
+            assert!(error.to_string().starts_with("payload.inertia = "), "{error}");
+            let model = OneElement::consistent(&with(most)).expect("a model");
+            let stepper = Newmark::<f32, 2, 2>::new(&model, TICK).expect("a stepper");
+            let mut arm = Generator::<_, 8>::new(stepper, 0.3).expect("an angle");
+            arm.push(&Move::SpinUp { duration: 1.0, rate: 2.0 }).expect("a move");
+            for _ in 0..2_000 {
+                let setpoint = arm.tick();
+                assert!(setpoint.torque.is_finite() && setpoint.tip[1].abs() < 5.0);
+            }
+        }
+    }
+}
+
+/// Where a stop ends no shorter than the move does, the move is finished; one of less than an angle's
+/// resolution was, whatever it lasted.
+#[test]
+fn a_stop_does_not_wait_for_a_move_that_goes_nowhere() {
+    for to in [1e-12, 1e-9, 1e-7, 1e-5] {
+        let mut board = Board::new(&CONFIGURATIONS[0], 0).expect("a board");
+        let drive = Drive::at(0.125);
+        board.hear_drive(&drive.report(board.node()));
+        board.ask(Command::Home(0.0));
+        board.ask(Command::Enable);
+        board.ask(Command::Move(Move::To { profile: Profile::Cubic, duration: 1e5, to }));
+        assert!(board.answers.iter().all(Result::is_ok), "{:?}", board.answers);
+        for k in 1..40 {
+            if k == 20 {
+                board.ask(Command::Stop);
+            }
+            board.tick(k * PERIOD);
+        }
+        assert_eq!(board.axis().mode(), Mode::Stopped, "{to}");
+    }
 }

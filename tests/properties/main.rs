@@ -19,7 +19,9 @@ mod work;
 
 use proptest::prelude::ProptestConfig;
 
-/// So many random cases; `PROPTEST_CASES` makes it another number.
+/// So many random cases; `PROPTEST_CASES` makes it another number, and Miri one.
 fn cases(cases: u32) -> ProptestConfig {
+    let asked = std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok());
+    let cases = if cfg!(miri) { 1 } else { asked.unwrap_or(cases) };
     ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
 }

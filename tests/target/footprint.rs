@@ -4,7 +4,7 @@ use stillbeam_tests::instructions;
 use stillbeam_tests::instructions::Minimal;
 
 fn one_element() -> Minimal {
-    let minimal = instructions::minimal("Newmark1").unwrap_or_else(|error| panic!("{error}"));
+    let minimal = instructions::minimal("Newmark1Nodal").unwrap_or_else(|error| panic!("{error}"));
     // The paint was really there: a program without stack does not exist.
     assert!(minimal.stack > 100, "{minimal:?}");
     minimal

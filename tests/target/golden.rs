@@ -43,7 +43,7 @@ fn every_scene_runs_with_every_method() {
         cases.insert((case.scene, method, case.index));
     })
     .unwrap();
-    assert_eq!(methods.len(), 21);
+    assert_eq!(methods.len(), 22);
     assert_eq!(cases.len(), SCENES.len() * methods.len());
     assert_eq!(planned, BTreeSet::from(STILL_SCENES));
 }

@@ -5,6 +5,11 @@ use crate::math::Scalar;
 use crate::motion::{Angle, Braking, Segment, Start};
 use crate::stepper::Stepper;
 
+/// So many times what a stop takes, a move under way may take to its end and still be finished: a tail
+/// that ends more smoothly than a stop does takes up to twice as long. A move of less than an angle's
+/// resolution is at its end all the time, and may last for days.
+const PATIENCE: u32 = 4;
+
 /// Where the move under way comes to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Arrival {
@@ -35,6 +40,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         let (segment, rest, acceleration) = braking.stop(&self.hub);
         if let Some(arrival) = arrival
+            && arrival.ticks <= segment.count().saturating_mul(PATIENCE)
             && passes(self.hub.angle, rest, arrival.end.angle.cast())
         {
             self.finish(arrival);

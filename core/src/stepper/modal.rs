@@ -140,6 +140,8 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Leaves out every term in θ̇², as [`super::Newmark::without_spin`] does.
     pub fn without_spin(mut self) -> Self {
         self.terms.spin = false;
+        // Plain ticks do not ask.
+        self.spin = Band::ZERO;
         self
     }
 
@@ -272,8 +274,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
 
     #[inline(always)]
     fn is_plain(&self) -> bool {
-        let Terms { spin, gravity, damping } = self.terms;
-        spin && !gravity && !damping
+        !self.terms.gravity && !self.terms.damping
     }
 
     #[inline(always)]

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
+use stillbeam_sim::output::Files;
 use stillbeam_sim::plan::document;
-use stillbeam_sim::{blocks, output, progress};
+use stillbeam_sim::{blocks, progress};
 
 #[derive(clap::Args)]
 pub struct StillArgs {
@@ -28,9 +29,11 @@ impl StillArgs {
         let filled =
             blocks::fill(&text, "still", &found?).map_err(|error| error.within(path.display()))?;
         if !self.check {
-            output::write_whole(path, |file| file.write_all(filled.as_bytes()))?;
             let picture = path.with_extension("svg");
-            document::picture(&picture)?;
+            let mut files = Files::default();
+            files.add(path, |file| file.write_all(filled.as_bytes()))?;
+            document::picture(&mut files, &picture)?;
+            files.finish()?;
             println!("{}: filled; {}: drawn", path.display(), picture.display());
             return Ok(ExitCode::SUCCESS);
         }

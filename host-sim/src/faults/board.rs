@@ -9,7 +9,7 @@ use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::{Demand, Drivetrain};
 use stillbeam::stepper::Newmark;
-use stillbeam::{Angle, Error as CoreError, Move, Planned, Rejected, Scene};
+use stillbeam::{Angle, Error as CoreError, Move, Payload, Planned, Rejected, Scene};
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Request};
 
@@ -18,6 +18,9 @@ use crate::error::Error;
 
 /// Counts of the board's clock a tick.
 pub const PERIOD: u32 = 10_000;
+
+/// Jobs that wait for the planner, as in the application; one more is refused.
+const JOBS: usize = 2;
 
 type Stepper = Newmark<f32, 2, 2>;
 
@@ -33,12 +36,12 @@ pub struct Board {
     measured: Option<Angle<f32>>,
     splitter: Splitter,
     pace: Pace,
-    /// Requests that wait while a move is planned.
-    requests: VecDeque<Request>,
-    planning: Option<Planning>,
-    /// Ticks that planning a move takes.
+    /// What is to be planned or set up next; every other request is carried out as it comes.
+    jobs: VecDeque<Work>,
+    under_way: Option<UnderWay>,
+    /// Ticks that planning a move and setting an arm up take.
     takes: u32,
-    /// Answers since they were last taken.
+    /// Answers so far.
     pub answers: Vec<Answer>,
     /// Frames that came in garbled.
     pub garbled: u64,
@@ -48,11 +51,32 @@ pub struct Board {
     begins: bool,
 }
 
-struct Planning {
-    motion: Move,
-    planned: Planned<f32>,
+#[derive(Clone, Copy)]
+enum Work {
+    Move(Move),
+    Still,
+    Payload(Payload),
+}
+
+/// A job whose result is there in so many ticks.
+struct UnderWay {
     left: u32,
-    again: bool,
+    result: Ready,
+}
+
+// One at a time.
+#[allow(clippy::large_enum_variant)]
+enum Ready {
+    /// `again`: where the axis' motion has changed meanwhile it is planned once more.
+    Plan {
+        motion: Move,
+        planned: Planned<f32>,
+        again: bool,
+    },
+    Arm {
+        scene: Scene,
+        stepper: Stepper,
+    },
 }
 
 /// One tick of the board.
@@ -79,8 +103,8 @@ impl Board {
             measured: None,
             splitter: Splitter::new(),
             pace: Pace::new(PERIOD),
-            requests: VecDeque::new(),
-            planning: None,
+            jobs: VecDeque::new(),
+            under_way: None,
             takes,
             answers: Vec::new(),
             garbled: 0,
@@ -94,17 +118,15 @@ impl Board {
         for &byte in bytes {
             let Some(frame) = self.splitter.push(byte) else { continue };
             match frame.and_then(decode::<Request>) {
-                Ok(request) => self.requests.push_back(request),
+                Ok(request) => self.answer(&request),
                 Err(_) => self.garbled += 1,
             }
         }
-        self.work();
     }
 
     /// A request as if its frame had come, for those who have no use for bytes.
     pub fn ask(&mut self, command: Command) {
-        self.requests.push_back(Request { sequence: 0, axis: 0, command });
-        self.work();
+        self.answer(&Request { sequence: 0, axis: 0, command });
     }
 
     /// A frame from the drive.
@@ -128,8 +150,8 @@ impl Board {
         let tick = self.axis.tick();
         let begins = std::mem::take(&mut self.begins);
         let step = Step { tick, demand: self.train.demand(&tick.setpoint), begins };
-        if let Some(planning) = &mut self.planning {
-            planning.left = planning.left.saturating_sub(1);
+        if let Some(job) = &mut self.under_way {
+            job.left = job.left.saturating_sub(1);
         }
         self.work();
         step
@@ -145,49 +167,85 @@ impl Board {
         self.node
     }
 
-    /// Carries out what can be by now, in order.
-    fn work(&mut self) {
-        loop {
-            if self.planning.as_ref().is_some_and(|planning| planning.left > 0) {
+    /// Carries a request out, or hands it down to the planner.
+    fn answer(&mut self, request: &Request) {
+        self.axis.heard();
+        if request.axis > 0 {
+            self.answers.push(Err(Refusal::Axis(1)));
+            return;
+        }
+        let job = match request.command {
+            Command::Move(motion) => Work::Move(motion),
+            Command::Still { .. } => Work::Still,
+            Command::Payload(payload) => Work::Payload(payload),
+            command => {
+                let tick = self.axis.clock();
+                let answer = self.carry_out(command).map(|()| tick);
+                self.answers.push(answer);
                 return;
             }
-            if let Some(planning) = self.planning.take() {
-                self.hand_over(planning);
-                continue;
-            }
-            let Some(request) = self.requests.pop_front() else { return };
-            self.axis.heard();
-            if request.axis > 0 {
-                self.answers.push(Err(Refusal::Axis(1)));
-            } else if let Command::Move(motion) = request.command {
-                self.plan(motion, true);
-            } else {
-                let tick = self.axis.clock();
-                let answer = self.carry_out(request.command).map(|()| tick);
-                self.answers.push(answer);
-            }
+        };
+        if self.jobs.len() == JOBS {
+            self.answers.push(Err(Refusal::Busy));
+        } else {
+            self.jobs.push_back(job);
+            self.work();
         }
     }
 
-    /// Begins to plan. Where the axis' motion has changed meanwhile it is done once more.
-    fn plan(&mut self, motion: Move, again: bool) {
-        let departure = self.axis.departure().map_err(Refusal::from);
-        match departure.and_then(|departure| Ok(departure.plan(&motion)?)) {
-            Ok(planned) => {
-                self.planning = Some(Planning { motion, planned, left: self.takes, again });
+    /// Does what the planner can have done by now, one job after the other.
+    fn work(&mut self) {
+        loop {
+            if self.under_way.as_ref().is_some_and(|job| job.left > 0) {
+                return;
             }
+            if let Some(job) = self.under_way.take() {
+                self.hand_over(job.result);
+                continue;
+            }
+            let Some(job) = self.jobs.pop_front() else { return };
+            let begun = match job {
+                Work::Move(motion) => self.plan(motion, true),
+                Work::Payload(payload) => self.set_up(payload),
+                // As a firmware without the planner of still moves.
+                Work::Still => Err(Refusal::NoPlanner),
+            };
+            self.begin(begun);
+        }
+    }
+
+    fn begin(&mut self, result: Result<Ready, Refusal<'static>>) {
+        match result {
+            Ok(result) => self.under_way = Some(UnderWay { left: self.takes, result }),
             Err(refusal) => self.answers.push(Err(refusal)),
         }
     }
 
-    fn hand_over(&mut self, planning: Planning) {
-        match self.axis.take(&planning.planned) {
-            Ok(_) => self.answers.push(Ok(self.axis.clock())),
-            Err(Refused::Queue(Rejected::Stale)) if planning.again => {
-                self.plan(planning.motion, false);
+    fn plan(&self, motion: Move, again: bool) -> Result<Ready, Refusal<'static>> {
+        let planned = self.axis.departure()?.plan(&motion)?;
+        Ok(Ready::Plan { motion, planned, again })
+    }
+
+    fn set_up(&self, payload: Payload) -> Result<Ready, Refusal<'static>> {
+        let scene = Scene { payload, ..self.scene };
+        Ok(Ready::Arm { scene, stepper: stepper(&scene)? })
+    }
+
+    fn hand_over(&mut self, result: Ready) {
+        let tick = self.axis.clock();
+        let done = match result {
+            Ready::Plan { motion, planned, again } => match self.axis.take(&planned) {
+                Err(Refused::Queue(Rejected::Stale)) if again => {
+                    let begun = self.plan(motion, false);
+                    return self.begin(begun);
+                }
+                taken => taken.map(drop),
+            },
+            Ready::Arm { scene, stepper } => {
+                self.axis.replace(stepper).map(|()| self.scene = scene)
             }
-            Err(refused) => self.answers.push(Err(refused.into())),
-        }
+        };
+        self.answers.push(done.map(|()| tick).map_err(Refusal::from));
     }
 
     fn carry_out(&mut self, command: Command) -> Result<(), Refusal<'static>> {
@@ -200,11 +258,6 @@ impl Board {
             }
             Command::Disable => self.axis.disable(),
             Command::Stop => self.axis.stop(Cause::Requested),
-            Command::Payload(payload) => {
-                let scene = Scene { payload, ..self.scene };
-                self.axis.replace(stepper(&scene)?)?;
-                self.scene = scene;
-            }
             Command::Home(angle) => {
                 if !(-1e6..=1e6).contains(&angle) {
                     let (min, max, unit) = (-1e6, 1e6, "rad");
@@ -219,9 +272,8 @@ impl Board {
                     mode => return Err(Refusal::Mode(mode)),
                 }
             }
-            // As a firmware without the planner of still moves.
-            Command::Still { .. } => return Err(Refusal::NoPlanner),
-            Command::Move(_) | Command::Heartbeat | Command::Describe | Command::Status => {}
+            // Moves, still moves and payloads are the planner's.
+            _ => {}
         }
         Ok(())
     }

@@ -101,25 +101,25 @@ fn kind(refusal: &Refusal<'_>) -> &'static str {
 }
 
 /// A drive that does as it is told, and says where it is.
-pub(super) struct Drive {
+pub struct Drive {
     position: f32,
 }
 
 impl Drive {
     /// Standing there, turns.
-    pub(super) fn at(position: f32) -> Self {
+    pub fn at(position: f32) -> Self {
         Self { position }
     }
 
     /// Takes a setpoint.
-    pub(super) fn follow(&mut self, step: &Step) {
+    pub fn follow(&mut self, step: &Step) {
         if step.tick.mode != Mode::Disabled {
             self.position = step.demand.position.in_turns() as f32;
         }
     }
 
     /// Where the encoder is.
-    pub(super) fn report(&self, node: Node) -> ClassicFrame {
+    pub fn report(&self, node: Node) -> ClassicFrame {
         let estimates = EncoderEstimates { position: self.position, velocity: 0.0 };
         // Eight bytes are a frame.
         node.estimates_frame(&estimates).unwrap_or_else(|| unreachable!("eight bytes"))

@@ -28,6 +28,7 @@ pub fn say(fault: Fault, limits: &Limits, k: u32, rng: &mut StdRng) -> (Vec<Comm
         (0.004, Command::Stop),
         (0.003, Command::Disable),
         (0.02, Command::Status),
+        (0.002, Command::Still { to: 0.5, duration: None }),
         (0.002, Command::Home(rng.random_range(-3.0..3.0))),
     ] {
         if rng.random_bool(chance) {
@@ -104,12 +105,13 @@ pub fn any(rng: &mut StdRng) -> f64 {
 /// A command that no sound host sends.
 fn nonsense(rng: &mut StdRng) -> Command {
     let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
-    match rng.random_range(0..7) {
+    match rng.random_range(0..8) {
         0 => Command::Move(Move::To { profile, duration: any(rng), to: any(rng) }),
         1 => Command::Move(Move::SpinUp { duration: any(rng), rate: any(rng) }),
         2 => Command::Move(Move::Dwell { duration: any(rng) }),
         3 => Command::Home(any(rng)),
         4 => Command::Payload(Payload { mass: any(rng), inertia: any(rng) }),
+        6 => Command::Still { to: any(rng), duration: Some(any(rng)) },
         5 => Command::Move(Move::Still {
             duration: any(rng),
             to: any(rng),

@@ -16,6 +16,7 @@ mod stops;
 pub mod table;
 mod watch;
 
-pub use board::{Answer, Board};
+pub use board::{Answer, Board, PERIOD};
+pub use campaign::Drive;
 pub use kind::Fault;
 pub use watch::{Excess, Watch};

@@ -11,7 +11,7 @@ use super::contest::{self, ERRORS, Entry};
 use super::duration::durations;
 use super::judge::{Judgement, Motion};
 use crate::error::Error;
-use crate::output;
+use crate::output::Files;
 use crate::plot::{Axis, Chart, Colour, Dash, Series};
 use crate::reference::rod;
 use crate::scenes;
@@ -144,7 +144,7 @@ fn percent(fraction: f64) -> String {
 }
 
 /// Residual over frequency error at equal total duration: what a move is to be chosen by.
-pub fn picture(path: &Path) -> Result<(), Error> {
+pub fn picture(files: &mut Files, path: &Path) -> Result<(), Error> {
     let arm = arm("a-tip30")?;
     let period = rod::first_period(&arm)?;
     let duration = (2.0 * period / TICK).round() * TICK;
@@ -176,5 +176,5 @@ pub fn picture(path: &Path) -> Result<(), Error> {
         chart = chart.with(Series::line(label, points).colour(colour).dash(dash).width(width));
     }
     let svg = chart.svg()?;
-    output::write_whole(path, |file| file.write_all(svg.as_bytes()))
+    files.add(path, |file| file.write_all(svg.as_bytes()))
 }

@@ -7,7 +7,7 @@ use maud::html;
 use super::judge::Motion;
 use super::{Planned, Request};
 use crate::error::Error;
-use crate::output;
+use crate::output::Files;
 use crate::plot::{Axis, Chart, Colour, Dash, Series};
 use crate::reference::Sample;
 use crate::report::parts::{figure, page};
@@ -33,10 +33,11 @@ pub fn write(
         header { h1 { "A move that arrives still" } p.lead { (name) } }
         (figure(&named, &caption, "plan.csv")?)
     };
+    let mut files = Files::default();
     for (file, chart) in &charts {
         let svg = chart.svg()?;
         let path = folder.join(file).with_extension("svg");
-        output::write_whole(&path, |file| file.write_all(svg.as_bytes()))?;
+        files.add(&path, |file| file.write_all(svg.as_bytes()))?;
     }
     let rows: Vec<Vec<f64>> = planned
         .judgement
@@ -46,10 +47,11 @@ pub fn write(
         .collect();
     let header =
         ["t_s", "hub_angle_rad", "hub_rate_rad_s", "hub_accel_rad_s2", "deflection_m", "torque_nm"];
-    table::write_columns(&folder.join("plan.csv"), &header, &rows)?;
+    table::add_columns(&mut files, &folder.join("plan.csv"), &header, &rows)?;
     let path = folder.join("index.html");
     let text = page(name, &body);
-    output::write_whole(&path, |file| file.write_all(text.as_bytes()))?;
+    files.add(&path, |file| file.write_all(text.as_bytes()))?;
+    files.finish()?;
     Ok(path)
 }
 

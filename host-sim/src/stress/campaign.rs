@@ -107,7 +107,9 @@ impl Watch {
 }
 
 fn read(path: &Path, seed: u64) -> Result<Summary, Error> {
-    let text = std::fs::read_to_string(path).map_err(|cause| Error::file(path, cause))?;
+    let text = std::fs::read_to_string(path).map_err(|cause| {
+        Error::file(path, format_args!("{cause}; accepted is what a campaign has left"))
+    })?;
     let summary: Summary = toml::from_str(&text).map_err(|cause| {
         Error::file(path, format_args!("{cause}; accepted is what a campaign has left"))
     })?;

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::{Run, Study};
 use crate::error::Error;
+use crate::output::Files;
 use crate::table::Row;
-use crate::{output, report, table};
+use crate::{report, table};
 
 /// Name of the report.
 pub const REPORT: &str = "report.html";
@@ -36,24 +37,22 @@ impl Study {
         }
     }
 
-    /// Writes the CSVs and, last, the report, each whole or not at all; gives back their paths,
-    /// the report first.
+    /// Writes the CSVs and the report, all of them or none; gives back their paths, the report
+    /// first.
     pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Error> {
         Self::check_folder(folder)?;
         let page = report::render(self)?;
         let report = folder.join(REPORT);
-        let mut paths = vec![report.clone()];
+        let mut files = Files::default();
+        files.add(&report, |file| file.write_all(page.as_bytes()))?;
         for columns in self.columns() {
             let path = folder.join(columns.file);
             let header: Vec<&str> = columns.header.iter().map(String::as_str).collect();
-            table::write_columns(&path, &header, &columns.rows)?;
-            paths.push(path);
+            table::add_columns(&mut files, &path, &header, &columns.rows)?;
         }
         let path = folder.join("setpoints.csv");
-        table::write(&path, &self.setpoints.flexible.rows)?;
-        paths.push(path);
-        output::write_whole(&report, |file| file.write_all(page.as_bytes()))?;
-        Ok(paths)
+        table::add(&mut files, &path, &self.setpoints.flexible.rows)?;
+        files.finish()
     }
 
     fn columns(&self) -> Vec<Columns> {

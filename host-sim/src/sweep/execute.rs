@@ -1,6 +1,7 @@
 //! Runs a sweep: errors on all cores, then costs on one, into a file that survives interruptions.
 
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
@@ -22,12 +23,10 @@ pub struct Done {
     pub timed: usize,
 }
 
-/// Cases between two writes.
-const CHUNK: usize = 64;
-
 /// Runs a shard of the plan and writes `out`.
 ///
-/// While it runs, the rows stand in `out.errors.part`, without their costs, and in `out.part`.
+/// While it runs, the rows stand in `out.errors.part`, without their costs and in the order in which
+/// they are finished, and in `out.part`; each is there as soon as it is known.
 /// With `resume` the rows in these files, and in `out` itself, are taken over.
 pub fn execute(plan: &Plan, shard: Shard, out: &Path, resume: bool) -> Result<Done, Error> {
     if out.is_dir() || out.file_name().is_none() {
@@ -41,40 +40,46 @@ pub fn execute(plan: &Plan, shard: Shard, out: &Path, resume: bool) -> Result<Do
     let mut errors = Part::open(&errors_path, plan, &cases, resume)?;
     let mut whole = Part::open(&Part::path_of(out, ".part"), plan, &cases, resume)?;
 
-    let to_do = &cases[errors.rows()..];
-    let missing: Vec<usize> =
-        to_do.iter().copied().filter(|index| have.binary_search(index).is_err()).collect();
-    solve_references(plan, &missing)?;
-    let bar = progress::bar("errors", to_do.len());
-    for chunk in to_do.chunks(CHUNK) {
-        let taken = known.take(chunk)?;
-        let rows = chunk
-            .par_iter()
-            .zip(taken)
-            .map(|(&index, row)| row.map_or_else(|| errors_of(plan, index), Ok));
-        errors.append(&rows.collect::<Result<Vec<_>, _>>()?)?;
-        bar.inc(chunk.len() as u64);
+    let mut finished = errors.has().to_vec();
+    finished.sort_unstable();
+    let mut missing = Vec::new();
+    for &index in cases.iter().filter(|index| finished.binary_search(index).is_err()) {
+        match have.binary_search(&index).ok().map(|_| known.take_one(index)).transpose()?.flatten()
+        {
+            Some(row) => errors.append(index, &row)?,
+            None => missing.push(index),
+        }
     }
+    solve_references(plan, &missing)?;
+    let bar = progress::bar("errors", missing.len());
+    let errors = Mutex::new(errors);
+    missing.par_iter().try_for_each(|&index| {
+        let row = errors_of(plan, index)?;
+        bar.inc(1);
+        errors.lock().unwrap_or_else(PoisonError::into_inner).append(index, &row)
+    })?;
     bar.finish_and_clear();
+    let errors = errors.into_inner().unwrap_or_else(PoisonError::into_inner).sort(plan)?;
 
-    let done = whole.rows();
+    let done = whole.has().len();
+    if whole.has() != &cases[..done] {
+        let path = Part::path_of(out, ".part");
+        return Err(Error::file(&path, "accepted are the cases of this shard in order"));
+    }
     let mut known = Earlier::open(plan, earlier.then_some(out))?;
     let mut rows = Rows::open(&errors_path)?.skip(done);
     let bar = progress::bar("time, one case at a time", cases.len() - done);
     let mut timed = 0;
-    for chunk in cases[done..].chunks(CHUNK) {
-        let mut finished = Vec::with_capacity(chunk.len());
-        for ((&index, taken), row) in chunk.iter().zip(known.take(chunk)?).zip(rows.by_ref()) {
-            finished.push(match taken {
-                Some(row) if row.cost.is_some() => row,
-                _ => {
-                    timed += 1;
-                    with_cost(plan, index, row?)?
-                }
-            });
-            bar.inc(1);
-        }
-        whole.append(&finished)?;
+    for (&index, row) in cases[done..].iter().zip(rows.by_ref()) {
+        let row = match known.take_one(index)? {
+            Some(row) if row.cost.is_some() => row,
+            _ => {
+                timed += 1;
+                with_cost(plan, index, row?)?
+            }
+        };
+        whole.append(index, &row)?;
+        bar.inc(1);
     }
     bar.finish_and_clear();
 
@@ -157,11 +162,7 @@ impl<'a> Earlier<'a> {
         Ok(indices)
     }
 
-    /// The rows it has of these cases.
-    fn take(&mut self, cases: &[usize]) -> Result<Vec<Option<Row>>, Error> {
-        cases.iter().map(|&index| self.take_one(index)).collect()
-    }
-
+    /// The row it has of a case; ask for rising cases.
     fn take_one(&mut self, index: usize) -> Result<Option<Row>, Error> {
         let Some(rows) = &mut self.rows else { return Ok(None) };
         let wanted = index as u64 + 1;

@@ -8,7 +8,7 @@ use super::answers::bases;
 use super::picture::{Picture, describe, ends, overview};
 use super::row::header;
 use crate::error::Error;
-use crate::output;
+use crate::output::Files;
 use crate::report::parts::{Table, figure, page};
 use crate::scenes;
 
@@ -17,12 +17,13 @@ use crate::scenes;
 pub fn write(folder: &Path, pictures: &[Picture<'_>]) -> Result<PathBuf, Error> {
     let page = folder.join("index.html");
     let text = render(pictures)?;
+    let mut files = Files::default();
     for picture in pictures {
         let svg = picture.chart().svg()?;
         let name = file_name(&picture.scene);
         let path = folder.join(format!("{name}.svg"));
-        output::write_whole(&path, |file| file.write_all(svg.as_bytes()))?;
-        output::write_whole(&folder.join(format!("{name}.csv")), |file| {
+        files.add(&path, |file| file.write_all(svg.as_bytes()))?;
+        files.add(&folder.join(format!("{name}.csv")), |file| {
             let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(file);
             csv.write_record(header())?;
             for row in &picture.rows {
@@ -31,7 +32,8 @@ pub fn write(folder: &Path, pictures: &[Picture<'_>]) -> Result<PathBuf, Error> 
             csv.flush()
         })?;
     }
-    output::write_whole(&page, |file| file.write_all(text.as_bytes()))?;
+    files.add(&page, |file| file.write_all(text.as_bytes()))?;
+    files.finish()?;
     Ok(page)
 }
 

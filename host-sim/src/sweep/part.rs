@@ -2,18 +2,24 @@
 //! there.
 
 use std::fs::{File, OpenOptions};
-use std::io::{Read, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::plan::Plan;
 use super::row::{Row, Rows, header};
 use crate::error::Error;
+use crate::output;
 
-/// A file that holds the first rows of a list of cases.
+/// A file that holds rows of some cases. It grows row by row, so that no finished row is lost
+/// whatever ends the program.
 pub struct Part {
     path: PathBuf,
-    csv: csv::Writer<File>,
-    rows: usize,
+    file: File,
+    /// Bytes of whole lines.
+    length: u64,
+    /// The cases it holds, as indices of the plan, in the order of the file.
+    has: Vec<usize>,
 }
 
 impl Part {
@@ -24,12 +30,10 @@ impl Part {
         out.with_file_name(name)
     }
 
-    /// Opens a part of the rows of `cases`, which it must hold from the first on. Without `resume`
+    /// Opens a part of the rows of `cases`, rising, each at most once, in any order. Without `resume`
     /// there must be none yet.
     pub fn open(path: &Path, plan: &Plan, cases: &[usize], resume: bool) -> Result<Self, Error> {
-        let refuse = |cause: std::io::Error| {
-            Error::file(path, format_args!("{cause}; accepted is a path that can be written"))
-        };
+        let refuse = |cause: std::io::Error| unwritten(path, cause);
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(refuse)?;
         }
@@ -49,51 +53,119 @@ impl Part {
         }
         // An interruption may have cut the last line.
         file.set_len(whole_lines).map_err(refuse)?;
-        let mut rows = 0;
+        let mut has = Vec::new();
         if whole_lines > 0 {
             for row in Rows::open(path)? {
                 let index = plan.index_of(&row?).map_err(|e| e.within(path.display()))?;
-                if cases.get(rows) != Some(&index) {
-                    return Err(Error::file(
-                        path,
-                        format_args!(
-                            "case {}: accepted are the cases of this shard in order",
-                            index + 1
-                        ),
-                    ));
+                if cases.binary_search(&index).is_err() {
+                    return Err(strange(path, index));
                 }
-                rows += 1;
+                has.push(index);
+            }
+            let mut sorted = has.clone();
+            sorted.sort_unstable();
+            if let Some(twice) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+                return Err(strange(path, twice[0]));
             }
         }
         file.seek(SeekFrom::End(0)).map_err(refuse)?;
-        let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(file);
+        let mut part = Self { path: path.to_owned(), file, length: whole_lines, has };
         if whole_lines == 0 {
-            csv.write_record(header()).map_err(|error| Error::file(path, error))?;
+            part.line(|csv| csv.write_record(header()))?;
         }
-        Ok(Self { path: path.to_owned(), csv, rows })
+        Ok(part)
     }
 
-    /// How many rows it holds.
-    pub fn rows(&self) -> usize {
-        self.rows
+    /// The cases it holds, in the order in which they were finished.
+    pub fn has(&self) -> &[usize] {
+        &self.has
     }
 
-    /// Appends rows; they survive whatever comes after.
-    pub fn append(&mut self, rows: &[Row]) -> Result<(), Error> {
-        for row in rows {
-            row.write(&mut self.csv).map_err(|error| Error::file(&self.path, error))?;
-        }
-        self.csv.flush().map_err(|error| Error::file(&self.path, error))?;
-        self.rows += rows.len();
+    /// Appends the row of a case of the plan; it survives whatever comes after.
+    pub fn append(&mut self, index: usize, row: &Row) -> Result<(), Error> {
+        self.line(|csv| row.write(csv))?;
+        self.has.push(index);
         Ok(())
     }
 
-    /// Gives the file its final name.
-    pub fn finish(mut self, out: &Path) -> Result<(), Error> {
-        self.csv.flush().map_err(|error| Error::file(&self.path, error))?;
-        drop(self.csv);
-        std::fs::rename(&self.path, out).map_err(|error| Error::file(out, error))
+    /// Appends a line, whole or not at all: what a full disk took of it is cut off again.
+    fn line(
+        &mut self,
+        write: impl FnOnce(&mut csv::Writer<Vec<u8>>) -> csv::Result<()>,
+    ) -> Result<(), Error> {
+        let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
+        let line = write(&mut csv)
+            .map_err(std::io::Error::from)
+            .and_then(|()| csv.into_inner().map_err(|error| error.into_error()))
+            .map_err(|error| unwritten(&self.path, error))?;
+        if let Err(error) = self.file.write_all(&line) {
+            // Whoever reads it would cut it off as well.
+            let _ = self.file.set_len(self.length);
+            let _ = self.file.seek(SeekFrom::Start(self.length));
+            return Err(unwritten(&self.path, error));
+        }
+        self.length += line.len() as u64;
+        Ok(())
     }
+
+    /// Puts the rows in the order of their cases, for one who reads them so. One line is in memory
+    /// at a time, and where each begins.
+    pub fn sort(self, plan: &Plan) -> Result<Self, Error> {
+        let Self { path, file, has, .. } = self;
+        drop(file);
+        if has.is_sorted() {
+            return Self::open(&path, plan, &has, true);
+        }
+        let mut order: Vec<usize> = (0..has.len()).collect();
+        order.sort_unstable_by_key(|&place| has[place]);
+        let starts = starts(&path).map_err(|error| unwritten(&path, error))?;
+        let mut file = File::open(&path).map_err(|error| unwritten(&path, error))?;
+        output::write_whole(&path, |sorted| {
+            let header = starts.first().copied().unwrap_or(0);
+            copy(&mut file, 0..header, sorted)?;
+            order
+                .iter()
+                .try_for_each(|&place| copy(&mut file, starts[place]..starts[place + 1], sorted))
+        })?;
+        let mut cases = has;
+        cases.sort_unstable();
+        Self::open(&path, plan, &cases, true)
+    }
+
+    /// Gives the file its final name.
+    pub fn finish(self, out: &Path) -> Result<(), Error> {
+        self.file.sync_data().map_err(|error| unwritten(&self.path, error))?;
+        drop(self.file);
+        std::fs::rename(&self.path, out).map_err(|error| unwritten(out, error))
+    }
+}
+
+fn strange(path: &Path, index: usize) -> Error {
+    Error::file(path, format_args!("case {}: accepted is each case of this shard once", index + 1))
+}
+
+/// What there is of the sweep stays where it is.
+fn unwritten(path: &Path, error: std::io::Error) -> Error {
+    output::refusal(path, &error)
+}
+
+/// Where each line after the header begins, and where the last one ends.
+fn starts(path: &Path) -> std::io::Result<Vec<u64>> {
+    let mut file = BufReader::new(File::open(path)?);
+    let (mut starts, mut at, mut line) = (Vec::new(), 0, Vec::new());
+    loop {
+        line.clear();
+        match file.read_until(b'\n', &mut line)? {
+            0 => return Ok(starts),
+            length => at += length as u64,
+        }
+        starts.push(at);
+    }
+}
+
+fn copy(from: &mut File, range: Range<u64>, to: &mut dyn Write) -> std::io::Result<()> {
+    from.seek(SeekFrom::Start(range.start))?;
+    std::io::copy(&mut from.take(range.end - range.start), to).map(drop)
 }
 
 /// Bytes up to and including the last line break.

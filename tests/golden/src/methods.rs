@@ -76,6 +76,8 @@ methods! {
     RigidArm: "rigid", 0, "", "", None, Rigid<f32>, |s, h| Rigid::new(&single(s), h);
     Newmark1: "newmark", 1, "consistent", "", None, Consistent<2, 2>,
         |s, h| Newmark::new(&OneElement::consistent(&single(s))?, h);
+    Newmark1Nodal: "newmark", 1, "nodal", "", None, Newmark<f32, 2, 2, false>,
+        |s, h| Newmark::nodal(&OneElement::consistent(&single(s))?, h);
     Newmark2: "newmark", 2, "consistent", "", None, Consistent<4, 4>,
         |s, h| Newmark::new(&TwoElements::consistent(&single(s))?, h);
     Newmark4: "newmark", 4, "consistent", "", None, Consistent<8, 4>,

@@ -25,10 +25,10 @@ const ROUNDS: usize = 16;
 impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// How the arm of a state bends and moves, the hub as it was at that instant.
     pub fn flex(&self, state: &ElasticaState<T, K>, hub: &Hub<T>) -> Flex<T, K> {
-        let value = self.remainder.evaluate::<true>(&state.y, hub);
+        let value = self.remainder.evaluate::<true, true>(&state.y, hub);
         Flex {
             coordinate: core::array::from_fn(|k| state.y[k][0] / self.remainder.omega(k)),
-            rate: core::array::from_fn(|k| state.y[k][1] - value.center[k][1]),
+            rate: core::array::from_fn(|k| state.y[k][1] + value.offset[k][1]),
         }
     }
 
@@ -37,12 +37,12 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     pub fn state_of(&self, flex: &Flex<T, K>, hub: &Hub<T>) -> ElasticaState<T, K> {
         let mut y: [[T; 2]; K] =
             core::array::from_fn(|k| [self.remainder.omega(k) * flex.coordinate[k], flex.rate[k]]);
-        let mut value = self.remainder.evaluate::<true>(&y, hub);
+        let mut value = self.remainder.evaluate::<true, true>(&y, hub);
         for _ in 0..ROUNDS {
             for k in 0..K {
-                y[k][1] = flex.rate[k] + value.center[k][1];
+                y[k][1] = flex.rate[k] - value.offset[k][1];
             }
-            value = self.remainder.evaluate::<true>(&y, hub);
+            value = self.remainder.evaluate::<true, true>(&y, hub);
         }
         ElasticaState::at(y, value)
     }

@@ -57,7 +57,6 @@ pub enum Quality {
 pub struct Elastica<T, const K: usize> {
     modes: [Mode<T>; K],
     remainder: Remainder<T, K>,
-    hub_inertia: T,
     per_tick: T,
     quarter: T,
     /// ⅛ tick: Hermite interpolation to the middle.
@@ -80,23 +79,23 @@ pub struct Elastica<T, const K: usize> {
 pub struct ElasticaState<T, const K: usize> {
     /// `(ωₖaₖ, p̃ₖ)` of each mode, m √kg/s.
     y: [[T; 2]; K],
-    /// What each mode turns about, and how far that moved in the last step.
-    center: [[T; 2]; K],
+    /// The offset from what each mode turns about, and how far that moved in the last step.
+    offset: [[T; 2]; K],
     drift: [[T; 2]; K],
-    /// The hub torque but for what is proportional to θ̈, and the inertia that is.
+    /// The hub torque but for what is proportional to θ̈, and the inertia that is, the hub's included.
     torque: T,
     inertia: T,
 }
 
 impl<T: Scalar, const K: usize> ElasticaState<T, K> {
-    /// With centres that do not drift.
+    /// With offsets that do not drift.
     fn at(y: [[T; 2]; K], value: Value<T, K>) -> Self {
-        let Value { center, torque, inertia } = value;
-        Self { y, center, drift: [[T::ZERO; 2]; K], torque, inertia }
+        let Value { offset, torque, inertia } = value;
+        Self { y, offset, drift: [[T::ZERO; 2]; K], torque, inertia }
     }
 
     /// From the prediction `guess` to the corrected state: `correct` is given the mode, its guess and
-    /// how much further than expected its centre drifted.
+    /// how much further than expected its offset drifted.
     #[inline(always)]
     fn follow(
         &mut self,
@@ -105,11 +104,11 @@ impl<T: Scalar, const K: usize> ElasticaState<T, K> {
         correct: impl Fn(usize, [T; 2], [T; 2]) -> [T; 2],
     ) {
         for k in 0..K {
-            let moved = [0, 1].map(|r| value.center[k][r] - self.center[k][r]);
+            let moved = [0, 1].map(|r| value.offset[k][r] - self.offset[k][r]);
             self.y[k] = correct(k, guess[k], [0, 1].map(|r| moved[r] - self.drift[k][r]));
             self.drift[k] = moved;
         }
-        self.center = value.center;
+        self.offset = value.offset;
         self.torque = value.torque;
         self.inertia = value.inertia;
     }
@@ -157,7 +156,6 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
                 [omega * a, p].map(T::from_f64)
             }),
             remainder: Remainder::new(rod, &expansion, &range),
-            hub_inertia: T::from_f64(scene.hub.inertia),
             asleep: core::array::from_fn(|k| {
                 let floor = super::sleep_floor::<f64>(scene.link.length, expansion.linear[k].tip);
                 T::from_f64(rod.frequency()[k] * floor)
@@ -172,11 +170,11 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     #[inline(always)]
     fn advance(&self, state: &mut ElasticaState<T, K>, drive: &Drive<T>, end: &Hub<T>) {
         let damped = self.remainder.is_damped();
-        let ElasticaState { y, center, drift, .. } = state;
+        let ElasticaState { y, offset, drift, .. } = state;
         let guess = core::array::from_fn(|k| {
-            self.modes[k].predict(y[k], center[k], drift[k], drive, damped)
+            self.modes[k].predict(y[k], offset[k], drift[k], drive, damped)
         });
-        let value = self.remainder.evaluate::<true>(&guess, end);
+        let value = self.remainder.evaluate::<true, true>(&guess, end);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct(y, excess));
     }
 
@@ -184,10 +182,24 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// straight line.
     #[inline(always)]
     fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gain: T, end: &Hub<T>) {
-        let ElasticaState { y, center, drift, .. } = state;
+        let ElasticaState { y, offset, drift, .. } = state;
         let guess =
-            core::array::from_fn(|k| self.modes[k].rotate(y[k], center[k], drift[k], begin, gain));
-        let value = self.remainder.evaluate::<false>(&guess, end);
+            core::array::from_fn(|k| self.modes[k].rotate(y[k], offset[k], drift[k], begin, gain));
+        let value = self.remainder.evaluate::<false, true>(&guess, end);
+        state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
+    }
+
+    #[inline(always)]
+    fn tip_of(&self, state: &ElasticaState<T, K>) -> [T; 2] {
+        self.remainder.tip(state.y.map(|y| y[0]))
+    }
+
+    /// A step without damping and gravity of an arm whose hub rests.
+    #[inline(always)]
+    fn ring(&self, state: &mut ElasticaState<T, K>, hub: &Hub<T>) {
+        let ElasticaState { y, offset, drift, .. } = state;
+        let guess = core::array::from_fn(|k| self.modes[k].swing(y[k], offset[k], drift[k]));
+        let value = self.remainder.evaluate::<false, false>(&guess, hub);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }
 
@@ -244,13 +256,13 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     fn equilibrium(&self, hub: &Hub<T>) -> ElasticaState<T, K> {
         let still = Hub { rate: T::ZERO, ..*hub };
         let mut y = [[T::ZERO; 2]; K];
-        let mut value = self.remainder.evaluate::<true>(&y, &still);
+        let mut value = self.remainder.evaluate::<true, true>(&y, &still);
         // Half-way steps to the centre: contracting as long as the link carries its weight.
         for _ in 0..EQUILIBRIUM_STEPS {
             for k in 0..K {
-                y[k][0] = T::HALF * (y[k][0] + value.center[k][0]);
+                y[k][0] = T::HALF * (y[k][0] - value.offset[k][0]);
             }
-            value = self.remainder.evaluate::<true>(&y, &still);
+            value = self.remainder.evaluate::<true, true>(&y, &still);
         }
         ElasticaState::at(y, value)
     }
@@ -300,6 +312,22 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         self.response(state, after)
     }
 
+    #[inline(always)]
+    fn swing(&self, state: &mut ElasticaState<T, K>, hub: &Hub<T>) {
+        if !self.is_plain() {
+            return self.step(state, hub, hub);
+        }
+        if self.quality == Quality::Fine {
+            self.ring(state, hub);
+        }
+        self.ring(state, hub);
+    }
+
+    #[inline(always)]
+    fn response_at_rest(&self, state: &ElasticaState<T, K>, _: &Hub<T>) -> Response<T> {
+        Response { torque: state.torque, tip: self.tip_of(state) }
+    }
+
     fn shift(&self, state: &mut ElasticaState<T, K>, moment: T) {
         for k in 0..K {
             for r in 0..2 {
@@ -313,7 +341,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         (0..K).all(|k| {
             let floor = self.asleep[k];
             (0..2).all(|r| {
-                let off = state.y[k][r] - state.center[k][r];
+                let off = state.y[k][r] + state.offset[k][r];
                 off < floor && -off < floor
             })
         })
@@ -322,8 +350,8 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     #[inline(always)]
     fn response(&self, state: &ElasticaState<T, K>, hub: &Hub<T>) -> Response<T> {
         Response {
-            torque: state.torque + (state.inertia + self.hub_inertia) * hub.acceleration,
-            tip: self.remainder.tip(state.y.map(|y| y[0])),
+            torque: state.torque + state.inertia * hub.acceleration,
+            tip: self.tip_of(state),
         }
     }
 }

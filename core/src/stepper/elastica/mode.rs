@@ -8,7 +8,8 @@ use crate::stepper::oscillator::{contracting, gain};
 ///
 /// Everything in m √kg/s. The remainder `n` of the equations of motion is what moves the centre,
 /// `r = −A⁻¹n`: in these coordinates `A⁻¹` is an exchange of rows and costs nothing, and where `n`
-/// stays what it is the mode turns about `r`. With `r` changing by `δ` a step, exactly
+/// stays what it is the mode turns about `r`. What is kept is the offset `s = −r` to that centre, and
+/// its drift, which spares changes of sign. With `r` changing by `δ` a step, exactly
 ///
 /// `y(h) = y + δ + (E − I)(y − o) + …`, `E = exp(hA)`, `o = r + (hA)⁻¹δ`,
 ///
@@ -58,26 +59,25 @@ impl<T: Scalar> Mode<T> {
         }
     }
 
-    /// The state after a step if the centre goes on drifting by `drift` a step.
+    /// The state after a step if the offset goes on drifting by `drift` a step.
     #[inline(always)]
     pub(super) fn predict(
         &self,
         y: [T; 2],
-        center: [T; 2],
+        offset: [T; 2],
         drift: [T; 2],
         u: &Drive<T>,
         damped: bool,
     ) -> [T; 2] {
-        let mut lead = self.per_turn * drift[1];
+        let mut lag = self.per_turn * drift[1];
         if damped {
-            lead += self.loss_per_turn * drift[0];
+            lag += self.loss_per_turn * drift[0];
         }
-        let about = [center[0] - lead, center[1] + self.per_turn * drift[0]];
-        let off = [y[0] - about[0], y[1] - about[1]];
+        let off = [y[0] + (offset[0] - lag), y[1] + (offset[1] + self.per_turn * drift[0])];
         [0, 1].map(|r| {
             let (turn, drive) = (&self.turn[r], &self.drive[r]);
             let driven = drive[0] * u.begin + drive[1] * u.mean + drive[2] * u.end;
-            y[r] + ((turn[0] * off[0] + turn[1] * off[1]) + driven + drift[r])
+            y[r] + ((turn[0] * off[0] + turn[1] * off[1]) + driven - drift[r])
         })
     }
 
@@ -87,30 +87,35 @@ impl<T: Scalar> Mode<T> {
     pub(super) fn rotate(
         &self,
         y: [T; 2],
-        center: [T; 2],
+        offset: [T; 2],
         drift: [T; 2],
         begin: T,
         gain: T,
     ) -> [T; 2] {
-        let drift = [drift[0] - self.lag * gain, drift[1]];
-        let about = [
-            center[0] - self.lag * begin - self.per_turn * drift[1],
-            center[1] + self.per_turn * drift[0],
+        let offset = [offset[0] + self.lag * begin, offset[1]];
+        self.swing(y, offset, [drift[0] + self.lag * gain, drift[1]])
+    }
+
+    /// The same without a load: the hub rests.
+    #[inline(always)]
+    pub(super) fn swing(&self, y: [T; 2], offset: [T; 2], drift: [T; 2]) -> [T; 2] {
+        let off = [
+            y[0] + (offset[0] - self.per_turn * drift[1]),
+            y[1] + (offset[1] + self.per_turn * drift[0]),
         ];
-        let off = [y[0] - about[0], y[1] - about[1]];
         let [versine, sin] = self.turn[0];
         [
-            y[0] + ((versine * off[0] + sin * off[1]) + drift[0]),
-            y[1] + ((versine * off[1] - sin * off[0]) + drift[1]),
+            y[0] + ((versine * off[0] + sin * off[1]) - drift[0]),
+            y[1] + ((versine * off[1] - sin * off[0]) - drift[1]),
         ]
     }
 
-    /// The state once the centre at the end is known: `excess` is how much further than expected
+    /// The state once the offset at the end is known: `excess` is how much further than expected
     /// it drifted.
     #[inline(always)]
     pub(super) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
         let weight = &self.correction;
-        [0, 1].map(|r| y[r] + (weight[r][0] * excess[0] + weight[r][1] * excess[1]))
+        [0, 1].map(|r| y[r] - (weight[r][0] * excess[0] + weight[r][1] * excess[1]))
     }
 
     /// The same of an undamped mode.
@@ -118,8 +123,8 @@ impl<T: Scalar> Mode<T> {
     pub(super) fn correct_undamped(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
         let [along, across] = self.correction[0];
         [
-            y[0] + (along * excess[0] + across * excess[1]),
-            y[1] + (along * excess[1] - across * excess[0]),
+            y[0] - (along * excess[0] + across * excess[1]),
+            y[1] + (across * excess[0] - along * excess[1]),
         ]
     }
 }

@@ -15,9 +15,10 @@ pub(super) struct Remainder<T, const K: usize> {
     e: Even<T, K>,
     /// `Cₖ₂` likewise, `k > 1`.
     second: [Axial<T>; K],
-    /// `b = d(0)`, `e(0)`.
+    /// `b = d(0)`, `J_h − e(0)` and `J_h`.
     coupling: [T; K],
-    e_at_rest: T,
+    inertia_at_rest: T,
+    hub_inertia: T,
     /// `g ∫ρA (X, Y) dx`, payload included.
     moment_at_rest: T,
     moment: (Even<T, K>, Odd<T, K>),
@@ -38,9 +39,9 @@ pub(super) struct Remainder<T, const K: usize> {
 
 /// The remainder at one instant.
 pub(super) struct Value<T, const K: usize> {
-    /// What each mode turns about.
-    pub center: [[T; 2]; K],
-    /// `ṫ + αt + ∂V/∂θ` but for what is proportional to θ̈.
+    /// The negative of what each mode turns about.
+    pub offset: [[T; 2]; K],
+    /// `ṫ + αt + ∂V/∂θ + J_h θ̈` but for what is proportional to θ̈.
     pub torque: T,
     /// What is.
     pub inertia: T,
@@ -84,7 +85,8 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
                 Axial::of(&even(&|n| if K > 1 { terms[n].c[k][1 % K] } else { 0.0 }))
             }),
             coupling: cast(&expansion.coupling),
-            e_at_rest: f(expansion.e),
+            inertia_at_rest: f(scene.hub.inertia - expansion.e),
+            hub_inertia: f(scene.hub.inertia),
             moment_at_rest: f(g * expansion.moment),
             moment: (
                 even(&|n| g * terms[n].moment),
@@ -129,26 +131,30 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         self.omega[k]
     }
 
-    /// The remainder for `y = (ωa, p̃)` and a hub. Without `ALL` there is neither damping nor gravity.
+    /// The remainder for `y = (ωa, p̃)` and a hub. Without `ALL` there is neither damping nor gravity;
+    /// without `TURNS` the hub rests.
     #[inline(always)]
-    pub(super) fn evaluate<const ALL: bool>(&self, y: &[[T; 2]; K], hub: &Hub<T>) -> Value<T, K> {
+    pub(super) fn evaluate<const ALL: bool, const TURNS: bool>(
+        &self,
+        y: &[[T; 2]; K],
+        hub: &Hub<T>,
+    ) -> Value<T, K> {
         let (x, p) = self.within_reach(y);
         let shape = Shape::new(x);
         let forms = self.forms(&shape);
-        let flow = self.flow(&forms, &p, hub.rate);
-        let mut gradient = gradient(&forms, &flow);
+        let flow = self.flow::<TURNS>(&forms, &p, hub.rate);
+        let mut gradient = gradient::<T, K, TURNS>(&forms, &flow);
         let mut weight = T::ZERO;
         if ALL && self.gravity {
             weight = self.weigh(&shape, hub, &mut gradient);
         }
-        let (torque, inertia) = self.torque::<ALL>(&shape, &forms, &flow, &gradient);
+        let (torque, inertia) = self.torque::<ALL, TURNS>(&shape, &forms, &flow, &gradient);
         let torque = if ALL { torque + weight } else { torque };
-        let center = core::array::from_fn(|k| {
+        let offset = core::array::from_fn(|k| {
             let drag = if ALL && self.damping { self.drag[k] * flow.u[k] } else { T::ZERO };
-            let at = if ALL { drag - gradient[k] } else { -gradient[k] };
-            [at, -flow.u[k]]
+            [if ALL { gradient[k] - drag } else { gradient[k] }, flow.u[k]]
         });
-        Value { center, torque, inertia }
+        Value { offset, torque, inertia }
     }
 
     /// `x` and `p̃`, scaled down to what keeps the remainder bounded.
@@ -179,10 +185,18 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
 
     /// Momentum and velocities out of `p̃`.
     #[inline(always)]
-    fn flow(&self, forms: &Forms<T, K>, p_tilde: &[T; K], omega: T) -> Flow<T, K> {
+    fn flow<const TURNS: bool>(
+        &self,
+        forms: &Forms<T, K>,
+        p_tilde: &[T; K],
+        omega: T,
+    ) -> Flow<T, K> {
         let Forms { c, d, second, .. } = forms;
-        let p = p_tilde[0] + self.coupling[0] * omega;
-        let along = |k: usize| c[k].value * p - d[k].value * omega;
+        let p = if TURNS { p_tilde[0] + self.coupling[0] * omega } else { p_tilde[0] };
+        let along = |k: usize| {
+            let along = c[k].value * p;
+            if TURNS { along - d[k].value * omega } else { along }
+        };
         let mut u = [T::ZERO; K];
         u[0] = along(0);
         let (mut v2, mut lightness) = (T::ZERO, T::ONE);
@@ -216,7 +230,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
     /// `t = d·z − ωe` changes with `ṗ`, `v̇₂`, `v̇₃`, and these with `Ṗ`: the levers `M⁻¹h` of the
     /// momenta, last mode first, gather both.
     #[inline(always)]
-    fn torque<const ALL: bool>(
+    fn torque<const ALL: bool, const TURNS: bool>(
         &self,
         shape: &Shape<T, K>,
         forms: &Forms<T, K>,
@@ -226,18 +240,23 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         let Forms { c, d, e, second } = forms;
         let Flow { omega, p, v2, .. } = *flow;
         let mut lever = self.coupling;
-        let mut inertia = self.e_at_rest + e.value;
+        let mut inertia = self.inertia_at_rest - e.value;
         // Half the slope of t along each mode, levers held.
-        let mut rise: [T; K] =
-            core::array::from_fn(|k| p * d[0].half_slope[k] - omega * e.half_slope[k]);
+        let mut rise: [T; K] = core::array::from_fn(|k| {
+            let rise = p * d[0].half_slope[k];
+            if TURNS { rise - omega * e.half_slope[k] } else { rise }
+        });
         lever[0] += d[0].value;
         if K > 2 {
             // The third mode's lever is the straight link's, as its inertia is.
             let last = lever[2];
-            inertia += last * last;
+            inertia -= last * last;
             let by = [last * p, last * v2, last * omega];
             for k in 0..K {
-                rise[k] += by[0] * c[2].half_slope[k] - by[2] * d[2].half_slope[k];
+                rise[k] += by[0] * c[2].half_slope[k];
+                if TURNS {
+                    rise[k] -= by[2] * d[2].half_slope[k];
+                }
             }
             rise[0] += by[1] * second[2].1;
             lever[0] += c[2].value * last;
@@ -247,8 +266,8 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             let full = self.coupling[1] + d[1].value;
             lever[1] = (lever[1] + d[1].value) * flow.lightness;
             let own = lever[1];
-            inertia += own * full;
-            let by = [own * p, own * v2, v2 - own * omega];
+            inertia -= own * full;
+            let by = [own * p, own * v2, if TURNS { v2 - own * omega } else { v2 }];
             for k in 0..K {
                 rise[k] += by[0] * c[1].half_slope[k] + by[2] * d[1].half_slope[k];
             }
@@ -265,10 +284,9 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             }
             if k == 0 { torque = share } else { torque += share }
         }
-        let inertia = -inertia;
-        if ALL && self.damping {
+        if ALL && TURNS && self.damping {
             // The drag in Ṗ and αt cancel but for this.
-            torque += self.alpha * inertia * omega;
+            torque += self.alpha * (inertia - self.hub_inertia) * omega;
         }
         (torque, inertia)
     }
@@ -284,20 +302,27 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
 
 /// `∂R/∂x` without the elastic energy.
 #[inline(always)]
-fn gradient<T: Scalar, const K: usize>(forms: &Forms<T, K>, flow: &Flow<T, K>) -> [T; K] {
+fn gradient<T: Scalar, const K: usize, const TURNS: bool>(
+    forms: &Forms<T, K>,
+    flow: &Flow<T, K>,
+) -> [T; K] {
     let Forms { c, d, e, second } = forms;
     let Flow { omega, p, v2, .. } = *flow;
     // R's products of p, v₂ and ω.
     let twice = p + p;
     let of_first = [p * p, twice * omega, omega * omega];
     let mut gradient: [T; K] = core::array::from_fn(|k| {
-        of_first[0] * c[0].half_slope[k] - of_first[1] * d[0].half_slope[k]
-            + of_first[2] * e.half_slope[k]
+        let own = of_first[0] * c[0].half_slope[k];
+        if !TURNS {
+            return own;
+        }
+        own - of_first[1] * d[0].half_slope[k] + of_first[2] * e.half_slope[k]
     });
     if K > 1 {
         let of_second = [twice * v2, (v2 + v2) * omega, v2 * v2];
         for k in 0..K {
-            gradient[k] += of_second[0] * c[1].half_slope[k] - of_second[1] * d[1].half_slope[k];
+            let own = of_second[0] * c[1].half_slope[k];
+            gradient[k] += if TURNS { own - of_second[1] * d[1].half_slope[k] } else { own };
         }
         gradient[0] += of_second[2] * second[1].1;
     }
