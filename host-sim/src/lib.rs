@@ -9,7 +9,8 @@
 //! against error; its run time is compared with that of [`textbook`]. The paper's figures are
 //! computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show both.
 //!
-//! [`stress`] runs random scenes by the million and long runs.
+//! [`stress`] runs random scenes by the million and long runs, [`stability`] maps where the methods
+//! are stable.
 //! `faults` injects what can go wrong around an axis, and judges what comes out.
 //!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
@@ -30,6 +31,7 @@ pub mod run;
 pub mod scene_file;
 pub mod scenes;
 pub mod solver;
+pub mod stability;
 pub mod stress;
 pub mod study;
 pub mod sweep;

@@ -145,6 +145,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));
         let damping = mass.scaled(per_half * alpha).plus(per_half * beta, &stiffness);
         let effective = damping.plus(per_half * per_half, &mass).plus(P::ONE, &stiffness);
+        Self::check_inertia(&mass, &stiffness, tick)?;
         let tension = band(model.tension()).scaled(gravity);
         let coupling = vector(model.coupling());
         let turn = mass.factored().solve(&coupling);
@@ -194,6 +195,27 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * scene.first_moment()),
         })
+    }
+
+    /// Refuses a tick so long that the effective matrix, rounded, has no inertia left: what it holds
+    /// beside `K` is a mass that is not positive, and the step feeds the arm. In f32 from some
+    /// `ω₁h = 100` on with eight elements, 8,000 with one.
+    fn check_inertia<P: Scalar>(
+        mass: &Band<P, N, W>,
+        stiffness: &Band<P, N, W>,
+        tick: f64,
+    ) -> Result<(), Error> {
+        let rounded = stiffness.map(round::<T, P>);
+        let holds = |tick: f64| {
+            let per_half = P::from_f64(2.0 / tick);
+            let effective = mass.scaled(per_half * per_half).plus(P::ONE, stiffness);
+            effective.map(round::<T, P>).plus(-T::ONE, &rounded).factored().is_positive()
+        };
+        let mut max = tick;
+        while !holds(max) && max > 1e-6 {
+            max *= 0.5;
+        }
+        Error::check("solver.tick", tick, 1e-6, max, "s").map(drop)
     }
 
     /// Only what is full stays as small along other axes.

@@ -8,6 +8,7 @@ mod pareto;
 mod plan;
 mod reference;
 mod run;
+mod stability;
 mod still;
 mod stress;
 mod study;
@@ -57,6 +58,8 @@ enum Command {
     Talk(talk::TalkArgs),
     /// Fill the tables of docs/still.md and draw its picture, or check the tables
     Still(still::StillArgs),
+    /// Map where the methods are stable and accurate; fill docs/stability.md, or check it
+    Stability(stability::StabilityArgs),
     /// Run random scenes, far outside of what an arm is, by the million
     Stress(stress::StressArgs),
     /// Inject faults around an axis, and count what comes out
@@ -83,6 +86,7 @@ impl Cli {
             #[cfg(feature = "talk")]
             Some(Command::Talk(args)) => args.execute(),
             Some(Command::Still(args)) => args.execute(),
+            Some(Command::Stability(args)) => args.execute(),
             Some(Command::Stress(args)) => args.execute(),
             #[cfg(feature = "faults")]
             Some(Command::Faults(args)) => args.execute(),

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
-use stillbeam_sim::progress;
 use stillbeam_sim::stress::draw::{draw, method_name};
 use stillbeam_sim::stress::trial::trial;
-use stillbeam_sim::stress::{campaign, summary::Summary};
+use stillbeam_sim::stress::{campaign, document, energy, rows, summary::Summary};
+use stillbeam_sim::{output, progress};
 
 #[derive(clap::Args)]
 pub struct StressArgs {
@@ -20,6 +20,15 @@ pub struct StressArgs {
     /// Keep what is done in this file, and go on from it
     #[arg(long, value_name = "OUT.toml")]
     part: Option<PathBuf>,
+    /// Write a row a run to this file
+    #[arg(long, value_name = "OUT.csv")]
+    csv: Option<PathBuf>,
+    /// In place of random scenes: let so many undamped arms ring on for a million ticks each
+    #[arg(long, value_name = "ARMS")]
+    energy: Option<usize>,
+    /// In place of random scenes: repeated moves, a vibration and a rotation for so many ticks each
+    #[arg(long, value_name = "TICKS")]
+    long: Option<u64>,
     /// Only this scene, and what comes of it
     #[arg(long, value_name = "INDEX")]
     scene: Option<u64>,
@@ -30,14 +39,39 @@ impl StressArgs {
         if let Some(index) = self.scene {
             return Ok(self.one(index));
         }
+        if let Some(arms) = self.energy {
+            let bar = progress::bar("arms that ring on", arms);
+            let rings = energy::rings(self.seed, arms, energy::TICKS, &|| bar.inc(1));
+            bar.finish_and_clear();
+            print!("{}", document::energy(&rings));
+            return Ok(ExitCode::SUCCESS);
+        }
+        if let Some(ticks) = self.long {
+            let bar = progress::bar("ticks", document::long_ticks(ticks) as usize);
+            let text = document::long(ticks, &|n| bar.inc(n));
+            bar.finish_and_clear();
+            print!("{}", text?);
+            return Ok(ExitCode::SUCCESS);
+        }
         // A scene that panics is counted; its message would hide the progress.
         std::panic::set_hook(Box::new(|_| ()));
+        if let Some(path) = &self.csv {
+            return self.rows(path);
+        }
         let bar = progress::bar("random scenes", self.scenes as usize);
         let summary = campaign::run(self.seed, self.scenes, self.part.as_deref(), &|n| bar.inc(n));
         bar.finish_and_clear();
         let summary = summary?;
         print(&summary);
         Ok(if summary.faults() == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    }
+
+    fn rows(&self, path: &std::path::Path) -> Result<ExitCode, Error> {
+        let bar = progress::bar("random scenes", self.scenes as usize);
+        let judged = campaign::each(self.seed, 0..self.scenes, &|n| bar.inc(n));
+        bar.finish_and_clear();
+        output::write_whole(path, |file| rows::write(file, &judged))?;
+        Ok(ExitCode::SUCCESS)
     }
 
     fn one(&self, index: u64) -> ExitCode {
@@ -64,7 +98,7 @@ fn print(summary: &Summary) {
         );
         for (decade, spread) in &counts.deflection {
             println!(
-                "    w1h 1e{decade}: {:>8} {:.1e} {:.1e} {:.1e}",
+                "    condition 1e{decade}: {:>8} {:.1e} {:.1e} {:.1e}",
                 spread.count(),
                 spread.quantile(0.5),
                 spread.quantile(0.99),

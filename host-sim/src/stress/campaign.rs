@@ -36,8 +36,8 @@ pub fn run(
     while summary.scenes < scenes {
         let from = summary.scenes;
         let numbers = from..scenes.min((from / CHUNK + 1) * CHUNK);
-        for (index, (drawn, verdicts)) in numbers.clone().zip(each(seed, numbers, done)) {
-            summary.add(index, &drawn, &verdicts);
+        for (index, (_, verdicts)) in numbers.clone().zip(each(seed, numbers, done)) {
+            summary.add(index, &verdicts);
         }
         if let Some(path) = part {
             write(path, &summary)?;

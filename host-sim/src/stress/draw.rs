@@ -78,6 +78,13 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
     Drawn { scene, solvers, omega }
 }
 
+impl Drawn {
+    /// What the tip would sag by with the arm level, of L.
+    pub fn sag(&self) -> f64 {
+        self.scene.arm.gravity / (self.omega * self.omega * self.scene.arm.link.length)
+    }
+}
+
 fn decades(rng: &mut StdRng, low: f64, high: f64) -> f64 {
     10f64.powf(rng.random_range(low..high))
 }

@@ -6,9 +6,12 @@
 //! million ticks, [`long`] moves an arm to and fro for days.
 
 pub mod campaign;
+pub mod document;
 pub mod draw;
 pub mod energy;
+pub mod growth;
 pub mod long;
+pub mod rows;
 pub mod spread;
 pub mod summary;
 pub mod trial;

@@ -6,15 +6,19 @@ use stillbeam::stepper::Stepper;
 use stillbeam::{Move, Scalar as Real, Setpoint};
 
 use super::draw::Drawn;
+use super::growth::grows;
 use crate::error::Error;
 use crate::model_choice::{StepperVisitor, with_stepper};
 use crate::run::each_tick;
 use crate::scene_file::SceneFile;
-use crate::solver::{Scalar, Solver};
+use crate::solver::{Method, Scalar, Solver};
 
-/// Deflections are compared relative to the peak, but at least to this fraction of L: ten times what
-/// an arm may still swing by when it is let sleep.
-pub const FLOOR: f64 = 10.0 * stillbeam::stepper::SLEEP;
+/// Deflections are compared relative to the peak, but at least to this fraction of L: a thousand
+/// times what an arm may still swing by when it is let sleep.
+pub const FLOOR: f64 = 1000.0 * stillbeam::stepper::SLEEP;
+
+/// Relative change of EI that a run's condition is measured with, in f64.
+const NUDGE: f64 = 1e-8;
 
 /// What a run has come to.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +31,7 @@ pub enum Verdict {
     Ran(Run),
 }
 
-/// A run in both precisions.
+/// A run in both precisions, and once more of an arm that is a little stiffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
     /// First tick with a field that is not finite, or an angle's part outside ±½ turn, f64 and f32.
@@ -40,13 +44,22 @@ pub struct Run {
     pub deflection: f64,
     /// Largest difference of torques, of their peak.
     pub torque: f64,
+    /// Condition of the deflection: by how much of its peak it changes for a relative change of EI, at
+    /// least 1. A vibration of N rad has ½N and more, a resonance or a step that feeds
+    /// the arm has any.
+    pub condition: f64,
+    /// The arm swings up during the last rest, by its own physics or by the method's, or that of elastica
+    /// deflects by more than its length: there is nothing to compare then.
+    pub rings_up: bool,
     /// Ticks.
     pub ticks: u64,
+    /// Peak rate of the hub, rad/s.
+    pub rate: f64,
 }
 
 /// Runs one solver of a scene.
 pub fn trial(drawn: &Drawn, solver: &Solver) -> Verdict {
-    let run = AssertUnwindSafe(|| both(&drawn.scene, solver));
+    let run = AssertUnwindSafe(|| both(drawn, solver));
     match catch_unwind(run) {
         Ok(Ok(run)) => Verdict::Ran(run),
         Ok(Err(error)) => Verdict::Refused(reason(&error.to_string())),
@@ -70,6 +83,7 @@ struct Record<'a> {
     samples: Vec<Sample>,
     broken: Option<u64>,
     angle: f64,
+    rate: f64,
 }
 
 impl StepperVisitor for &mut Record<'_> {
@@ -84,6 +98,7 @@ impl StepperVisitor for &mut Record<'_> {
             let (deflection, torque) = (setpoint.deflection().to_f64(), setpoint.torque.to_f64());
             self.samples.push(Sample { deflection, torque });
             self.angle = setpoint.angle.radians();
+            self.rate = self.rate.max(setpoint.rate.to_f64().abs());
         })
     }
 }
@@ -93,33 +108,56 @@ fn is_sound<T: Real>(s: &Setpoint<T>) -> bool {
     all.iter().all(|x| x.is_finite()) && s.angle.part.to_f64().abs() <= 0.5
 }
 
-fn both(scene: &SceneFile, solver: &Solver) -> Result<Run, Error> {
-    let run = |scalar: Scalar| -> Result<Record<'_>, Error> {
-        let mut record = Record { scene, samples: Vec::new(), broken: None, angle: 0.0 };
+fn both(drawn: &Drawn, solver: &Solver) -> Result<Run, Error> {
+    let scene = &drawn.scene;
+    fn run<'a>(scene: &'a SceneFile, solver: &Solver, scalar: Scalar) -> Result<Record<'a>, Error> {
+        let mut record = Record { scene, samples: Vec::new(), broken: None, angle: 0.0, rate: 0.0 };
         with_stepper(scene, &Solver { scalar, ..*solver }, &mut record)?;
         Ok(record)
-    };
-    let (double, single) = (run(Scalar::F64)?, run(Scalar::F32)?);
+    }
+    let (double, single) = (run(scene, solver, Scalar::F64)?, run(scene, solver, Scalar::F32)?);
+    let mut stiffer = scene.clone();
+    stiffer.arm.link.bending_stiffness *= 1.0 + NUDGE;
+    // At the edge of what is accepted it may be refused: then it says nothing.
+    let nudged = run(&stiffer, solver, Scalar::F64).ok();
     let length = scene.arm.link.length;
     let most = |of: &dyn Fn(&Sample) -> f64| {
         double.samples.iter().map(|sample| of(sample).abs()).fold(0.0, f64::max)
     };
-    let apart = |of: &dyn Fn(&Sample) -> f64| {
-        let pairs = double.samples.iter().zip(&single.samples);
-        pairs.map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, f64::max)
+    let apart = |other: &[Sample], of: &dyn Fn(&Sample) -> f64| {
+        let pairs = double.samples.iter().zip(other);
+        // f64::max would drop what is no number.
+        pairs.map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, |most: f64, apart| {
+            if apart.is_nan() { f64::INFINITY } else { most.max(apart) }
+        })
     };
     let (peak, torque) = (most(&|s| s.deflection), most(&|s| s.torque));
     let target = scene.moves.last().and_then(|step| match step.motion {
         Move::To { to, .. } => Some(to),
         _ => None,
     });
+    let scale = peak.max(FLOOR * length);
+    let condition = nudged.map_or(f64::INFINITY, |nudged| {
+        apart(&nudged.samples, &|s| s.deflection) / (peak.max(f64::MIN_POSITIVE) * NUDGE)
+    });
+    let rest = scene.moves.last().map_or(0.0, |step| step.settle / solver.tick) as usize;
+    // What rests for less than four periods cannot be seen to swing up.
+    let seen = rest as f64 * drawn.omega * solver.tick > 4.0 * std::f64::consts::TAU;
+    let rest = if seen { rest } else { 0 };
+    let rings_up = [&double, &single].into_iter().any(|record| {
+        let deflections: Vec<f64> = record.samples.iter().map(|s| s.deflection).collect();
+        grows(&deflections, rest, length)
+    });
     Ok(Run {
         broken: [double.broken, single.broken],
         off_target: target.map_or(0.0, |to| (single.angle - to).abs()),
         peak: peak / length,
-        deflection: apart(&|s| s.deflection) / peak.max(FLOOR * length),
-        torque: apart(&|s| s.torque) / torque.max(f64::MIN_POSITIVE),
+        deflection: apart(&single.samples, &|s| s.deflection) / scale,
+        torque: apart(&single.samples, &|s| s.torque) / torque.max(f64::MIN_POSITIVE),
+        condition: condition.max(1.0),
+        rings_up: rings_up || (solver.method == Method::Elastica && peak > length),
         ticks: double.samples.len() as u64,
+        rate: double.rate,
     })
 }
 

@@ -1,0 +1,125 @@
+//! The maps as a page, pictures and a table.
+
+use std::path::{Path, PathBuf};
+
+use maud::{Markup, html};
+
+use super::document::Findings;
+use super::map::Map;
+use super::rule::RULES;
+use crate::error::Error;
+use crate::output;
+use crate::plot::{Axis, Chart, Series};
+use crate::report::parts::{figure, page};
+
+/// Name of the table beside the page.
+const DATA: &str = "maps.csv";
+
+/// Writes `index.html`, `maps.csv` and a picture a map into a folder. Returns the page's path.
+pub fn write(folder: &Path, findings: &Findings) -> Result<PathBuf, Error> {
+    let index = folder.join("index.html");
+    let moving: Vec<Chart> = findings.moving().iter().map(moving_chart).collect();
+    let spinning: Vec<Chart> = findings.spinning().iter().map(spinning_chart).collect();
+    let rules = rule_charts();
+    let text = render(&moving, &spinning, &rules)?;
+    let named = |maps: &[Map], what: &str, charts: &[Chart]| {
+        let name = |map: &Map| format!("{what}-{}.svg", map.name);
+        maps.iter().map(name).zip(charts.to_vec()).collect::<Vec<_>>()
+    };
+    let mut pictures = named(findings.moving(), "moves", &moving);
+    pictures.extend(named(findings.spinning(), "spins", &spinning));
+    pictures
+        .extend(["rules-radius.svg", "rules-period.svg"].map(str::to_owned).into_iter().zip(rules));
+    for (name, chart) in pictures {
+        let svg = chart.svg()?;
+        output::write_whole(&folder.join(name), |file| file.write_all(svg.as_bytes()))?;
+    }
+    output::write_whole(&folder.join(DATA), |file| {
+        let mut csv = csv::Writer::from_writer(file);
+        csv.write_record(["map", "solver", "x", "y", "verdict"])?;
+        for (what, maps) in [("moves", findings.moving()), ("spins", findings.spinning())] {
+            for map in maps {
+                for (x, y, verdict) in &map.cells {
+                    let numbers = [x, y].map(|x| format!("{x:.4e}"));
+                    let [x, y] = &numbers;
+                    csv.write_record([what, &map.title, x, y, verdict.name()])?;
+                }
+            }
+        }
+        csv.flush()
+    })?;
+    output::write_whole(&index, |file| file.write_all(text.as_bytes()))?;
+    Ok(index)
+}
+
+fn moving_chart(map: &Map) -> Chart {
+    let x = Axis::log("first frequency, Hz").limits(0.07, 1.4e3);
+    map.chart(x, Axis::log("tick, s").limits(7e-5, 1.4))
+}
+
+/// Over rates.
+pub fn spinning_chart(map: &Map) -> Chart {
+    let x = Axis::log("\u{3c9}\u{2081}h, rad").limits(0.008, 12.5);
+    map.chart(x, Axis::linear("rate that is held, \u{3c9}\u{2081}").limits(-0.2, 5.2))
+}
+
+/// Spectral radius and period error of Newmark's rule.
+fn rule_charts() -> Vec<Chart> {
+    let turns: Vec<f64> = (0..=300).map(|k| 10f64.powf(-1.0 + f64::from(k) / 100.0)).collect();
+    let label = |k: usize| {
+        let rule = RULES[k];
+        format!("\u{3b4} = {}, \u{3b2} = {:.3}", rule.delta, rule.beta)
+    };
+    let x = || Axis::log("\u{3c9}h, rad");
+    let radius =
+        Chart::new("Spectral radius", x(), Axis::linear("largest eigenvalue").limits(0.7, 1.6))
+            .with_all((0..RULES.len()).map(|k| {
+                Series::line(label(k), turns.iter().map(|&turn| (turn, RULES[k].radius(turn))))
+            }));
+    let period =
+        Chart::new("Error of the period", x(), Axis::linear("% of the period").limits(-40.0, 60.0))
+            .with_all((0..RULES.len()).map(|k| {
+                let points = turns.iter().map(|&turn| (turn, 100.0 * RULES[k].period_error(turn)));
+                Series::line(label(k), points.filter(|point| point.1.is_finite()))
+            }));
+    vec![radius, period]
+}
+
+fn render(moving: &[Chart], spinning: &[Chart], rules: &[Chart]) -> Result<String, Error> {
+    let move_caption = html! {
+        strong { "A move and what follows it." }
+        " A quintic of three first periods, 20 ticks at least, bends an undamped arm by a tenth of a \
+         radian; six periods of rest follow, 1,500 ticks at least. Judged by the same kinematics at ticks of a twentieth of \
+         a radian. Diagonals are lines of equal " span { "\u{3c9}\u{2081}h" } "."
+    };
+    let spin_caption = html! {
+        strong { "A hub that goes on turning." }
+        " Spun up in five first periods, 20 ticks at least, then held for 1,500 ticks. The last picture \
+         is a trapezoidal rule on the nonlinear problem, with equilibrium iterations: unconditionally \
+         stable for a linear arm, it is not so here. Rates above one radian a tick are refused."
+    };
+    let rule_caption = html! {
+        strong { "Newmark\u{2019}s rule with other parameters, on one mode." }
+        " The core\u{2019}s is the first: stable at any tick, its period too long by "
+        "(\u{3c9}h)\u{b2}/12. With a smaller \u{3b2} it is so up to a bound only."
+    };
+    let body = html! {
+        header {
+            h1 { "Where the methods are stable" }
+            p.lead {
+                "Green: deflections true to 1 % of their peak. Orange: not, but they do not grow. \
+                 Crosses: they grow after the move. Grey rings: refused."
+            }
+        }
+        main {
+            (section("moves", "Tick and frequency", &figure(moving, &move_caption, DATA)?))
+            (section("spins", "Rate of turning", &figure(spinning, &spin_caption, DATA)?))
+            (section("rules", "Other rules", &figure(rules, &rule_caption, DATA)?))
+        }
+    };
+    Ok(page("Where the methods are stable", &body))
+}
+
+fn section(id: &str, title: &str, content: &Markup) -> Markup {
+    html! { section id=(id) { h2 { (title) } (content) } }
+}

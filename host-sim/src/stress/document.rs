@@ -1,0 +1,185 @@
+//! The campaigns as the blocks of `docs/stability.md`.
+
+use std::collections::BTreeMap;
+
+use super::draw::RANGES;
+use super::energy::Ring;
+use super::long;
+use super::summary::{Summary, bound};
+use crate::error::Error;
+use crate::sweep::tables::aligned;
+
+/// Thousands apart.
+pub fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut text = String::new();
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+fn words<const N: usize>(line: [&str; N]) -> Vec<String> {
+    line.map(str::to_owned).to_vec()
+}
+
+/// What is drawn.
+pub fn ranges() -> String {
+    let mut lines = vec![words(["quantity", "drawn from"])];
+    lines.extend(RANGES.map(|(quantity, range)| words([quantity, range])));
+    aligned(&lines)
+}
+
+/// What came of the scenes, method by method.
+pub fn scenes(summary: &Summary) -> String {
+    let header = ["method", "ran", "swings up", "refused", "panics", "not finite", "off target"];
+    let mut lines = vec![words(header)];
+    for (name, counts) in &summary.methods {
+        let mut line = vec![name.clone()];
+        line.extend(
+            [
+                counts.ran,
+                counts.rings_up,
+                counts.refused,
+                counts.panicked,
+                counts.not_finite,
+                counts.off_target,
+            ]
+            .map(grouped),
+        );
+        lines.push(line);
+    }
+    let mut text = format!(
+        "`stillbeam-sim stress --scenes {} --seed {}`: {} ticks.\n\n{}",
+        summary.scenes,
+        summary.seed,
+        grouped(summary.ticks),
+        aligned(&lines)
+    );
+    for failure in &summary.failures {
+        text += &format!("\nScene {}, {}: {}.", failure.index, failure.method, failure.what);
+    }
+    text
+}
+
+/// Refusals by reason, numbers left out.
+pub fn reasons(summary: &Summary) -> String {
+    let mut reasons: Vec<(&String, &u64)> = summary.reasons.iter().collect();
+    reasons.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    let mut lines = vec![words(["refused", "because"])];
+    lines.extend(reasons.iter().map(|(reason, count)| vec![grouped(**count), (*reason).clone()]));
+    aligned(&lines)
+}
+
+/// f32 against f64 by decade of condition, and the bound.
+pub fn precision(summary: &Summary) -> String {
+    let decades: Vec<String> = (0..8).map(|decade| format!("10^{decade}")).collect();
+    let mut header = words(["method"]);
+    header.extend(decades);
+    header.push("bound".to_owned());
+    header.push("above it".to_owned());
+    let mut lines = vec![header];
+    for (name, counts) in &summary.methods {
+        if name == "rigid" {
+            continue;
+        }
+        let mut line = vec![name.clone()];
+        for decade in 0..8 {
+            line.push(
+                counts.deflection.get(&decade.to_string()).map_or("\u{2013}".into(), |spread| {
+                    format!("{:.0e} / {:.0e}", spread.quantile(0.5), spread.most)
+                }),
+            );
+        }
+        line.push(format!("{:.0e}", bound(name)));
+        line.push(grouped(counts.above));
+        lines.push(line);
+    }
+    aligned(&lines)
+}
+
+/// Edges of the ranges of `ω₁h` that the energy is told for.
+const EDGES: [f64; 4] = [0.0, 0.1, 0.5, f64::INFINITY];
+
+/// Growth and loss of the energy by method and range of `ω₁h`.
+pub fn energy(rings: &[Ring]) -> String {
+    let mut by_method: BTreeMap<&str, Vec<&Ring>> = BTreeMap::new();
+    for ring in rings {
+        by_method.entry(&ring.method).or_default().push(ring);
+    }
+    let mut header = words(["method", "arms"]);
+    for range in ["to 0.1", "0.1 to 0.5", "above"] {
+        header.push(format!("growth, ω₁h {range}"));
+        header.push("loss, median".to_owned());
+    }
+    header.push("largest growth at scene".to_owned());
+    let mut lines = vec![header];
+    for (method, rings) in by_method {
+        let mut line = vec![method.to_owned(), rings.len().to_string()];
+        for edge in EDGES.windows(2) {
+            let within: Vec<&&Ring> =
+                rings.iter().filter(|ring| (edge[0]..edge[1]).contains(&ring.turn)).collect();
+            let growth = within.iter().map(|ring| ring.growth).fold(f64::NAN, f64::max);
+            let mut losses: Vec<f64> = within.iter().map(|ring| ring.loss).collect();
+            losses.sort_by(f64::total_cmp);
+            line.push(format!("{growth:.0e}"));
+            line.push(
+                losses.get(losses.len() / 2).map_or("\u{2013}".into(), |x| format!("{x:.0e}")),
+            );
+        }
+        let worst = rings.iter().max_by(|a, b| a.growth.total_cmp(&b.growth));
+        line.push(
+            worst.map_or(String::new(), |ring| format!("{} ({:.1e})", ring.scene, ring.turn)),
+        );
+        lines.push(line);
+    }
+    aligned(&lines)
+}
+
+/// First modes that ring on, rad a tick.
+const TURNS: [f64; 5] = [1e-3, 1e-2, 0.1, 1.0, 3.0];
+
+/// Ticks of [`long`] in all.
+pub fn long_ticks(ticks: u64) -> u64 {
+    (3 + TURNS.len() as u64 + 1) * ticks
+}
+
+/// Long runs of so many ticks each.
+pub fn long(ticks: u64, done: &dyn Fn(u64)) -> Result<String, Error> {
+    let mut lines =
+        vec![words(["repeated moves", "ticks", "stops", "off the last bit", "drift, of the peak"])];
+    for run in long::shuttles(ticks, done)? {
+        lines.push(vec![
+            run.method.to_owned(),
+            grouped(run.ticks),
+            grouped(run.stops),
+            grouped(run.missed),
+            format!("{:.1e}", run.drift),
+        ]);
+    }
+    let mut text = aligned(&lines);
+    let mut lines =
+        vec![words(["an undamped mode, ω₁h", "ticks", "phase slip, rad a rad", "amplitude left"])];
+    for run in long::ringing(&TURNS, ticks, done)? {
+        lines.push(vec![
+            run.turn.to_string(),
+            grouped(run.ticks),
+            format!("{:.1e}", run.slip),
+            format!("{:.5}", run.amplitude),
+        ]);
+    }
+    text += &format!("\n{}", aligned(&lines));
+    let run = long::rotation(7.3, ticks, done)?;
+    text += &format!(
+        "\nA hub that turns at 7.3 rad/s for {} ticks, {:.0} turns: no angle is further than {:.1e} \
+         turn from the exact one, no tick's turn further than {:.1e}.\n",
+        grouped(run.ticks),
+        run.turns,
+        run.off,
+        run.uneven
+    );
+    Ok(text)
+}

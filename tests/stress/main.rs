@@ -1,0 +1,5 @@
+//! What is tried by the million, a bounded part of it; and what it has found.
+
+mod found;
+mod long;
+mod scenes;
