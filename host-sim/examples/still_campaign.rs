@@ -10,7 +10,7 @@ use stillbeam_sim::{output, progress};
 
 const SEED: u64 = 20_260_101;
 /// Of the rest-to-rest moves, one in so many is judged by the reference rod.
-const ROD_EACH: usize = 20;
+const ROD_EACH: usize = 2;
 /// Interruptions of one arm.
 const EACH: usize = 100;
 
@@ -98,7 +98,7 @@ fn of_interruptions(all: &[Interruption]) -> String {
     format!(
         "{} interruptions, seed {SEED}, {EACH} an arm: a new target, a stop, another payload.\n\n\
          | | |\n| --- | --: |\n\
-         | planned | {} |\n| refused | {} |\n\
+         | planned | {} |\n| of them with a stop on the way | {} |\n| refused | {} |\n\
          | largest excess over a limit at any tick, of the limit | {:.1e} |\n\
          | residual, median, % of L | {:.4} |\n| residual, 99 % | {:.3} |\n\
          | residual, largest | {:.3} |\n\
@@ -106,6 +106,7 @@ fn of_interruptions(all: &[Interruption]) -> String {
          | residual beyond what the planner states, largest | {:.3} |\n",
         all.len(),
         outcomes.len(),
+        outcomes.iter().filter(|one| one.by_way_of_rest).count(),
         refusals(all.iter().filter_map(|one| one.outcome.as_ref().err())),
         most(&|one| one.excess),
         percentile(&left, 0.5),

@@ -1,6 +1,7 @@
 //! Runs the core on a scene: the same generator as on the target, in f32 or f64.
 
-use stillbeam::stepper::Stepper;
+use stillbeam::motion::Hub as HubState;
+use stillbeam::stepper::{Response, Stepper};
 use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
 use crate::error::Error;
@@ -8,6 +9,7 @@ use crate::model_choice::{StepperVisitor, with_stepper};
 use crate::scene_file::SceneFile;
 use crate::solver::Solver;
 use crate::table::Row;
+use crate::trajectory::Side;
 
 /// Segments that can wait in the desktop's generator: two of the longest moves.
 pub const QUEUE: usize = 14;
@@ -36,6 +38,9 @@ impl StepperVisitor for Rows<'_> {
 
 /// Ticks a stepper through a scene: a row every tick.
 pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Error> {
+    if scene.shaper.is_some() {
+        return drive_shaped(&stepper, scene);
+    }
     let tick = stepper.tick();
     let mut rows = Vec::new();
     each_tick(stepper, scene, |generator, k, ends| {
@@ -46,6 +51,40 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     Ok(rows)
 }
 
+/// [`drive`] along a motion that has passed a shaper, which no generator's queue holds: the stepper
+/// is given the hub itself.
+fn drive_shaped<S: Stepper>(stepper: &S, scene: &SceneFile) -> Result<Vec<Row>, Error> {
+    let tick = stepper.tick();
+    let trajectory = scene.trajectory(tick)?;
+    let ticks = (trajectory.duration() / tick).round() as u64;
+    let at = |k: u64, side| cast::<S::Scalar>(&trajectory.at(k as f64 * tick, side));
+    let mut state = stepper.equilibrium(&at(0, Side::Left));
+    let mut rows = Vec::new();
+    for k in 0..=ticks {
+        let arrival = at(k, Side::Left);
+        if k > 0 {
+            stepper.step(&mut state, &at(k - 1, Side::Right), &arrival);
+        }
+        let ends = trajectory.arrivals().any(|end| (end / tick).round() as u64 == k);
+        let hub = if ends { arrival } else { at(k, Side::Right) };
+        let Response { torque, tip } = stepper.response(&state, &hub);
+        let HubState { angle, rate, acceleration, .. } = hub;
+        let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
+        rows.push(row(k as f64 * tick, &setpoint));
+    }
+    Ok(rows)
+}
+
+fn cast<T: Real>(hub: &HubState<f64>) -> HubState<T> {
+    HubState {
+        angle: hub.angle.cast(),
+        rate: T::from_f64(hub.rate),
+        acceleration: T::from_f64(hub.acceleration),
+        sin: T::from_f64(hub.sin),
+        cos: T::from_f64(hub.cos),
+    }
+}
+
 /// Feeds the moves to a generator as its queue takes them, and has `each` tick it through all of
 /// them: `each(generator, k, ends)` calls [`Generator::tick`] once, for tick `k`, at which a move
 /// ends if `ends`.
@@ -54,6 +93,11 @@ pub fn each_tick<S: Stepper>(
     scene: &SceneFile,
     mut each: impl FnMut(&mut Generator<S, QUEUE>, u64, bool),
 ) -> Result<(), Error> {
+    if scene.shaper.is_some() {
+        return Err(Error::new(
+            "shaper: a generator has none; accepted by run, reference, compare and sweep",
+        ));
+    }
     let mut generator = Generator::<S, QUEUE>::new(stepper, scene.from)?;
     generator.limit(scene.limits)?;
     let motions = scene.motions();

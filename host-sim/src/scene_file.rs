@@ -1,6 +1,7 @@
 //! Scene files: TOML in SI units to a validated arm and its moves.
 
 mod moves;
+mod shaper;
 
 use std::fmt::Display;
 use std::path::Path;
@@ -8,9 +9,11 @@ use std::path::Path;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use stillbeam::material::{MATERIALS, Material, Strip};
+use stillbeam::motion::Shaper;
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Scene};
 
 use self::moves::{MoveTable, Planning};
+use self::shaper::ShaperTable;
 use crate::error::Error;
 use crate::solver::SolverKeys;
 use crate::trajectory::Trajectory;
@@ -26,6 +29,8 @@ pub struct SceneFile {
     pub from: f64,
     /// What the hub does, each move with the time to settle after it.
     pub moves: Vec<Step>,
+    /// What the moves pass, each with its rest.
+    pub shaper: Option<Shaper>,
     /// Limits of the drive.
     pub limits: Limits,
     /// The `[solver]` table.
@@ -56,6 +61,7 @@ struct File {
     #[serde(rename = "move")]
     motion: Option<MoveTable>,
     moves: Option<Vec<MoveTable>>,
+    shaper: Option<ShaperTable>,
     #[serde(default)]
     limits: LimitsTable,
     #[serde(default)]
@@ -157,14 +163,24 @@ impl SceneFile {
             let step = table.build(index, &mut at, &planning);
             moves.push(if many { step.map_err(|e| e.within(place_of(index)))? } else { step? });
         }
-        let scene = Self { name: name.to_owned(), arm, from, moves, limits, solver: file.solver };
+        let shaper = file.shaper.map(|table| table.build(&arm)).transpose()?;
+        let name = name.to_owned();
+        let scene = Self { name, arm, from, moves, shaper, limits, solver: file.solver };
         scene.trajectory(planning.tick)?;
         Ok(scene)
     }
 
-    /// The commanded motion with every duration rounded to whole ticks.
+    /// The commanded motion with every duration rounded to whole ticks, its shaper passed.
     pub fn trajectory(&self, tick: f64) -> Result<Trajectory, Error> {
-        Ok(Trajectory::plan(self.from, &self.motions(), &self.limits, tick)?)
+        let trajectory = Trajectory::plan(self.from, &self.motions(), &self.limits, tick)?;
+        let Some(shaper) = &self.shaper else { return Ok(trajectory) };
+        let rate = trajectory.plans().last().map_or(0.0, |plan| plan.outline.end.rate);
+        if rate != 0.0 {
+            return Err(Error::new(format_args!(
+                "shaper: the hub turns on with {rate} rad/s; accepted with moves that end at rest"
+            )));
+        }
+        Ok(trajectory.shaped(shaper.clone()))
     }
 
     /// The moves with their dwells, as the generator's queue takes them.
@@ -176,7 +192,7 @@ impl SceneFile {
         self.moves.iter().flat_map(with_dwell).collect()
     }
 
-    /// What rounding to whole ticks changed, a line each.
+    /// What rounding to whole ticks changed, and what a shaper adds, a line each.
     pub fn roundings(&self, tick: f64) -> Result<Vec<String>, Error> {
         let trajectory = self.trajectory(tick)?;
         let motions = self.motions();
@@ -193,7 +209,11 @@ impl SceneFile {
                 )
             })
         });
-        Ok(report.collect())
+        let shaped = self.shaper.as_ref().map(|shaper| {
+            let (delay, pulses) = (shaper.delay(), shaper.pulses().len());
+            format!("the shaper\u{2019}s {pulses} pulses add {delay:.4} s to the motion")
+        });
+        Ok(report.chain(shaped).collect())
     }
 }
 

@@ -17,7 +17,7 @@ fn planner() -> Still<f32, 2> {
 }
 
 fn still(axis: &mut Arm, to: f64, duration: Option<f64>) -> Result<u32, Refused> {
-    let planned = axis.departure()?.plan_still(&planner(), &LINK, to, duration);
+    let planned = axis.departure()?.plan_still(&planner(), to, duration);
     axis.take(&planned.map_err(Refused::Move)?)
 }
 

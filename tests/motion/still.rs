@@ -3,10 +3,11 @@
 use std::f64::consts::PI;
 
 use stillbeam::beam::Rod;
-use stillbeam::motion::{Departure, Still, StillMove};
+use stillbeam::motion::{Angle, Origin, Still, StillMove};
 use stillbeam::stepper::{Elastica, Flex, Quality};
 use stillbeam::{Error, Generator, Limits, Link, Move, Profile, Scene};
 use stillbeam_sim::plan::judge::Motion;
+use stillbeam_sim::scenes;
 
 const TICK: f64 = 0.01;
 
@@ -25,21 +26,73 @@ fn residual(arm: &Scene, plan: &StillMove, from: f64, error: f64) -> f64 {
     Motion::of(from, plan.motion(), plan.tick).judge(arm, error).expect("a run").residual
 }
 
-/// Bounds from 1.5 first periods on; at 1 they are looser, and member D's second mode shows.
 #[test]
 fn nothing_is_left_of_a_half_turn() {
     for (arm, bounds) in [
         (member_a(), [(1.0, 0.0015), (1.5, 0.0003), (2.0, 0.0001), (3.0, 0.00005)]),
-        (member_d(), [(1.0, 0.016), (1.5, 0.002), (2.0, 0.0005), (3.0, 0.0001)]),
+        (member_d(), [(1.0, 0.012), (1.5, 0.002), (2.0, 0.0005), (3.0, 0.0001)]),
     ] {
         let planner = Still::<f32, 2>::new(&arm, TICK).expect("planner");
         for (ratio, bound) in bounds {
             let plan = planner.plan(0.0, PI, ratio * planner.first_period()).expect("plan");
             let left = residual(&arm, &plan, 0.0, 0.0);
             assert!(left < bound, "{ratio} first periods: {left}");
-            assert!(plan.flights <= 12, "{plan:?}");
+            assert!(plan.flights <= 60, "{plan:?}");
         }
     }
+}
+
+/// Members B, C and D with 30 g, in one first period.
+#[test]
+fn little_is_left_of_a_half_turn_in_one_period() {
+    for name in ["b-tip30", "c-tip30", "d-tip30", "b-tip30-damped-hub"] {
+        let arm = scenes::open(name).expect("a scene").arm;
+        let planner = Still::<f32, 2>::new(&arm, TICK).expect("planner");
+        let plan = planner.plan(0.0, PI, planner.first_period()).expect("plan");
+        let left = residual(&arm, &plan, 0.0, 0.0);
+        assert!(left < 0.0015, "{name}: {left}");
+    }
+}
+
+/// Where the second mode is left ringing it is looked after too, for at most half as much again of
+/// acceleration.
+#[test]
+fn the_second_mode_is_brought_to_rest_where_it_rings() {
+    let arm = member_d();
+    let planner = Still::<f32, 2>::new(&arm, TICK).expect("planner");
+    let duration = 1.5 * planner.first_period();
+    let plan = planner.plan(0.0, PI, duration).expect("plan");
+    // Acceleration limited to what the first mode alone needs: the second goes on ringing.
+    let from = Origin::at_rest(Angle::from_radians(0.0));
+    let scaled = |plan: &StillMove| plan.peaks.acceleration * duration * duration / PI;
+    let limits = Limits { acceleration: Some(0.9 * plan.peaks.acceleration), ..Limits::default() };
+    let (spared, _) = planner.within(&from, None, PI, duration, &limits).expect("plan");
+    assert!(scaled(&plan) < 1.5 * scaled(&spared), "{} {}", scaled(&plan), scaled(&spared));
+    let [quiet, rings] = [plan, spared].map(|plan| residual(&arm, &plan, 0.0, 0.0));
+    assert!(quiet < 0.001 && rings > 1.5 * quiet, "{quiet} {rings}");
+}
+
+/// A hub that must not turn fast, an arm that rings: the way to a far target begins with a stop,
+/// and a stop alone is a move of its own.
+#[test]
+fn a_course_may_begin_with_a_stop() {
+    let arm = member_a();
+    let planner = Still::<f32, 2>::new(&arm, TICK).expect("planner");
+    let flex = Flex { coordinate: [0.004, 0.0], rate: [0.02, 0.0] };
+    let from = Origin { rate: 0.15, ..Origin::at_rest(Angle::from_radians(0.3)) };
+    let limits = Limits { rate: Some(0.4), acceleration: Some(1.5), ..Limits::default() };
+    let course = planner.course(&from, Some(&flex), 3.0, &limits).expect("a course");
+    let then = course.then.expect("by way of a rest");
+    assert_eq!(then.from, Origin::at_rest(Angle::from_radians(course.first.to)));
+    assert!((then.to - 3.0).abs() < 1e-12 && course.survey.residual < 0.002 * 0.4, "{course:?}");
+    let (stop, survey) = planner.stop(&from, Some(&flex), &limits).expect("a stop");
+    assert!((stop.to - 0.3).abs() < 1.0 && survey.residual < 0.002 * 0.4, "{stop:?}");
+    for plan in [course.first, then, stop] {
+        limits.admit(&plan.peaks).expect("kept");
+    }
+    // Without a limit one move does.
+    let free = planner.course(&from, Some(&flex), 3.0, &Limits::default()).expect("a course");
+    assert!(free.then.is_none());
 }
 
 #[test]
@@ -150,7 +203,7 @@ fn a_course_can_be_changed_at_any_tick() {
         for _ in 0..4 {
             ahead.tick();
         }
-        let from = Departure::of(ahead.hub());
+        let from = Origin::of(ahead.hub());
         let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
         let plan = planner.plan_from(&from, Some(&flex), -0.5, 0.3).expect("plan");
         // A tick early the hub is elsewhere, if it turns.
@@ -194,7 +247,7 @@ fn a_measured_state_is_accepted() {
     }
     // It rings on with that amplitude, and a plan from it brings it to rest.
     let planner = Still::<f64, 2>::new(&arm, TICK).expect("planner");
-    let from = Departure::of(&hub);
+    let from = Origin::of(&hub);
     let plan = planner.plan_from(&from, Some(&flex), 1.0, 0.2).expect("plan");
     assert!(planner.survey(&plan, Some(&flex)).residual < 0.002 * 0.4);
     assert!(planner.survey(&plan, None).residual > 0.005 * 0.4);

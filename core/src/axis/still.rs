@@ -1,13 +1,13 @@
 //! Still moves of an axis: planned beside the tick, like every other move.
 
 use crate::math::Scalar;
-use crate::motion::{Departure as Origin, Still};
-use crate::{Departure, Error, Link, Planned};
+use crate::motion::{Origin, Still};
+use crate::{Departure, Error, Planned};
 
 impl Departure {
     /// Plans a move to `to` rad after which the arm is at rest: in `duration` s, rounded to whole
     /// ticks, or if none is told in the shortest time within the limits. Every limit is kept by the
-    /// planner's model, torque and bending moment included; `link` is the planner's.
+    /// planner's model, torque and bending moment included.
     ///
     /// From rest, as a queue of moves that end at rest leaves it, in any number of ticks from now.
     /// Runs for 10⁵ to 10⁸ instructions: at a low priority, never in the tick.
@@ -18,7 +18,6 @@ impl Departure {
     pub fn plan_still<T: Scalar, const K: usize>(
         &self,
         planner: &Still<T, K>,
-        link: &Link,
         to: f64,
         duration: Option<f64>,
     ) -> Result<Planned<T>, Error> {
@@ -29,11 +28,7 @@ impl Departure {
         let (origin, limits) = (Origin::at_rest(start.angle), self.limits());
         let still = match duration {
             None => planner.shortest_from(&origin, None, to, limits)?.0,
-            Some(duration) => {
-                let still = planner.plan_from(&origin, None, to, duration)?;
-                planner.survey(&still, None).admit(limits, link.length)?;
-                still
-            }
+            Some(duration) => planner.within(&origin, None, to, duration, limits)?.0,
         };
         self.plan(&still.motion())
     }

@@ -2,7 +2,7 @@
 
 use super::{Generator, hold};
 use crate::Error;
-use crate::motion::{Angle, Departure, Hub, Segment, Start, StillMove};
+use crate::motion::{Angle, Hub, Origin, Segment, Start, StillMove};
 use crate::stepper::Stepper;
 
 /// A coming tick: which segment it falls into, and where.
@@ -24,7 +24,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ///
     /// ```
     /// # use stillbeam::beam::Rod;
-    /// # use stillbeam::motion::{Departure, Still};
+    /// # use stillbeam::motion::{Origin, Still};
     /// # use stillbeam::stepper::{Elastica, Quality};
     /// # use stillbeam::{Generator, Link, Move, Profile, Scene};
     /// # let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
@@ -40,7 +40,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ///     ahead.tick();
     /// }
     /// let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
-    /// let plan = planner.plan_from(&Departure::of(ahead.hub()), Some(&flex), 0.5, 0.25)?;
+    /// let plan = planner.plan_from(&Origin::of(ahead.hub()), Some(&flex), 0.5, 0.25)?;
     /// arm.redirect(4, &plan)?;
     /// # for _ in 0..31 { arm.tick(); }
     /// # assert!((arm.setpoint().angle.radians() - 0.5).abs() < 1e-6);
@@ -51,7 +51,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.limits.admit(&plan.peaks)?;
         self.stepper.admit(&plan.peaks)?;
         let place = self.place(lead);
-        let here = Departure::of(&self.hub_of(&place));
+        let here = Origin::of(&self.hub_of(&place));
         if here != plan.from {
             let (hub, begins) = (here.angle.radians(), plan.from.angle.radians());
             return Err(Error::Elsewhere { hub, begins });

@@ -18,4 +18,4 @@ pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};
 pub use segment::{Braking, Hub, Segment};
 pub use shaper::{MAX_PULSES, Pulse, Shaped, Shaper, ShaperKind};
-pub use still::{Departure, Still, StillMove, Survey};
+pub use still::{Course, Manner, Origin, Still, StillMove, Survey};

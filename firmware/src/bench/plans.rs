@@ -3,7 +3,7 @@
 use core::fmt::Write;
 use core::hint::black_box;
 
-use stillbeam::motion::{Departure, Still, StillMove};
+use stillbeam::motion::{Origin, Still, StillMove};
 use stillbeam::stepper::Flex;
 use stillbeam::{Angle, Damping, Error, Hub, Link, Payload, Scene};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
@@ -39,8 +39,7 @@ const PLANS: [(&str, &Scene, f64, Plan); 6] = [
     ("gravity", &Scene { gravity: 0.5, ..B }, 0.0, |planner| planner.plan(0.0, TURN, 2.0)),
     ("redirected", &D, 0.0, |planner| {
         // In the middle of a move, the arm bent and moving.
-        let from =
-            Departure { angle: Angle { turns: 0, part: 0.1 }, rate: 8.0, acceleration: 90.0 };
+        let from = Origin { angle: Angle { turns: 0, part: 0.1 }, rate: 8.0, acceleration: 90.0 };
         let flex = Flex { coordinate: [-0.003, 0.0], rate: [0.1, 0.0] };
         planner.plan_from(&from, Some(&flex), 1.0, 0.2)
     }),

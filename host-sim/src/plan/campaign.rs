@@ -6,7 +6,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use rayon::prelude::*;
 use stillbeam::beam::Rod;
-use stillbeam::motion::{Departure, Still};
+use stillbeam::motion::{Course, Origin, Still, StillMove};
 use stillbeam::stepper::{Elastica, Flex, Quality};
 use stillbeam::{Damping, Error as CoreError, Generator, Hub, Limits, Link, Move, Payload};
 use stillbeam::{Profile, Scene};
@@ -133,6 +133,8 @@ pub struct Outcome {
     pub stated: f64,
     /// Residual by a finer flight in f64 from the same state, of L.
     pub residual: f64,
+    /// Whether the hub stops on its way.
+    pub by_way_of_rest: bool,
 }
 
 /// Random interruptions of random moves: a new target, a stop, another payload.
@@ -206,11 +208,11 @@ impl Case {
         }
         let hub = *ahead.hub();
         let flex = ahead.stepper().flex(ahead.state(), &hub);
-        let here = hub.angle.radians();
         let (planner, target) = match rng.random_range(0..3) {
-            0 => (0, rng.random_range(-3.0..3.0)),
-            1 => (0, here + 0.4 * f64::from(hub.rate) * self.period),
-            _ => (1, to),
+            0 => (0, Some(rng.random_range(-3.0..3.0))),
+            // A stop, wherever that is.
+            1 => (0, None),
+            _ => (1, Some(to)),
         };
         // At least what the hub does already: a quarter more than what either takes.
         let rate = 1.25 * f64::max(peaks.rate, f64::from(hub.rate).abs()).max(0.2 / self.period);
@@ -218,30 +220,41 @@ impl Case {
         let acceleration = 1.25 * acceleration.max(0.5 / (self.period * self.period));
         let limits =
             Limits { rate: Some(rate), acceleration: Some(acceleration), ..Limits::default() };
-        let from = Departure::of(&hub);
-        let found = self.planners[planner].shortest_from(&from, Some(&flex), target, &limits);
-        let (plan, survey) = match found {
-            Err(error) => return Ok(Interruption { outcome: Err(kind(&error)) }),
-            Ok(found) => found,
+        let from = Origin::of(&hub);
+        let plans = &self.planners[planner];
+        let found = match target {
+            Some(to) => plans.course(&from, Some(&flex), to, &limits),
+            None => plans.stop(&from, Some(&flex), &limits).map(Course::from),
         };
-        if let Err(error) = generator.redirect(2, &plan) {
+        let course = match found {
+            Err(error) => return Ok(Interruption { outcome: Err(kind(&error)) }),
+            Ok(course) => course,
+        };
+        if let Err(error) = generator.redirect(2, &course.first) {
             return Ok(Interruption { outcome: Err(kind(&error)) });
         }
+        if let Some(then) = course.then {
+            generator.push(&then.motion())?;
+        }
         let mut excess = f64::NEG_INFINITY;
-        for _ in 0..plan.ticks + 3 {
+        let ticks = course.first.ticks + course.then.map_or(0, |then| then.ticks);
+        for _ in 0..ticks + 3 {
             generator.tick();
             let hub = *generator.hub();
             let over = |value: f32, limit: f64| f64::from(value).abs() / limit - 1.0;
-            excess =
-                f64::max(excess, over(hub.rate, rate)).max(over(hub.acceleration, acceleration));
+            excess = excess.max(over(hub.rate, rate)).max(over(hub.acceleration, acceleration));
         }
         let wide =
             Flex { coordinate: flex.coordinate.map(f64::from), rate: flex.rate.map(f64::from) };
         let length = self.arm.link.length;
-        let finer =
-            stillbeam::motion::StillMove { ticks: 3 * plan.ticks, tick: self.tick / 3.0, ..plan };
-        let residual = self.fine[planner].survey(&finer, Some(&wide)).residual / length;
-        let stated = survey.residual / length;
-        Ok(Interruption { outcome: Ok(Outcome { excess, stated, residual }) })
+        // What the first of two moves leaves goes on through the second.
+        let left = |plan: StillMove, flex| {
+            let finer = StillMove { ticks: 3 * plan.ticks, tick: self.tick / 3.0, ..plan };
+            self.fine[planner].survey(&finer, flex).residual / length
+        };
+        let residual = left(course.first, Some(&wide)) + course.then.map_or(0.0, |t| left(t, None));
+        let stated = course.survey.residual / length;
+        let by_way_of_rest = course.then.is_some();
+        Ok(Interruption { outcome: Ok(Outcome { excess, stated, residual, by_way_of_rest }) })
     }
 }

@@ -1,7 +1,7 @@
 //! A still move as it is asked for, and all that is found out about it.
 
 use rayon::prelude::*;
-use stillbeam::motion::{Still, StillMove, Survey};
+use stillbeam::motion::{Angle, Origin, Still, StillMove, Survey};
 use stillbeam::{Limits, Scene};
 
 use super::judge::{Judgement, Motion};
@@ -57,11 +57,8 @@ impl Request {
         let (plan, survey) = match self.duration {
             None => planner.shortest(self.from, self.to, &self.limits)?,
             Some(duration) => {
-                let plan = planner.plan(self.from, self.to, duration)?;
-                let survey = planner.survey(&plan, None);
-                self.limits.admit(&plan.peaks)?;
-                survey.admit(&self.limits, self.arm.link.length)?;
-                (plan, survey)
+                let from = Origin::at_rest(Angle::from_radians(self.from));
+                planner.within(&from, None, self.to, duration, &self.limits)?
             }
         };
         Ok((plan, survey, planner.first_period()))

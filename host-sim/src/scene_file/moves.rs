@@ -1,7 +1,7 @@
 //! The moves of a scene file.
 
 use serde::Deserialize;
-use stillbeam::motion::Still;
+use stillbeam::motion::{Angle, Origin, Still};
 use stillbeam::{Limits, Move, Profile, Scene};
 
 use super::Step;
@@ -44,7 +44,10 @@ impl Planning<'_> {
             None => Still::<f32, 2>::new(self.arm, self.tick)?,
         };
         Ok(match duration {
-            Some(duration) => planner.plan(from, to, duration)?.motion(),
+            Some(duration) => {
+                let from = Origin::at_rest(Angle::from_radians(from));
+                planner.within(&from, None, to, duration, self.limits)?.0.motion()
+            }
             None => planner.shortest(from, to, self.limits)?.0.motion(),
         })
     }

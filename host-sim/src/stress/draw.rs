@@ -68,6 +68,7 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
     let (from, moves) = moves(rng, omega, tick, bends);
     let solvers = solvers(rng, tick);
     let scene = SceneFile {
+        shaper: None,
         name: format!("stress {seed}/{index}"),
         arm,
         from,

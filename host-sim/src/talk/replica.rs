@@ -90,7 +90,7 @@ impl Replica {
             Some(planner) => planner,
             None => Still::new(&self.scene, self.tick)?,
         };
-        let planned = departure.plan_still(&planner, &self.scene.link, to, duration);
+        let planned = departure.plan_still(&planner, to, duration);
         self.planner = Some(planner);
         self.axis.take(&planned?).map(drop).map_err(apart)
     }

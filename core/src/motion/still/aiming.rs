@@ -8,8 +8,9 @@ use crate::math::{Scalar, dot};
 pub(crate) struct Found<T> {
     /// Where to aim, of L.
     pub aim: [T; MAX_AIMS],
-    /// Squared miss there.
-    pub miss: T,
+    /// What is missed there, and its square.
+    pub miss: [T; MAX_AIMS],
+    pub squared: T,
     /// Evaluations it took.
     pub evaluations: u32,
 }
@@ -31,22 +32,22 @@ pub(crate) fn find<T: Scalar>(
     let zero = [T::ZERO; MAX_AIMS];
     let mut aim = zero;
     let mut left = miss(&aim);
-    let mut best = Found { aim, miss: dot(&left, &left), evaluations: 1 };
+    let mut best = Found { aim, miss: left, squared: dot(&left, &left), evaluations: 1 };
     // The inverse Jacobian.
     let mut inverse = [zero; MAX_AIMS];
     for i in 0..MAX_AIMS {
         inverse[i][i] = T::ONE;
     }
     let mut step = zero;
-    let mut size = best.miss;
-    while best.evaluations < most && best.miss > enough {
-        let doubled = T::TWO * T::TWO * best.miss;
+    let mut size = best.squared;
+    while best.evaluations < most && best.squared > enough {
+        let doubled = T::TWO * T::TWO * best.squared;
         if size > doubled || !size.is_finite() {
             step = step.map(|x| T::HALF * x);
             aim = best.aim;
         } else {
             step = core::array::from_fn(|i| -dot(&inverse[i], &left));
-            clip(&mut step);
+            clip(&mut step, T::from_f64(LONGEST));
         }
         let next = core::array::from_fn(|i| aim[i] + step[i]);
         let after = miss(&next);
@@ -56,8 +57,8 @@ pub(crate) fn find<T: Scalar>(
             let change = core::array::from_fn(|i| after[i] - left[i]);
             update(&mut inverse, aims, &step, &change);
         }
-        if found < best.miss {
-            (best.aim, best.miss) = (next, found);
+        if found < best.squared {
+            (best.aim, best.miss, best.squared) = (next, after, found);
         }
         (aim, left, size) = (next, after, found);
     }
@@ -94,9 +95,8 @@ fn update<T: Scalar>(
     }
 }
 
-/// Each element within ± [`LONGEST`].
-fn clip<T: Scalar>(step: &mut [T; MAX_AIMS]) {
-    let most = T::from_f64(LONGEST);
+/// Each element within `± most`.
+pub(super) fn clip<T: Scalar, const N: usize>(step: &mut [T; N], most: T) {
     for x in step {
         *x = if *x > most {
             most

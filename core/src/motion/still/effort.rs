@@ -4,7 +4,7 @@
 use core::f64::consts::TAU;
 
 use super::peaks;
-use crate::math::{Band, Scalar, dot};
+use crate::math::{Band, Ldl, Scalar, dot};
 use crate::motion::BULGE;
 
 /// Most amplitudes that are aimed at: two of each of three arms.
@@ -13,10 +13,13 @@ pub(crate) const MAX_AIMS: usize = 6;
 /// Intervals of the trapezoidal rule; what is integrated vanishes at both ends.
 const NODES: usize = 48;
 
+/// Most of them in the response of a mode to a long move.
+const MOST_NODES: usize = 2048;
+
 /// Rounds of re-weighting towards the least greatest acceleration.
 const ROUNDS: usize = 2;
 
-/// The first mode of one arm, as the effort sees it.
+/// A mode of one arm, as the effort sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Oscillation<T> {
     /// `γ = (α + βω²)/2`, 1/s.
@@ -31,8 +34,7 @@ pub(crate) struct Oscillation<T> {
 }
 
 /// Amplitudes of the tip's deflection and its rate over ω, of L, at the end by the linear model, one
-/// row an aim, and their dependence on
-/// the bulge.
+/// row an aim, and their dependence on the bulge.
 pub(crate) struct Linear<T> {
     pub rows: [[T; BULGE]; MAX_AIMS],
     /// Without a bulge, less what is aimed at.
@@ -50,14 +52,29 @@ pub enum Manner {
     Rate,
     /// the acceleration,
     Acceleration,
-    /// the jerk.
+    /// the jerk;
     Jerk,
+    /// or the jerk in the mean, not its greatest: what excites the second mode least.
+    Smooth,
+}
+
+impl Manner {
+    /// Order of the derivative that is spared.
+    fn order(self) -> usize {
+        match self {
+            Self::Rate => 0,
+            Self::Acceleration => 1,
+            Self::Jerk | Self::Smooth => 2,
+        }
+    }
 }
 
 /// What the bulge is for any aim: `base + Σ zᵢ vᵢ` (turns) leaves the amplitudes `z`.
 pub(crate) struct LeastEffort<T> {
     pub base: [T; BULGE],
     pub towards: [[T; BULGE]; MAX_AIMS],
+    /// Of the effort itself.
+    factors: Ldl<T, BULGE, BULGE>,
 }
 
 /// `d/du`, `d²/du²` and `d³/du³` of `(1 − u²)³uᵏ`.
@@ -112,7 +129,10 @@ impl<T: Scalar> Linear<T> {
         duration: f64,
         half: bool,
     ) {
-        let step = duration / NODES as f64;
+        // As many a period in a long move.
+        let periods = mode.damped * duration / TAU;
+        let nodes = NODES.max((12.0 * periods) as usize).min(MOST_NODES);
+        let step = duration / nodes as f64;
         let radians = mode.damped * step / TAU;
         let (sin, cos) = T::from_f64(radians).sin_cos_turns();
         let loss = T::from_f64(libm::exp(-mode.decay * step));
@@ -125,9 +145,9 @@ impl<T: Scalar> Linear<T> {
         // From the end backwards: (e sin, e cos) of the time to go.
         let (mut s, mut c) = (T::ZERO, T::ONE);
         let turned = |s: T, c: T| (loss * (s * cos + c * sin), loss * (c * cos - s * sin));
-        for node in (1..NODES).rev() {
+        for node in (1..nodes).rev() {
             (s, c) = turned(s, c);
-            let u = node_at(node);
+            let u = T::from_f64(2.0 / nodes as f64) * T::from_u32(node as u32) - T::ONE;
             let kernel = [mode.ratio[1] * s, c - mode.ratio[0] * s];
             let ([b1, b2, _], [q1, q2, _]) = (bulges(u), quintic(quintic_c, u));
             for r in 0..2 {
@@ -176,7 +196,7 @@ impl<T: Scalar> Linear<T> {
             match manner {
                 Manner::Rate => peaks.rate,
                 Manner::Acceleration => peaks.acceleration,
-                Manner::Jerk => peaks.jerk,
+                Manner::Jerk | Manner::Smooth => peaks.jerk,
             }
         };
         let all = self.least_effort(quintic_c, manner).base;
@@ -200,13 +220,14 @@ impl<T: Scalar> Linear<T> {
         kept
     }
 
-    /// Least `∫ weight x² dt`, the weights moved towards the least greatest `|x|` (Lawson's rule),
-    /// where `x` is what the manner spares.
+    /// Least `∫ weight x² dt`, the weights moved towards the least greatest `|x|` (Lawson's rule)
+    /// but for a smooth move, where `x` is what the manner spares.
     pub fn least_effort(&self, quintic_c: &[T; 5], manner: Manner) -> LeastEffort<T> {
-        let order = manner as usize;
+        let order = manner.order();
+        let rounds = if manner == Manner::Smooth { 0 } else { ROUNDS };
         let mut weights = [T::ONE; NODES + 1];
         let mut found = self.weighted(quintic_c, order, &weights);
-        for _ in 0..ROUNDS {
+        for _ in 0..rounds {
             let mut most = T::ZERO;
             let mut efforts = [T::ZERO; NODES + 1];
             for node in 0..=NODES {
@@ -281,7 +302,7 @@ impl<T: Scalar> Linear<T> {
                 base[k] -= miss * towards[aim][k];
             }
         }
-        LeastEffort { base, towards }
+        LeastEffort { base, towards, factors }
     }
 }
 
@@ -290,6 +311,35 @@ fn node_at<T: Scalar>(node: usize) -> T {
 }
 
 impl<T: Scalar> LeastEffort<T> {
+    /// Bulges (turns) that change one amplitude of `others` by 1 each and none of `own`, those that
+    /// this was made for; of least effort. `others` has one or two aims.
+    pub fn aside(&self, own: &Linear<T>, others: &Linear<T>) -> [[T; BULGE]; 2] {
+        let free: [[T; BULGE]; 2] = core::array::from_fn(|j| {
+            let mut v = self.factors.solve(&others.rows[j]);
+            let on = own.rows.map(|row| dot(&row, &v));
+            for i in 0..own.aims {
+                for k in 0..BULGE {
+                    v[k] -= on[i] * self.towards[i][k];
+                }
+            }
+            v
+        });
+        let mut gram = Band::<T, 2, 2>::ZERO;
+        for i in 0..2 {
+            for j in 0..=i {
+                gram.add(i, j, dot(&others.rows[i], &free[j]));
+            }
+        }
+        if others.aims == 1 {
+            gram.add(1, 1, T::ONE);
+        }
+        let gram = gram.factor();
+        [[T::ONE, T::ZERO], [T::ZERO, T::ONE]].map(|unit| {
+            let share = gram.solve(&unit);
+            core::array::from_fn(|k| share[0] * free[0][k] + share[1] * free[1][k])
+        })
+    }
+
     /// The bulge for an aim.
     pub fn bulge(&self, aim: &[T; MAX_AIMS]) -> [T; BULGE] {
         core::array::from_fn(|k| {

@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::effort::Oscillation;
+use super::{MAX_ARMS, Path};
 use crate::Error;
 use crate::beam::{Chain, Load, Rod};
 use crate::math::{Scalar, cast, sqrt};
@@ -17,21 +18,50 @@ pub(crate) struct Arm<T, const K: usize> {
     stiffness: [T; K],
     loss: [T; K],
     coupling: [T; K],
-    /// The first mode, as the linear part of a plan sees it.
-    pub oscillation: Oscillation<T>,
+    /// The modes, as the linear part of a plan sees them.
+    pub oscillation: [Oscillation<T>; K],
     alpha: T,
-    /// `∂Y/∂a` of the tip over L, of the first mode, and it over ω.
-    swing: [T; 2],
+    /// `∂Y/∂a` of the tip over L, of each mode, and it over ω.
+    swing: [[T; 2]; K],
     /// `ω`.
     frequency: [T; K],
 }
 
-/// The steps of a flight.
+/// Arms for flights in steps of one length.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pace<T> {
+pub(crate) struct Stride<T, const K: usize> {
+    /// The scene's own, the outer ones of a robust planner.
+    pub arms: [Arm<T, K>; MAX_ARMS],
+    /// Steps in a tick.
+    pub steps: u32,
     /// 1/s.
     pub per_step: T,
-    pub alpha: T,
+}
+
+impl<T: Scalar, const K: usize> Stride<T, K> {
+    /// The outer arms at `1 ± aside` of the frequency. A step turns the highest mode and the first by
+    /// at most `radians`.
+    pub fn new(rod: &Rod<K>, tick: f64, aside: f64, radians: [f64; 2]) -> Result<Self, Error> {
+        let omega = rod.frequency();
+        let turns = (omega[K - 1] * (1.0 + aside) / radians[0]).max(omega[0] / radians[1]);
+        let steps = libm::ceil(turns * tick).clamp(1.0, 1024.0);
+        let step = tick / steps;
+        let arm = |factor: f64| {
+            let mut scene = *rod.scene();
+            scene.link.bending_stiffness *= factor * factor;
+            Arm::new(&Rod::new(&scene)?, step)
+        };
+        let own = Arm::new(rod, step)?;
+        let arms =
+            if aside > 0.0 { [own, arm(1.0 - aside)?, arm(1.0 + aside)?] } else { [own; MAX_ARMS] };
+        Ok(Self { arms, steps: steps as u32, per_step: T::from_f64(1.0 / step) })
+    }
+
+    /// The path in the steps of a flight.
+    pub fn fine(&self, path: &Path) -> Path {
+        let steps = self.steps;
+        Path { ticks: path.ticks * steps, tick: path.tick / f64::from(steps), ..*path }
+    }
 }
 
 impl<T: Scalar, const K: usize> Arm<T, K> {
@@ -39,11 +69,8 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     pub fn new(rod: &Rod<K>, step: f64) -> Result<Self, Error> {
         let damping = rod.scene().damping;
         let omega = *rod.frequency();
-        let swing = rod.tip_swing()[0] / rod.scene().link.length;
-        let first = omega[0];
-        let decay = 0.5 * (damping.alpha + damping.beta * first * first);
-        let damped = sqrt((first * first - decay * decay).max(0.01 * first * first));
         let coupling = rod.kinetics(&[0.0; K]).coupling;
+        let swing = |k: usize| rod.tip_swing()[k] / rod.scene().link.length;
         let f = T::from_f64;
         Ok(Self {
             modes: core::array::from_fn(|k| {
@@ -52,15 +79,20 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
             stiffness: cast(&omega.map(|w| w * w)),
             loss: cast(&omega.map(|w| damping.beta * w * w)),
             coupling: cast(&coupling),
-            oscillation: Oscillation {
-                decay,
-                damped,
-                ratio: [f(decay / damped), f(first / damped)],
-                gain: f(swing * coupling[0] / first),
-                alpha: f(damping.alpha),
-            },
+            oscillation: core::array::from_fn(|k| {
+                let w = omega[k];
+                let decay = 0.5 * (damping.alpha + damping.beta * w * w);
+                let damped = sqrt((w * w - decay * decay).max(0.01 * w * w));
+                Oscillation {
+                    decay,
+                    damped,
+                    ratio: [f(decay / damped), f(w / damped)],
+                    gain: f(swing(k) * coupling[k] / w),
+                    alpha: f(damping.alpha),
+                }
+            }),
             alpha: f(damping.alpha),
-            swing: [f(swing), f(swing / first)],
+            swing: core::array::from_fn(|k| [f(swing(k)), f(swing(k) / omega[k])]),
             frequency: cast(&omega),
         })
     }
@@ -70,11 +102,11 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         TAU / self.frequency[0].to_f64()
     }
 
-    /// Deflection of the tip and its rate over ω, by the first mode, away from `rest`; of L.
-    pub fn amplitudes(&self, at: &Flex<T, K>, rest: &Flex<T, K>) -> [T; 2] {
+    /// Deflection of the tip and its rate over ω, by mode `k`, away from `rest`; of L.
+    pub fn amplitudes(&self, k: usize, at: &Flex<T, K>, rest: &Flex<T, K>) -> [T; 2] {
         [
-            self.swing[0] * (at.coordinate[0] - rest.coordinate[0]),
-            self.swing[1] * (at.rate[0] - rest.rate[0]),
+            self.swing[k][0] * (at.coordinate[k] - rest.coordinate[k]),
+            self.swing[k][1] * (at.rate[k] - rest.rate[k]),
         ]
     }
 
@@ -96,7 +128,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     pub fn fly(
         &self,
         chain: &Chain<T, K>,
-        pace: &Pace<T>,
+        per_step: T,
         curve: &Segment<T>,
         steps: u32,
         from: &Flex<T, K>,
@@ -108,7 +140,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         let mut change = [T::ZERO; K];
         for k in 1..=steps {
             let after = curve.hub(k);
-            let drive = Drive::between(&hub, &after, pace.per_step, pace.alpha);
+            let drive = Drive::between(&hub, &after, per_step, self.alpha);
             let mut y = [[T::ZERO; 2]; K];
             for k in 0..K {
                 let at = [flex.coordinate[k], flex.rate[k]];

@@ -18,20 +18,23 @@
 //! ```
 
 mod aiming;
+mod course;
 mod effort;
 mod flight;
 mod path;
 mod plan;
+mod second;
 mod shortest;
 mod survey;
 
+pub use course::Course;
 pub use effort::Manner;
-pub use path::Departure;
+pub use path::Origin;
 pub(crate) use path::{Path, peaks};
 pub use plan::StillMove;
 pub use survey::Survey;
 
-use flight::{Arm, Pace};
+use flight::{Arm, Stride};
 
 use crate::Error;
 use crate::beam::{Chain, Rod};
@@ -45,8 +48,16 @@ const MAX_ARMS: usize = 3;
 /// Where the outer arms of a robust planner lie, of its spread: nearly a Chebyshev point.
 const OUTER: f64 = 0.8;
 
-/// Angle that the highest mode may turn by in a step of a flight.
-const RADIANS_A_STEP: f64 = 1.0;
+/// Angles that the highest and the first mode may turn by in a step of a flight, in a move of at
+/// least [`LONG`] first periods.
+const COARSE: [f64; 2] = [2.0, 0.4];
+
+/// In a shorter one the arm bends by most of its length, and what couples its modes changes faster
+/// than they do: 0.1 % of L came from longer steps.
+const FINE: [f64; 2] = [0.5, 0.1];
+
+/// First periods.
+const LONG: f64 = 1.4;
 
 /// Plans moves after which an arm is at rest. Set-up takes its time; a plan runs in the tick's
 /// scalar, allocates nothing and ends after a bounded number of flights.
@@ -57,14 +68,11 @@ const RADIANS_A_STEP: f64 = 1.0;
 #[derive(Clone, Debug)]
 pub struct Still<T, const K: usize> {
     chain: Chain<T, K>,
-    /// The scene's own, the outer ones.
-    arms: [Arm<T, K>; MAX_ARMS],
+    coarse: Stride<T, K>,
+    fine: Stride<T, K>,
     robust: bool,
     scene: Scene,
     tick: f64,
-    /// Steps of a flight in a tick.
-    steps: u32,
-    pace: Pace<T>,
 }
 
 impl<T: Scalar, const K: usize> Still<T, K> {
@@ -82,39 +90,20 @@ impl<T: Scalar, const K: usize> Still<T, K> {
     fn build(scene: &Scene, tick: f64, spread: f64) -> Result<Self, Error> {
         let tick = Error::check("solver.tick", tick, 1e-6, 1.0, "s")?;
         let rod = Rod::new(scene)?;
-        let aside = OUTER * spread;
-        let highest = rod.frequency()[K - 1] * (1.0 + aside);
-        let steps = libm::ceil(highest * tick / RADIANS_A_STEP).clamp(1.0, 1024.0);
-        let step = tick / steps;
-        let arm = |factor: f64| {
-            let mut scene = *scene;
-            scene.link.bending_stiffness *= factor * factor;
-            Arm::new(&Rod::new(&scene)?, step)
-        };
-        let nominal = arm(1.0)?;
-        let robust = spread > 0.0;
-        let arms = if robust {
-            [nominal, arm(1.0 - aside)?, arm(1.0 + aside)?]
-        } else {
-            [nominal; MAX_ARMS]
-        };
+        let (spread, robust) = (OUTER * spread, spread > 0.0);
         Ok(Self {
             chain: Chain::new(&rod),
-            arms,
+            coarse: Stride::new(&rod, tick, spread, COARSE)?,
+            fine: Stride::new(&rod, tick, spread, FINE)?,
             robust,
             scene: *scene,
             tick,
-            steps: steps as u32,
-            pace: Pace {
-                per_step: T::from_f64(1.0 / step),
-                alpha: T::from_f64(scene.damping.alpha),
-            },
         })
     }
 
     /// `2π/ω₁`, s.
     pub fn first_period(&self) -> f64 {
-        self.arms[0].first_period()
+        self.coarse.arms[0].first_period()
     }
 
     /// Whether a move run backwards is a move.
@@ -124,7 +113,12 @@ impl<T: Scalar, const K: usize> Still<T, K> {
     }
 
     /// The arms that a move is planned for.
-    fn arms(&self) -> &[Arm<T, K>] {
-        if self.robust { &self.arms } else { &self.arms[..1] }
+    fn arms<'a>(&self, stride: &'a Stride<T, K>) -> &'a [Arm<T, K>] {
+        if self.robust { &stride.arms } else { &stride.arms[..1] }
+    }
+
+    /// For a move of that many seconds.
+    fn stride(&self, duration: f64) -> &Stride<T, K> {
+        if duration < LONG * self.first_period() { &self.fine } else { &self.coarse }
     }
 }

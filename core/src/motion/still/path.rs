@@ -8,7 +8,7 @@ use crate::motion::{Angle, BULGE, Hub, Peaks, Segment};
 
 /// The hub where a move begins, turning or not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Departure {
+pub struct Origin {
     /// θ.
     pub angle: Angle<f64>,
     /// θ̇, rad/s.
@@ -17,7 +17,7 @@ pub struct Departure {
     pub acceleration: f64,
 }
 
-impl Departure {
+impl Origin {
     /// At rest.
     pub fn at_rest(angle: Angle<f64>) -> Self {
         Self { angle, rate: 0.0, acceleration: 0.0 }
@@ -37,7 +37,7 @@ impl Departure {
 /// ends, to be bulged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Path {
-    pub from: Departure,
+    pub from: Origin,
     /// rad.
     pub to: f64,
     pub ticks: u32,

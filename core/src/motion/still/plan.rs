@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::effort::{Linear, MAX_AIMS, Manner};
-use super::{Departure, Flex, MAX_ARMS, Path, Still, aiming, peaks};
+use super::{Flex, MAX_ARMS, Origin, Path, Still, aiming, peaks, second};
 use crate::Error;
 use crate::math::{Scalar, cast, dot, sqrt};
 use crate::motion::{Angle, BULGE, Move, Peaks, Segment};
@@ -17,22 +17,32 @@ const ENOUGH: f64 = 1e-5;
 /// Amplitude with which a plan is refused, of L.
 const TOO_MUCH: f64 = 0.01;
 
+/// Amplitude of the second mode that is looked after, of L, what has to be gained by it, and how
+/// much more a move may peak for it.
+const RINGS: f64 = 1e-3;
+const GAIN: f64 = 0.85;
+const PRICE: f64 = 1.5;
+
 /// Most flights of an arm in a search, and in one of several arms.
 const MOST: u32 = 12;
 const MOST_OF_SEVERAL: u32 = 24;
 
-/// Whether what the linear move misses is looked after.
+/// Which modes are brought to rest in the exact kinematics.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Search {
+pub(super) enum Search {
+    /// None: the linear move.
     None,
-    Bounded,
+    /// The first.
+    First,
+    /// The second too, where it is left ringing by more than [`RINGS`].
+    Second,
 }
 
 /// A still move and what its planner expects of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StillMove {
     /// Where it begins.
-    pub from: Departure,
+    pub from: Origin,
     /// Where it ends, rad.
     pub to: f64,
     /// Whole ticks it takes.
@@ -43,7 +53,7 @@ pub struct StillMove {
     pub bulge: [f64; BULGE],
     /// Greatest magnitudes of the motion, to 1e-4 of themselves.
     pub peaks: Peaks,
-    /// Amplitude of the first mode that is left by the planner's model, of L. A robust move leaves
+    /// Amplitude of the first two modes that is left by the planner's model, of L. A robust move leaves
     /// some where the frequency is right, so as to leave less where it is not.
     pub residual: f64,
     /// Flights of each arm that it took to find.
@@ -75,14 +85,14 @@ impl StillMove {
 impl<T: Scalar, const K: usize> Still<T, K> {
     /// From rest at `from` rad to rest at `to` rad in `duration` s, rounded to whole ticks.
     pub fn plan(&self, from: f64, to: f64, duration: f64) -> Result<StillMove, Error> {
-        self.plan_from(&Departure::at_rest(Angle::from_radians(from)), None, to, duration)
+        self.plan_from(&Origin::at_rest(Angle::from_radians(from)), None, to, duration)
     }
 
     /// From wherever the hub is and however the arm bends and moves, at rest in equilibrium if not
     /// told, to rest at `to` rad in `duration` s, rounded to whole ticks.
     pub fn plan_from(
         &self,
-        from: &Departure,
+        from: &Origin,
         flex: Option<&Flex<T, K>>,
         to: f64,
         duration: f64,
@@ -92,7 +102,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
 
     /// The move of [`Self::plan`] for an arm that bends by little: without a single correction.
     pub fn linear(&self, from: f64, to: f64, duration: f64) -> Result<StillMove, Error> {
-        let from = Departure::at_rest(Angle::from_radians(from));
+        let from = Origin::at_rest(Angle::from_radians(from));
         self.search(Manner::Acceleration, &from, None, to, duration, Search::None)
     }
 
@@ -100,18 +110,50 @@ impl<T: Scalar, const K: usize> Still<T, K> {
     pub fn plan_in(
         &self,
         manner: Manner,
-        from: &Departure,
+        from: &Origin,
         flex: Option<&Flex<T, K>>,
         to: f64,
         duration: f64,
     ) -> Result<StillMove, Error> {
-        self.search(manner, from, flex, to, duration, Search::Bounded)
+        self.search(manner, from, flex, to, duration, Search::Second)
     }
 
-    fn search(
+    pub(super) fn search(
         &self,
         manner: Manner,
-        from: &Departure,
+        from: &Origin,
+        flex: Option<&Flex<T, K>>,
+        to: f64,
+        duration: f64,
+        search: Search,
+    ) -> Result<StillMove, Error> {
+        let first = match search {
+            Search::Second => Search::First,
+            other => other,
+        };
+        let plan = self.search_in(manner, from, flex, to, duration, first)?;
+        let alone = manner != Manner::Acceleration || self.robust;
+        if search != Search::Second || alone || plan.residual < RINGS {
+            return Ok(plan);
+        }
+        let mut flights = plan.flights;
+        for manner in [Manner::Smooth, manner] {
+            let found = self.search_in(manner, from, flex, to, duration, Search::Second);
+            let Ok(other) = found else { continue };
+            flights += other.flights;
+            if other.residual < GAIN * plan.residual
+                && other.peaks.acceleration < PRICE * plan.peaks.acceleration
+            {
+                return Ok(StillMove { flights, ..other });
+            }
+        }
+        Ok(StillMove { flights, ..plan })
+    }
+
+    fn search_in(
+        &self,
+        manner: Manner,
+        from: &Origin,
         flex: Option<&Flex<T, K>>,
         to: f64,
         duration: f64,
@@ -126,9 +168,10 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             return Err(Error::TooShort { duration, shortest });
         }
         let c: [T; 5] = cast(&path.quintic());
-        let steps = ticks * self.steps;
-        let curve = self.fine(&path).segment(&[0.0; BULGE]).cast::<T>();
-        let arms = self.arms();
+        let stride = self.stride(duration);
+        let steps = ticks * stride.steps;
+        let curve = stride.fine(&path).segment(&[0.0; BULGE]).cast::<T>();
+        let arms = self.arms(stride);
         let (mut begin, mut rest) = ([Flex::STRAIGHT; MAX_ARMS], [Flex::STRAIGHT; MAX_ARMS]);
         for (n, arm) in arms.iter().enumerate() {
             if self.scene.gravity != 0.0 {
@@ -140,13 +183,22 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let resting = from.rate == 0.0 && from.acceleration == 0.0 && flex.is_none();
         let half = resting && steps.is_multiple_of(2) && self.is_reversible();
         let mut linear = Linear::new();
+        let mut ringing = [T::ZERO; 2];
         for (n, arm) in arms.iter().enumerate() {
             let still = begin[n];
             if let Some(flex) = flex {
                 begin[n] = *flex;
             }
-            let ringing = arm.amplitudes(&begin[n], &still);
-            linear.add(&arm.oscillation, &c, ringing, duration, half);
+            linear.add(
+                &arm.oscillation[0],
+                &c,
+                arm.amplitudes(0, &begin[n], &still),
+                duration,
+                half,
+            );
+            if n == 0 && K > 1 {
+                ringing = arm.amplitudes(1, &begin[n], &still);
+            }
         }
         let each = if half { 1 } else { 2 };
         let tolerated = if arms.len() == MAX_ARMS {
@@ -159,45 +211,84 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let aimed = if half { [Flex::STRAIGHT; MAX_ARMS] } else { rest };
         let most = match search {
             Search::None => 1,
-            Search::Bounded if arms.len() == 1 => MOST,
-            Search::Bounded => MOST_OF_SEVERAL,
+            Search::First | Search::Second if arms.len() == 1 => MOST,
+            Search::First | Search::Second => MOST_OF_SEVERAL,
         };
+        let fly = |n: usize, bulge: &[T; BULGE]| {
+            let curve = curve.bulged(bulge);
+            arms[n].fly(&self.chain, stride.per_step, &curve, flown, &begin[n], |_, _| ())
+        };
+        // Of the scene's own arm, of the flight that came nearest.
+        let (mut least, mut second) = (T::from_f64(f64::INFINITY), [T::ZERO; 2]);
         let found = aiming::find(linear.aims, T::from_f64(ENOUGH * ENOUGH), most, |aim| {
-            let curve = curve.bulged(&effort.bulge(aim));
+            let bulge = effort.bulge(aim);
             let mut miss = [T::ZERO; MAX_AIMS];
+            let mut rung = [T::ZERO; 2];
             for (n, arm) in arms.iter().enumerate() {
-                let end = arm.fly(&self.chain, &self.pace, &curve, flown, &begin[n], |_, _| ());
-                let left = arm.amplitudes(&end, &aimed[n]);
+                let end = fly(n, &bulge);
+                let left = arm.amplitudes(0, &end, &aimed[n]);
                 miss[each * n..each * (n + 1)].copy_from_slice(&left[..each]);
+                if n == 0 && K > 1 {
+                    rung[..each].copy_from_slice(&arm.amplitudes(1, &end, &aimed[n])[..each]);
+                }
             }
             for i in 0..each {
                 miss[i] -= tolerated[i];
+            }
+            let size = dot(&miss, &miss);
+            if size < least {
+                (least, second) = (size, rung);
             }
             miss
         });
         // The middle of an odd move misses by half of what its end does.
         let whole = if half { 2.0 } else { 1.0 };
-        let missed = whole * sqrt(found.miss.to_f64());
-        if search == Search::Bounded && (missed.is_nan() || missed > TOO_MUCH) {
+        let amplitude = |of: &[T]| -> f64 {
+            whole * sqrt(of.iter().fold(T::ZERO, |sum, &x| sum + x * x).to_f64())
+        };
+        let missed = amplitude(&found.miss);
+        if search != Search::None && (missed.is_nan() || missed > TOO_MUCH) {
             return Err(Error::NotStill { duration, residual: missed });
         }
-        let residual = missed + whole * sqrt(dot(&tolerated, &tolerated).to_f64());
-        let d = effort.bulge(&found.aim);
+        let mut d = effort.bulge(&found.aim);
+        let mut greatest = peaks(&c, &d, duration);
+        let mut flights = found.evaluations;
+        let mut rings = amplitude(&second);
+        let mut residual = missed + amplitude(&tolerated);
+        if search == Search::Second && arms.len() == 1 && rings > RINGS {
+            let arm = &arms[0];
+            let mut other = Linear::new();
+            other.add(&arm.oscillation[1], &c, ringing, duration, half);
+            let mut along = [[T::ZERO; BULGE]; second::MISSES];
+            along[..each].copy_from_slice(&effort.towards[..each]);
+            along[each..2 * each].copy_from_slice(&effort.aside(&linear, &other)[..each]);
+            let mut miss = [T::ZERO; second::MISSES];
+            miss[..each].copy_from_slice(&found.miss[..each]);
+            miss[each..2 * each].copy_from_slice(&second[..each]);
+            let quiet = second::find(d, miss, &along, 2 * each, |bulge| {
+                let end = fly(0, bulge);
+                let mut miss = [T::ZERO; second::MISSES];
+                for k in 0..2 {
+                    let left = arm.amplitudes(k, &end, &aimed[0]);
+                    miss[each * k..each * (k + 1)].copy_from_slice(&left[..each]);
+                }
+                miss
+            });
+            let after = peaks(&c, &quiet.bulge, duration);
+            flights += quiet.flights;
+            (d, greatest) = (quiet.bulge, after);
+            residual = amplitude(&quiet.miss[..each]);
+            rings = amplitude(&quiet.miss[each..2 * each]);
+        }
         Ok(StillMove {
             from: *from,
             to,
             ticks,
             tick: self.tick,
             bulge: d.map(|x| TAU * x.to_f64()),
-            peaks: peaks(&c, &d, duration),
-            residual,
-            flights: found.evaluations,
+            peaks: greatest,
+            residual: residual + rings,
+            flights,
         })
-    }
-
-    /// The path in the steps of a flight.
-    pub(super) fn fine(&self, path: &Path) -> Path {
-        let steps = self.steps;
-        Path { ticks: path.ticks * steps, tick: self.tick / f64::from(steps), ..*path }
     }
 }

@@ -1,16 +1,24 @@
 //! The shortest still move that the drive can make.
 
-use super::{Departure, Flex, Manner, Still, StillMove, Survey};
+use super::plan::Search;
+use super::{Flex, Manner, Origin, Still, StillMove, Survey};
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::{Angle, Limits};
+use crate::motion::{Angle, Limits, Move};
 
 /// A limit that this many first periods do not keep is one that no duration does, e.g. a torque
 /// below what the arm's weight needs.
 const LONGEST: f64 = 300.0;
 
 /// Most durations that are tried on the way up, and on the way back.
-const TRIES: u32 = 16;
+const UP: u32 = 28;
+const BACK: u32 = 16;
+
+/// From another state than rest, longer is not always better: a vibration can be braked with little
+/// in some durations and not in others. So the durations go up in small steps to this many first
+/// periods, and by what the exceeded limit says only from there on.
+const CAREFUL: f64 = 8.0;
+const CAREFULLY: f64 = 1.12;
 
 impl<T: Scalar, const K: usize> Still<T, K> {
     /// The shortest move from rest at `from` rad to rest at `to` rad that keeps the limits, and its
@@ -21,57 +29,39 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         to: f64,
         limits: &Limits,
     ) -> Result<(StillMove, Survey), Error> {
-        self.shortest_from(&Departure::at_rest(Angle::from_radians(from)), None, to, limits)
+        self.shortest_from(&Origin::at_rest(Angle::from_radians(from)), None, to, limits)
     }
 
     /// [`Self::shortest`] from any state of hub and arm.
     ///
-    /// The duration grows as the exceeded limit says, then is halved back: at most 64 plans. The
+    /// The duration grows as the exceeded limit says, then is halved back: at most 90 plans. The
     /// error is the limit that the longest of them exceeded.
     pub fn shortest_from(
         &self,
-        from: &Departure,
+        from: &Origin,
         flex: Option<&Flex<T, K>>,
         to: f64,
         limits: &Limits,
     ) -> Result<(StillMove, Survey), Error> {
         let limits = limits.validate()?;
-        let in_manner = |ticks: u32, manner: Manner| -> Result<(StillMove, Survey), Error> {
-            let duration = f64::from(ticks) * self.tick;
-            let plan = self.plan_in(manner, from, flex, to, duration)?;
-            limits.admit(&plan.peaks)?;
-            let survey = self.survey(&plan, flex);
-            survey.admit(&limits, self.scene.link.length)?;
-            Ok((plan, survey))
-        };
-        let attempt = |ticks: u32| {
-            let found = in_manner(ticks, Manner::Acceleration);
-            let Err(error) = found else { return found };
-            // The same time may do if what is exceeded is spared.
-            match error {
-                Error::LimitExceeded { parameter: "limits.rate", .. } => {
-                    in_manner(ticks, Manner::Rate)
-                }
-                Error::LimitExceeded { parameter: "limits.jerk", .. } => {
-                    in_manner(ticks, Manner::Jerk)
-                }
-                _ => Err(error),
-            }
-        };
+        let attempt = |ticks| self.first_within(from, flex, to, ticks, &limits);
         let mut failing = libm::ceil(0.9 * self.first_period() / self.tick) as u32;
         let mut reach = failing;
         let mut best = attempt(reach);
-        for _ in 0..TRIES {
+        let resting = from.rate == 0.0 && from.acceleration == 0.0 && flex.is_none();
+        for _ in 0..UP {
             let Err(error) = best else { break };
             if f64::from(reach) * self.tick > LONGEST * self.first_period() {
                 break;
             }
             failing = reach;
-            reach = (reach + 1).max(libm::ceil(f64::from(reach) * stretch(&error)) as u32);
+            let careful = !resting && f64::from(reach) * self.tick < CAREFUL * self.first_period();
+            let factor = if careful { CAREFULLY } else { stretch(&error) };
+            reach = (reach + 1).max(libm::ceil(f64::from(reach) * factor) as u32);
             best = attempt(reach);
         }
         let mut found = best?;
-        for _ in 0..TRIES {
+        for _ in 0..BACK {
             let middle = failing + (reach - failing) / 2;
             if middle <= failing || middle >= reach {
                 break;
@@ -81,7 +71,63 @@ impl<T: Scalar, const K: usize> Still<T, K> {
                 Err(_) => failing = middle,
             }
         }
-        Ok(found)
+        // With the second mode at rest too, if the limits leave room for it.
+        let quiet =
+            self.in_manner(Manner::Acceleration, from, flex, to, reach, &limits, Search::Second);
+        Ok(quiet.unwrap_or(found))
+    }
+
+    /// [`Self::plan_from`] within the limits, and its survey: the second mode is left ringing, and
+    /// something else than the acceleration spared, where the limits ask for it.
+    pub fn within(
+        &self,
+        from: &Origin,
+        flex: Option<&Flex<T, K>>,
+        to: f64,
+        duration: f64,
+        limits: &Limits,
+    ) -> Result<(StillMove, Survey), Error> {
+        let limits = limits.validate()?;
+        let ticks = Move::Dwell { duration }.ticks(self.tick)?;
+        self.in_manner(Manner::Acceleration, from, flex, to, ticks, &limits, Search::Second)
+            .or_else(|_| self.first_within(from, flex, to, ticks, &limits))
+    }
+
+    /// With only the first mode looked after.
+    pub(super) fn first_within(
+        &self,
+        from: &Origin,
+        flex: Option<&Flex<T, K>>,
+        to: f64,
+        ticks: u32,
+        limits: &Limits,
+    ) -> Result<(StillMove, Survey), Error> {
+        let attempt = |manner| self.in_manner(manner, from, flex, to, ticks, limits, Search::First);
+        // The same time may do if what is exceeded is spared.
+        attempt(Manner::Acceleration).or_else(|error| match error {
+            Error::LimitExceeded { parameter: "limits.rate", .. } => attempt(Manner::Rate),
+            Error::LimitExceeded { parameter: "limits.jerk", .. } => attempt(Manner::Jerk),
+            _ => Err(error),
+        })
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn in_manner(
+        &self,
+        manner: Manner,
+        from: &Origin,
+        flex: Option<&Flex<T, K>>,
+        to: f64,
+        ticks: u32,
+        limits: &Limits,
+        search: Search,
+    ) -> Result<(StillMove, Survey), Error> {
+        let duration = f64::from(ticks) * self.tick;
+        let plan = self.search(manner, from, flex, to, duration, search)?;
+        limits.admit(&plan.peaks)?;
+        let survey = self.survey(&plan, flex);
+        survey.admit(limits, self.scene.link.length)?;
+        Ok((plan, survey))
     }
 }
 

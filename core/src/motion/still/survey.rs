@@ -38,9 +38,10 @@ impl<T: Scalar, const K: usize> Still<T, K> {
     /// Flies the scene's own arm through a move, once: from the state that the move was planned
     /// from.
     pub fn survey(&self, plan: &StillMove, flex: Option<&Flex<T, K>>) -> Survey {
-        let path = self.fine(&plan.path());
+        let stride = self.stride(plan.duration());
+        let path = stride.fine(&plan.path());
         let curve = path.segment(&plan.bulge).cast::<T>();
-        let arm = &self.arms[0];
+        let arm = &stride.arms[0];
         let (first, last) = (curve.hub(0), curve.hub(path.ticks));
         let begin = flex.copied().unwrap_or_else(|| arm.rest(&self.chain, &first));
         let (mut torque, mut moment, mut bend) = (T::ZERO, T::ZERO, T::ZERO);
@@ -58,7 +59,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             raise(&mut bend, load.tip[1]);
         };
         watch(&begin, &first);
-        let end = arm.fly(&self.chain, &self.pace, &curve, path.ticks, &begin, &mut watch);
+        let end = arm.fly(&self.chain, stride.per_step, &curve, path.ticks, &begin, &mut watch);
         Survey {
             torque: torque.to_f64(),
             moment: moment.to_f64(),

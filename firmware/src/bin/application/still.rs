@@ -5,17 +5,14 @@
 #[cfg(feature = "still")]
 mod planner {
     use stillbeam::motion::Still;
-    use stillbeam::{Departure, Error, Link, Planned};
+    use stillbeam::{Departure, Error, Planned};
 
     use crate::axes::{AXES, TICK};
     use crate::command::Outcome;
     use crate::plan::scene;
 
     /// The planner of one arm: its exact rod in two modes.
-    pub struct Planner {
-        still: Still<f32, 2>,
-        link: Link,
-    }
+    pub struct Planner(Still<f32, 2>);
 
     impl Planner {
         pub fn plan(
@@ -24,7 +21,7 @@ mod planner {
             to: f64,
             duration: Option<f64>,
         ) -> Result<Planned<f32>, Error> {
-            departure.plan_still(&self.still, &self.link, to, duration)
+            departure.plan_still(&self.0, to, duration)
         }
     }
 
@@ -37,7 +34,7 @@ mod planner {
             let scene = scene(axis)?;
             let planner = &mut self.0[axis];
             if planner.is_none() {
-                *planner = Some(Planner { still: Still::new(&scene, TICK)?, link: scene.link });
+                *planner = Some(Planner(Still::new(&scene, TICK)?));
             }
             planner.as_ref().ok_or(stillbeam_protocol::Refusal::NoPlanner)
         }

@@ -1,0 +1,61 @@
+//! The `[shaper]` table: what the commanded motion passes.
+
+use std::f64::consts::TAU;
+
+use serde::Deserialize;
+use stillbeam::Scene;
+use stillbeam::motion::{Pulse, Shaper, ShaperKind};
+
+use crate::error::Error;
+use crate::reference::rod;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ShaperTable {
+    kind: Option<String>,
+    /// Hz, undamped; the arm's own where there is none.
+    frequency: Option<f64>,
+    /// Damping ratio; the arm's own likewise.
+    damping: Option<f64>,
+    /// `[amplitude, delay in s]` each.
+    pulses: Option<Vec<[f64; 2]>>,
+}
+
+impl ShaperTable {
+    pub(super) fn build(&self, arm: &Scene) -> Result<Shaper, Error> {
+        match (&self.kind, &self.pulses) {
+            (Some(kind), None) => self.named(kind, arm),
+            (None, Some(pulses)) => {
+                if let Some((key, value)) =
+                    [("frequency", self.frequency), ("damping", self.damping)]
+                        .into_iter()
+                        .find_map(|(key, value)| Some((key, value?)))
+                {
+                    return Err(Error::new(format_args!(
+                        "shaper.{key} = {value}: accepted with shaper.kind; pulses say all \
+                         themselves"
+                    )));
+                }
+                let pulses: Vec<Pulse> =
+                    pulses.iter().map(|&[amplitude, delay]| Pulse { amplitude, delay }).collect();
+                Ok(Shaper::custom(&pulses)?)
+            }
+            _ => Err(Error::new("shaper: accepted is either shaper.kind or shaper.pulses")),
+        }
+    }
+
+    fn named(&self, name: &str, arm: &Scene) -> Result<Shaper, Error> {
+        let kind =
+            ShaperKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| {
+                let names = ShaperKind::ALL.map(ShaperKind::name).join(", ");
+                Error::new(format_args!("shaper.kind = {name}: accepted is one of {names}"))
+            })?;
+        let frequency = match self.frequency {
+            Some(frequency) => frequency,
+            None => 1.0 / rod::first_period(arm)?,
+        };
+        let omega = TAU * frequency;
+        let own = 0.5 * (arm.damping.alpha / omega + arm.damping.beta * omega);
+        Ok(Shaper::new(kind, frequency, self.damping.unwrap_or(own))?)
+    }
+}
