@@ -191,15 +191,15 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             for i in p + 1..K {
                 let factor = a[i][p] * inverse;
                 for j in p..K {
-                    a[i][j] = a[i][j] - factor * a[p][j];
+                    a[i][j] -= factor * a[p][j];
                 }
-                change[i] = change[i] - factor * change[p];
+                change[i] -= factor * change[p];
             }
             a[p][p] = inverse;
         }
         for p in (0..K).rev() {
             for j in p + 1..K {
-                change[p] = change[p] - a[p][j] * change[j];
+                change[p] -= a[p][j] * change[j];
             }
             change[p] = change[p] * a[p][p];
         }
@@ -381,7 +381,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     fn inertial(&self, state: &ModalState<T, K>, acceleration: T) -> T {
         let mut pull = state.coordinate;
         for k in 0..K {
-            pull[k] = pull[k] - state.force[k];
+            pull[k] -= state.force[k];
         }
         self.inertia * acceleration - dot(&self.support, &pull)
     }

@@ -92,6 +92,7 @@ pub fn scene(arm: &Scene, omega: f64, tick: f64, task: Task, after: f64) -> Scen
         name: "probe".into(),
         arm: *arm,
         from: 0.0,
+        shaper: None,
         moves: vec![Step { motion, settle: after * tick }],
         limits: Limits::default(),
         solver: SolverKeys::default(),
