@@ -262,7 +262,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// another count of its ticks.
     #[inline(always)]
     fn set_path(&mut self) {
-        let plain = S::PLAIN && self.stepper.is_plain() && self.current.is_cubic();
+        let plain =
+            S::PLAIN && self.current.is_cubic() && self.stepper.is_plain(self.current.rate_bound());
         self.plain = if plain { self.current.count() } else { 0 };
         self.resting = self.current.is_rest();
     }

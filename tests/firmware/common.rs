@@ -12,14 +12,14 @@ pub const LIMITS: Limits =
 
 pub const POLICY: Policy = Policy { limits: LIMITS, patience: 20, missed: 2 };
 
-pub type Arm = Axis<Newmark<f32, 2, 2>, 8>;
+pub type Arm = Axis<Newmark<f32, 2, 2, false>, 8>;
 
-pub fn stepper(payload: f64) -> Newmark<f32, 2, 2> {
+pub fn stepper(payload: f64) -> Newmark<f32, 2, 2, false> {
     let link = Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 };
     let mut scene = Scene::new(link);
     scene.payload.mass = payload;
     scene.gravity = 1.0;
-    Newmark::new(&OneElement::consistent(&scene).unwrap(), TICK).unwrap()
+    Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>()).unwrap(), TICK).unwrap()
 }
 
 /// The hub's angle, rad.

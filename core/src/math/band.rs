@@ -241,6 +241,11 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
         Ldl { lower: self.lower.map(|row| row.map(&mut f)), inverse: self.inverse.map(&mut f) }
     }
 
+    /// `Dᵢᵢ`.
+    pub(crate) fn pivot(&self, i: usize) -> T {
+        self.lower[i][0]
+    }
+
     /// Whether every pivot is positive and finite, so that `A` is positive definite.
     pub fn is_positive(&self) -> bool {
         self.lower.iter().all(|row| row[0] > T::ZERO && row[0].is_finite())

@@ -13,7 +13,7 @@ mod scalar;
 pub use band::{Band, HalfForm, Ldl};
 pub(crate) use jacobi::generalized_eigen;
 pub(crate) use least_squares::LeastSquares;
-pub(crate) use principal::principal_axes;
+pub(crate) use principal::{principal_axes, root};
 pub(crate) use propagator::phi_functions;
 pub use scalar::Scalar;
 

@@ -78,7 +78,7 @@ fn form<T: Scalar, const N: usize, const W: usize>(
 
 /// Square root by Newton's iteration from above, until it no longer falls: within a rounding.
 #[inline(never)]
-fn root<T: Scalar>(x: T) -> T {
+pub(crate) fn root<T: Scalar>(x: T) -> T {
     let mut root = T::HALF * (x + T::ONE);
     loop {
         let next = T::HALF * (root + x / root);

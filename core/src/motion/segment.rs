@@ -241,6 +241,12 @@ impl<T: Scalar> Segment<T> {
         matches!(self.rest, Rest::Cubic)
     }
 
+    /// A bound of `|θ̇|` over a cubic, rad/s.
+    pub(crate) fn rate_bound(&self) -> T {
+        let [c1, c2, c3] = self.low.map(|c| if c < T::ZERO { -c } else { c });
+        (c1 + T::TWO * c2 + (T::TWO + T::ONE) * c3) * self.rate_scale
+    }
+
     /// Whether the hub stays where it is.
     #[inline(always)]
     pub(crate) fn is_rest(&self) -> bool {

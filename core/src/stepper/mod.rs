@@ -65,10 +65,11 @@ pub trait Stepper {
     /// room for them.
     const PLAIN: bool = false;
 
-    /// Whether the scene leaves so little to do that the ticks inside a cubic are to be advanced by
-    /// [`Self::advance_in_cubic`]. Only of an arm that is not [directed](Self::is_directed).
+    /// Whether the scene leaves so little to do that the ticks inside a cubic, in which `|θ̇|` is at most
+    /// `rate`, are to be advanced by [`Self::advance_in_cubic`]: asked once a segment. Only of an arm
+    /// that is not [directed](Self::is_directed).
     #[inline(always)]
-    fn is_plain(&self) -> bool {
+    fn is_plain(&self, _rate: Self::Scalar) -> bool {
         false
     }
 

@@ -5,7 +5,7 @@ use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::{Model, Modes};
 use crate::math::{Band, HalfForm, Scalar, cast, dot, sqrt};
-use crate::motion::{Hub, Peaks};
+use crate::motion::Hub;
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
 ///
@@ -52,8 +52,8 @@ pub struct Modal<T, const K: usize> {
     /// arm is to sleep.
     awake: [[T; 2]; K],
     tick: f64,
-    /// Rate up to which the spin terms, which are extrapolated over a tick, stay stable, rad/s.
-    fastest: f64,
+    /// Rate up to which the spin terms may be taken at a predicted state, as within plain cubics, rad/s.
+    fastest: T,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -108,7 +108,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                     .forced_by(omega[k] * omega[k])
             }),
             rest: cast(&rest),
-            fastest: fastest(&spin, &omega, tick),
+            fastest: T::from_f64(fastest(&spin, &omega, tick)),
             spin,
             shortening: between(model.shortening()).half_form(),
             tip: core::array::from_fn(|k| T::from_f64(shape[k][model.tip()])),
@@ -220,13 +220,6 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         self.terms.gravity
     }
 
-    fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
-        if self.terms.spin && peaks.rate > self.fastest {
-            return Err(Error::TooFast { rate: peaks.rate, max: self.fastest });
-        }
-        Ok(())
-    }
-
     fn equilibrium(&self, hub: &Hub<T>) -> ModalState<T, K> {
         let mut stiffness = self.tension.map(|x| -(hub.sin * x));
         for k in 0..K {
@@ -273,8 +266,9 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     const PLAIN: bool = true;
 
     #[inline(always)]
-    fn is_plain(&self) -> bool {
-        !self.terms.gravity && !self.terms.damping
+    fn is_plain(&self, rate: T) -> bool {
+        let Terms { spin, gravity, damping } = self.terms;
+        !gravity && !damping && (!spin || rate <= self.fastest)
     }
 
     #[inline(always)]
@@ -422,9 +416,10 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 }
 
 /// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken
-/// at a predicted state, as within plain cubics. `θ̇²Γ` is compared with `2/h²`, above which a mode that the tick resolves
-/// blows up, or with a twentieth of the `ω²` of a mode that turns more than 2 rad a tick: beyond half
-/// a turn such a scheme always feeds a mode a little.
+/// at a predicted state, as within plain cubics; faster ones take the general step. `θ̇²Γ` is compared
+/// with `2/h²`, above which a mode that the tick resolves blows up, or with a twentieth of the `ω²` of a
+/// mode that turns more than 2 rad a tick: beyond half a turn such a scheme always feeds a mode a
+/// little.
 fn fastest<T: Scalar, const K: usize>(spin: &Band<T, K, K>, omega: &[f64; K], tick: f64) -> f64 {
     let mut least = f64::INFINITY;
     for k in 0..K {

@@ -48,7 +48,7 @@ impl<T: Scalar> Stepper for Rigid<T> {
     const PLAIN: bool = true;
 
     #[inline(always)]
-    fn is_plain(&self) -> bool {
+    fn is_plain(&self, _: T) -> bool {
         self.weight == T::ZERO && self.drag == T::ZERO
     }
 

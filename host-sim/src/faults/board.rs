@@ -22,7 +22,7 @@ pub const PERIOD: u32 = 10_000;
 /// Jobs that wait for the planner, as in the application; one more is refused.
 const JOBS: usize = 2;
 
-type Stepper = Newmark<f32, 2, 2>;
+type Stepper = Newmark<f32, 2, 2, false>;
 
 /// What the board said to a request.
 pub type Answer = Result<u32, Refusal<'static>>;
@@ -280,5 +280,5 @@ impl Board {
 }
 
 fn stepper(scene: &Scene) -> Result<Stepper, CoreError> {
-    Newmark::new(&OneElement::consistent(scene)?, TICK)
+    Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>())?, TICK)
 }

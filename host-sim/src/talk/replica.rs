@@ -11,10 +11,10 @@ use stillbeam_protocol::{Command, Description};
 
 use crate::error::Error;
 
-type Stepper = Newmark<f32, 2, 2>;
+type Stepper = Newmark<f32, 2, 2, false>;
 
 /// The method that this host can run along.
-const METHOD: &str = "newmark-1";
+const METHOD: &str = "newmark-1-nodal";
 
 /// The same axis with the same code, on this machine. Its queue is longer, so that what the firmware
 /// accepted is never refused here.
@@ -157,7 +157,7 @@ impl Replica {
 }
 
 fn stepper(scene: &Scene, tick: f64) -> Result<Stepper, Error> {
-    Ok(Newmark::new(&OneElement::consistent(scene)?, tick)?)
+    Ok(Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>())?, tick)?)
 }
 
 fn apart(refused: stillbeam::axis::Refused) -> Error {

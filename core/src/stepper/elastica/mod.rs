@@ -189,6 +189,12 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }
 
+    /// Neither damping nor gravity.
+    #[inline(always)]
+    fn is_bare(&self) -> bool {
+        !self.remainder.is_damped() && !self.remainder.is_directed()
+    }
+
     #[inline(always)]
     fn tip_of(&self, state: &ElasticaState<T, K>) -> [T; 2] {
         self.remainder.tip(state.y.map(|y| y[0]))
@@ -287,8 +293,8 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     const PLAIN: bool = true;
 
     #[inline(always)]
-    fn is_plain(&self) -> bool {
-        !self.remainder.is_damped() && !self.remainder.is_directed()
+    fn is_plain(&self, _: T) -> bool {
+        self.is_bare()
     }
 
     #[inline(always)]
@@ -314,7 +320,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
 
     #[inline(always)]
     fn swing(&self, state: &mut ElasticaState<T, K>, hub: &Hub<T>) {
-        if !self.is_plain() {
+        if !self.is_bare() {
             return self.step(state, hub, hub);
         }
         if self.quality == Quality::Fine {

@@ -13,9 +13,9 @@ pub const AXES: usize = 2;
 pub const TICK: f64 = 0.010;
 
 /// The stepper, the same for every axis, and its name on the wire.
-pub type Stepper = Newmark<f32, 2, 2>;
+pub type Stepper = Newmark<f32, 2, 2, false>;
 /// See [`Stepper`].
-pub const METHOD: &str = "newmark-1";
+pub const METHOD: &str = "newmark-1-nodal";
 
 /// An axis with room for eight segments: one S-curve and a move more, or eight cubics.
 pub type Axis = axis::Axis<Stepper, 8>;
@@ -93,7 +93,7 @@ const fn policy(rate: f64, acceleration: f64) -> Policy {
     Policy { limits, patience: 50, missed: 2 }
 }
 
-/// The stepper of an arm. Set-up: some 70,000 instructions, never in the tick.
+/// The stepper of an arm, set up in single precision: never in the tick.
 pub fn stepper(scene: &Scene) -> Result<Stepper, Error> {
-    Newmark::new(&OneElement::consistent(scene)?, TICK)
+    Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>())?, TICK)
 }
