@@ -90,7 +90,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let mut current = tail;
         current.cut(0);
         let mut hub = Hub::ZERO;
-        current.drive(&mut hub, 0);
+        current.drive_otherwise(&mut hub, 0);
         if stepper.is_directed() {
             hub.aim();
         }

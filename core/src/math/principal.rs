@@ -80,14 +80,9 @@ fn form<T: Scalar, const N: usize, const W: usize>(
 #[inline(never)]
 fn root<T: Scalar>(x: T) -> T {
     let mut root = T::HALF * (x + T::ONE);
-    // 60 halvings from 1e30, and as many quadratic steps as there are digits.
-    for _ in 0..80 {
+    loop {
         let next = T::HALF * (root + x / root);
-        if next < root {
-            root = next;
-        } else {
-            break;
-        }
+        // Falling, it comes to an end; for NaN at once.
+        if next < root { root = next } else { return root }
     }
-    root
 }

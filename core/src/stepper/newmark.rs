@@ -322,19 +322,13 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
         if !Self::PRINCIPAL || !self.terms.spin {
             return Ok(());
         }
-        let carries = |rate: f64| {
-            let rate = T::from_f64(rate);
-            let turning = self.stiffness.plus(rate * rate, &self.spin);
-            let upright = turning.plus(-T::ONE, &self.tension);
-            upright.factor().is_positive()
-        };
-        if carries(peaks.rate) {
+        if self.carries(peaks.rate) {
             return Ok(());
         }
         // To a hundredth; down to none for an arm that hardly stands.
         let mut max = peaks.rate;
         for _ in 0..2000 {
-            if carries(max) {
+            if self.carries(max) {
                 break;
             }
             max *= 0.99;
@@ -350,9 +344,7 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
 
     #[inline(always)]
     fn step(&self, state: &mut Vibration<T, N>, before: &Hub<T>, after: &Hub<T>) {
-        let (q, d) = self.predict(state, after.rate - before.rate);
-        let restoring = self.solve(&q, &d, after);
-        *state = Self::correct(q, d, restoring);
+        self.step_in_general(state, after.rate - before.rate, after);
     }
 
     const PLAIN: bool = N <= 2 && Self::PRINCIPAL;
@@ -381,41 +373,6 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
         }
     }
 
-    #[inline(always)]
-    fn swing(&self, state: &mut Vibration<T, N>, hub: &Hub<T>) {
-        let (mut q, mut d) = (state.deflection, state.gain);
-        for i in 0..N {
-            let d0 = d[i];
-            d[i] = d0 - state.restoring[i];
-            q[i] += d0 + d[i];
-        }
-        let mut force = self.stiff(&q);
-        if self.terms.damping {
-            let damping = self.damping.times(&d);
-            for i in 0..N {
-                force[i] += damping[i];
-            }
-        }
-        let restoring = if self.terms.gravity {
-            self.solve_hanging(force, &q, self.tension.scaled(-hub.sin), hub.cos)
-        } else {
-            self.factors.solve(&force)
-        };
-        *state = Self::correct(q, d, restoring);
-    }
-
-    #[inline(always)]
-    fn response_at_rest(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
-        let mut torque = dot(&self.coupling, &state.restoring);
-        if self.terms.damping {
-            torque += dot(&self.drag_torque, &state.gain);
-        }
-        if self.terms.gravity {
-            torque += self.weight_torque(state, hub);
-        }
-        Response { torque, tip: self.tip_of(state) }
-    }
-
     /// Bounds the swing of every node by the arm's lowest frequency: none is larger than
     /// `c/(½hω₁)²` and `d/(½hω₁)` make it.
     #[inline(always)]
@@ -428,11 +385,26 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
         swing < T::ONE
     }
 
+    #[inline(always)]
+    fn response(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
+        self.response_in_general(state, hub)
+    }
+}
+
+impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
+    /// A tick of anything that a scene can hold, the hub having gained that much rate.
+    #[inline(never)]
+    fn step_in_general(&self, state: &mut Vibration<T, N>, gained: T, after: &Hub<T>) {
+        let (q, d) = self.predict(state, gained);
+        let restoring = self.solve(&q, &d, after);
+        *state = Self::correct(q, d, restoring);
+    }
+
     /// `τ = J_h θ̈ + (J_r − Fᵀb)θ̈ + αJ_r θ̇ + Fᵀ(v̇ + αq̇) + g cosθ S − g sinθ f_gᵀq
     /// − (θ̈ + αθ̇) qᵀGq − 2θ̇ qᵀGq̇ − ½ g cosθ qᵀK_P q`, of second order in `q`;
     /// tip `(r + L − ½ qᵀSq, w(L))`.
-    #[inline(always)]
-    fn response(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
+    #[inline(never)]
+    fn response_in_general(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
         let mut forced = hub.acceleration;
         let mut torque = self.inertial(state, hub.acceleration);
         if self.terms.damping {
@@ -447,9 +419,15 @@ impl<T: Scalar, const N: usize, const W: usize> Stepper for Newmark<T, N, W> {
         }
         Response { torque, tip: self.tip_of(state) }
     }
-}
 
-impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
+    /// Whether the arm keeps its stiffness when it turns, upright where there is gravity.
+    #[inline(never)]
+    fn carries(&self, rate: f64) -> bool {
+        let rate = T::from_f64(rate);
+        let turning = self.stiffness.plus(rate * rate, &self.spin);
+        turning.plus(-T::ONE, &self.tension).factor().is_positive()
+    }
+
     /// `(J_h + J_r − Fᵀb) θ̈ + Fᵀv̇`.
     #[inline(always)]
     fn inertial(&self, state: &Vibration<T, N>, acceleration: T) -> T {
