@@ -40,7 +40,7 @@ impl Case {
         let trajectory = Trajectory::plan(self.from, &run, &Limits::default(), self.tick)?;
         let bend = self.bend(&trajectory)?;
         let errors = |truth: &[Sample]| {
-            Rung::LADDER
+            Rung::ladder(&self.arm)
                 .map(|rung| self.tip_error(&run, rung, bend, truth).unwrap_or(f64::INFINITY))
         };
         let mut truth = self.truth(&trajectory, &JUDGE)?;
@@ -58,7 +58,8 @@ impl Case {
             None
         };
         let ticks = trajectory.ticks();
-        Ok(Verdict { tolerance: self.tolerance, ticks, choice, errors: found, closely, doubt })
+        let (tolerance, ladder) = (self.tolerance, Rung::ladder(&self.arm));
+        Ok(Verdict { tolerance, ticks, ladder, choice, errors: found, closely, doubt })
     }
 
     fn truth(&self, trajectory: &Trajectory, options: &rod::Options) -> Result<Vec<Sample>, Error> {

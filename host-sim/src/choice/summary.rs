@@ -44,6 +44,9 @@ impl Summary {
         let by_place = |place: &dyn Fn(&Verdict) -> Option<usize>| {
             std::array::from_fn(|k| count(&|verdict| place(verdict) == Some(k)))
         };
+        let by_rung = |place: &dyn Fn(&Verdict) -> Option<usize>| {
+            Rung::LADDER.map(|rung| count(&|v| place(v).is_some_and(|k| v.ladder[k] == rung)))
+        };
         let refused = |kind: fn(&CoreError) -> bool| {
             count(&|verdict| verdict.choice.as_ref().is_err_and(kind))
         };
@@ -55,8 +58,8 @@ impl Summary {
         let doubts = || verdicts.iter().filter_map(|v| v.doubt);
         Self {
             arms: verdicts.len(),
-            chosen: by_place(&Verdict::chosen),
-            cheapest: by_place(&Verdict::cheapest),
+            chosen: by_rung(&Verdict::chosen),
+            cheapest: by_rung(&Verdict::cheapest),
             too_dear: by_place(&Verdict::rungs_too_dear),
             exceeded: count(&Verdict::exceeds),
             underestimated: count(&|verdict| {

@@ -10,6 +10,8 @@ pub struct Verdict {
     pub tolerance: f64,
     /// Ticks of the moves and of a first period after them.
     pub ticks: u64,
+    /// The arm's ladder.
+    pub ladder: [Rung; Rung::LADDER.len()],
     /// What `auto` chose, or why it did not.
     pub choice: Result<Choice, CoreError>,
     /// Largest distance of the tip from the reference rod by rung of the ladder, fraction of L;
@@ -31,7 +33,7 @@ impl Verdict {
     /// The chosen rung's place on the ladder.
     pub fn chosen(&self) -> Option<usize> {
         let rung = self.choice.as_ref().ok()?.rung;
-        Rung::LADDER.iter().position(|&other| other == rung)
+        self.ladder.iter().position(|&other| other == rung)
     }
 
     /// True error of what was chosen, fraction of L.

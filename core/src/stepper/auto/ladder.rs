@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::trial::Outcome;
+use crate::scene::{Damping, Scene};
 use crate::stepper::Quality;
 
 /// A stepper without its numbers.
@@ -17,8 +18,8 @@ pub enum Rung {
 }
 
 impl Rung {
-    /// Every rung, in the order of what its tick costs on the target: a test compares it with
-    /// `docs/instructions.csv`.
+    /// Every rung, in the order of what its tick costs on the target for an arm without damping and
+    /// gravity.
     ///
     /// Left out: a third mode of small deflections costs as much as one of the exact kinematics, and
     /// a finer step of that one as much as a second, and they are the better of the two next to never.
@@ -35,6 +36,19 @@ impl Rung {
 
     /// The last.
     pub const FINEST: Self = Self::Elastica(3, Quality::Fine);
+
+    /// Every rung, in the order of what its tick costs on the target for that arm. Damping and gravity
+    /// cost small deflections more than the exact kinematics. A test compares both orders with
+    /// `docs/instructions.csv`.
+    pub fn ladder(scene: &Scene) -> [Self; 8] {
+        let mut ladder = Self::LADDER;
+        let Damping { alpha, beta } = scene.damping;
+        if scene.gravity > 0.0 || alpha > 0.0 || beta > 0.0 {
+            ladder.swap(2, 3);
+            ladder.swap(5, 6);
+        }
+        ladder
+    }
 
     /// Whether it is set up for a bend.
     pub(super) fn is_elastica(self) -> bool {

@@ -13,7 +13,7 @@ use crate::motion::{Hub, Limits, Move, Peaks, Plan, Start};
 use crate::{Error, Scene};
 use trial::Trial;
 
-/// One of the steppers of [`Rung::LADDER`], known at run time only.
+/// One of the steppers of [`Rung::ladder`], known at run time only.
 ///
 /// It takes the room of the largest; a firmware that knows its arm links the stepper itself.
 #[derive(Clone, Copy, Debug)]
@@ -131,7 +131,7 @@ impl<T: Scalar> Auto<T> {
             Ok(Choice { rung, error: ladder::expected(&outcome), bend, steps })
         };
         let mut reason = Error::Tolerance { tolerance, best: f64::INFINITY };
-        for rung in Rung::LADDER {
+        for rung in Rung::ladder(scene) {
             match attempt(rung) {
                 Ok(choice) if choice.error <= tolerance => {
                     return Ok((Self::new(scene, tick, rung, bend)?, choice));
