@@ -16,6 +16,7 @@
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 
 pub mod blocks;
+pub mod choice;
 pub mod compare;
 pub mod error;
 #[cfg(feature = "faults")]

@@ -209,6 +209,45 @@ impl SolverKeys {
         }
     }
 
+    /// What is given here although `method` does not read it: each in a line that says which methods
+    /// do.
+    pub fn unread(self, method: Method) -> Vec<String> {
+        let reads = |method: Method| {
+            let typed = Self { method: Some(method), ..Self::default() };
+            typed.relevant().values().map(|value| value.is_some())
+        };
+        let names = ["elements", "mass", "modes", "quality", "tolerance", "spin"];
+        let mut unread = Vec::new();
+        for (k, value) in self.values().into_iter().enumerate() {
+            let Some(value) = value.filter(|_| !reads(method)[k]) else { continue };
+            let others = Method::value_variants().iter().filter(|&&other| reads(other)[k]);
+            let others: Vec<&str> = others.map(|other| other.name()).collect();
+            unread.push(format!(
+                "solver.{} = {value}: {} does not read it; accepted is {}",
+                names[k],
+                method.name(),
+                if others.len() == 1 {
+                    format!("method = {}", others[0])
+                } else {
+                    format!("one of the methods {}", others.join(", "))
+                }
+            ));
+        }
+        unread
+    }
+
+    /// The values that not every method reads.
+    fn values(&self) -> [Option<String>; 6] {
+        [
+            self.elements.map(|n| n.to_string()),
+            self.mass.map(|mass| mass.name().to_owned()),
+            self.modes.map(|n| n.to_string()),
+            self.quality.map(|quality| quality.name().to_owned()),
+            self.tolerance.map(|x| x.to_string()),
+            self.spin.map(|spin| spin.to_string()),
+        ]
+    }
+
     /// These keys, and `other`'s where they are absent.
     pub fn or(self, other: Self) -> Self {
         Self {

@@ -62,6 +62,56 @@ fn rounding_is_reported() {
 }
 
 #[test]
+fn every_method_runs_with_its_own_words() {
+    let folder = tempfile::tempdir().expect("folder");
+    let cases: [(&[&str], &str); 5] = [
+        (&["--method", "modal", "--modes", "1", "--no-spin"], "modal, 1 mode of 8 consistent"),
+        (&["--method", "elastica"], "elastica, 2 modes, fine"),
+        (&["--method", "elastica", "--modes", "3", "--quality", "fast"], "elastica, 3 modes, fast"),
+        (&["--method", "auto"], "auto, within 0.001 of L"),
+        (&["--method", "auto", "--tolerance", "0.05"], "chose            modal, 1 mode"),
+    ];
+    for (args, words) in cases {
+        let args = [&["run", "b-tip30", "--csv", "a.csv"], args].concat();
+        let (code, out, err) = run(folder.path(), &args);
+        assert_eq!((code, err.as_str()), (0, ""), "{args:?}");
+        assert!(out.contains(words), "{words} is not in: {out}");
+    }
+}
+
+#[test]
+fn auto_keeps_its_tolerance_or_says_what_it_could() {
+    let folder = tempfile::tempdir().expect("folder");
+    let auto = |scene: &str, tolerance: &str| {
+        let args = ["run", scene, "--csv", "a.csv", "--method", "auto", "--tolerance", tolerance];
+        run(folder.path(), &args)
+    };
+    for (scene, tolerance) in [("d-fast", "0.001"), ("a-tip30", "0.0005"), ("s-gravity", "0.01")] {
+        assert_eq!(auto(scene, tolerance).0, 0);
+        let truth = truth_path(&format!("{scene}.csv"));
+        let truth = truth.to_str().expect("path");
+        let compare = ["compare", "a.csv", truth, "--scene", scene, "--tolerance", tolerance];
+        assert_eq!(run(folder.path(), &compare).0, 0, "{scene} within {tolerance}");
+    }
+    let (code, _, err) = auto("d-fast", "0.000002");
+    assert_eq!((code, err.lines().count()), (2, 1), "{err}");
+    assert!(err.contains("solver.tolerance = 0.000002: accepted is 0.000"), "{err}");
+}
+
+#[test]
+fn keys_of_a_file_that_its_method_does_not_read_are_noted() {
+    let folder = tempfile::tempdir().expect("folder");
+    let scene = fs::read_to_string(truth_path("b-tip30.toml")).expect("scene");
+    let scene = scene.replace("[solver]", "[solver]\nmethod = \"elastica\"\nspin = false");
+    fs::write(folder.path().join("scene.toml"), scene).expect("scene");
+    let (code, _, err) = run(folder.path(), &["run", "scene.toml", "--csv", "a.csv"]);
+    assert_eq!((code, err.lines().count()), (0, 1), "{err}");
+    assert!(err.starts_with("note: solver.spin = false: elastica does not read it"), "{err}");
+    let newmark = ["run", "scene.toml", "--csv", "a.csv", "--method", "newmark"];
+    assert_eq!(run(folder.path(), &newmark).2, "");
+}
+
+#[test]
 fn scenes_are_listed_by_name() {
     let folder = tempfile::tempdir().expect("folder");
     let (code, out, _) = run(folder.path(), &["scenes"]);

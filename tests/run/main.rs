@@ -1,5 +1,6 @@
 //! Whole runs: against truth, against finer steps, against the law of energy, and on random arms.
 
+mod auto;
 mod convergence;
 mod energy;
 mod exact;

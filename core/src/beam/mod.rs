@@ -18,4 +18,5 @@ pub(crate) use chain::{Chain, Load};
 pub(crate) use expansion::Expansion;
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
 pub use modes::Modes;
+pub(crate) use rod::POINTS;
 pub use rod::{Kinetics, Rod};

@@ -4,11 +4,11 @@ use crate::Error;
 use crate::math::{Band, Scalar, dot, generalized_eigen, sqrt};
 use crate::scene::Scene;
 
-/// Polynomials that the modes are made of: slopes of degree 1 to 5.
+/// Polynomials that the modes of a stepper are made of: slopes of degree 1 to 5.
 const BASIS: usize = 5;
 
 /// Gauss points over the link; products of two deflections have degree 12.
-const POINTS: usize = 8;
+pub(crate) const POINTS: usize = 8;
 
 /// `(ξ, weight)` of the Gauss-Legendre rule on 0..1, lower half; the upper half mirrors it.
 const HALF_RULE: [(f64, f64); POINTS / 2] = [
@@ -36,6 +36,13 @@ pub struct Rod<const K: usize> {
     running: [[f64; POINTS]; POINTS],
 }
 
+/// What integrals over the link are made of: see [`Rod::rule`].
+pub(crate) struct Rule<'a, const K: usize> {
+    pub slope: &'a [[f64; POINTS]; K],
+    pub weights: &'a [f64; POINTS],
+    pub running: &'a [[f64; POINTS]; POINTS],
+}
+
 /// The rod at modal coordinates `a`, hub-frame axes, nothing moving.
 #[derive(Clone, Copy, Debug)]
 pub struct Kinetics<const K: usize> {
@@ -52,18 +59,23 @@ pub struct Kinetics<const K: usize> {
 }
 
 impl<const K: usize> Rod<K> {
-    /// Solves for the modes. `K` is 1 to 3.
+    /// Solves for the modes. `K` is 1 to 5, the lowest of five polynomials'.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
-        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
+        Self::of_polynomials::<BASIS>(scene)
+    }
+
+    /// Solves for the lowest `K` modes of `N` polynomials.
+    pub(crate) fn of_polynomials<const N: usize>(scene: &Scene) -> Result<Self, Error> {
+        const { assert!(1 <= K && K <= N && N < POINTS, "as many modes as polynomials at most") }
         let scene = scene.validate()?;
         let (points, weights) = rule();
         let running = running_integrals(&points, &weights);
-        let at_points = points.map(slopes);
-        let tip = slopes(1.0);
+        let at_points = points.map(slopes::<N>);
+        let tip = slopes::<N>(1.0);
         let length = scene.link.length;
         // Slopes are integrals of Legendre polynomials, so that bending is diagonal.
-        let mut stiffness = Band::<f64, BASIS, BASIS>::ZERO;
-        for j in 0..BASIS {
+        let mut stiffness = Band::<f64, N, N>::ZERO;
+        for j in 0..N {
             let norm = 1.0 / (2 * j + 1) as f64;
             stiffness.add(j, j, scene.link.bending_stiffness / length * norm);
         }
@@ -75,8 +87,8 @@ impl<const K: usize> Rod<K> {
             let f: [f64; POINTS] = core::array::from_fn(|p| at_points[p][basis]);
             length * dot(&weights, &f)
         };
-        let mut mass = Band::<f64, BASIS, BASIS>::ZERO;
-        for i in 0..BASIS {
+        let mut mass = Band::<f64, N, N>::ZERO;
+        for i in 0..N {
             for j in 0..=i {
                 let (wi, wj) = (deflection(i), deflection(j));
                 let product: [f64; POINTS] = core::array::from_fn(|p| wi[p] * wj[p]);
@@ -134,6 +146,12 @@ impl<const K: usize> Rod<K> {
             }
             sum
         })
+    }
+
+    /// `ψₖ` at the Gauss points, the rule's weights, and what integrates from the clamp to each point,
+    /// all for a link of length 1.
+    pub(crate) fn rule(&self) -> Rule<'_, K> {
+        Rule { slope: &self.slope, weights: &self.weights, running: &self.running }
     }
 
     /// The scene this was built from.
@@ -241,8 +259,8 @@ pub(super) fn legendre<const N: usize>(xi: f64) -> [f64; N] {
 }
 
 /// `ψⱼ(ξ) = ∫₀^ξ P_{j}(2ξ' − 1) dξ'`, `j = 0..5`: degree 1 to 5, zero at the clamp.
-fn slopes(xi: f64) -> [f64; BASIS] {
-    let p = legendre::<{ BASIS + 1 }>(xi);
+fn slopes<const N: usize>(xi: f64) -> [f64; N] {
+    let p = legendre::<POINTS>(xi);
     core::array::from_fn(
         |j| {
             if j == 0 { xi } else { (p[j + 1] - p[j - 1]) / (2 * (2 * j + 1)) as f64 }

@@ -28,6 +28,15 @@ impl RunArgs {
         let scene = scenes::open(&self.scene)?;
         let typed = SolverKeys { spin: self.no_spin.then_some(false), ..self.solver };
         let solver = typed.or(scene.solver).resolve()?;
+        // What is typed is meant. A file may hold keys for another method than the one that is typed.
+        if let Some(line) = typed.unread(solver.method).into_iter().next() {
+            return Err(Error::new(line));
+        }
+        if typed.method.is_none() {
+            for line in scene.solver.unread(solver.method) {
+                eprintln!("note: {line}");
+            }
+        }
         for line in scene.roundings(solver.tick)? {
             eprintln!("note: {line}");
         }

@@ -181,7 +181,8 @@ impl Group {
             (Method::Newmark, Some(Mass::Lumped)) => Colour::Orange,
             (Method::Newmark, _) => Colour::Blue,
             (Method::Modal, _) => Colour::Purple,
-            (Method::Elastica | Method::Auto, _) => Colour::Green,
+            (Method::Elastica, _) => Colour::Green,
+            (Method::Auto, _) => Colour::Sky,
         }
     }
 

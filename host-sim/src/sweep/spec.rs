@@ -33,6 +33,8 @@ pub struct Grid {
     pub modes: Vec<i64>,
     /// Work a tick.
     pub quality: Vec<Quality>,
+    /// Errors that auto may make, fractions of L.
+    pub tolerance: Vec<f64>,
     /// Ticks, s.
     pub tick: Vec<f64>,
     /// Precisions.
@@ -81,6 +83,7 @@ impl Grid {
         cross(&mut all, &self.mass, |keys| &mut keys.mass);
         cross(&mut all, &self.modes, |keys| &mut keys.modes);
         cross(&mut all, &self.quality, |keys| &mut keys.quality);
+        cross(&mut all, &self.tolerance, |keys| &mut keys.tolerance);
         cross(&mut all, &self.spin, |keys| &mut keys.spin);
         cross(&mut all, &self.scalar, |keys| &mut keys.scalar);
         cross(&mut all, &self.tick, |keys| &mut keys.tick);
@@ -126,7 +129,8 @@ mod tests {
         let rigid = ticks;
         let modal = modes * ticks * scalars * spins;
         let elastica = modes * qualities * ticks * scalars;
+        let auto = 4 * ticks;
         let solvers = Spec::embedded().unwrap().solvers();
-        assert_eq!(solvers.len(), newmark + rigid + modal + elastica);
+        assert_eq!(solvers.len(), newmark + rigid + modal + elastica + auto);
     }
 }

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::trial::Outcome;
+use crate::scene::{Damping, Scene};
 use crate::stepper::Quality;
 
 /// A stepper without its numbers.
@@ -17,22 +18,42 @@ pub enum Rung {
 }
 
 impl Rung {
-    /// Every rung, in the order of what its tick costs on the target.
-    /// A third mode of small deflections costs as much as one of the exact kinematics, and is the
-    /// better of the two next to never: it is not tried.
+    /// Every rung, in the order of what its tick costs on the target for an arm without damping and
+    /// gravity.
+    ///
+    /// Left out: a third mode of small deflections costs as much as one of the exact kinematics, and
+    /// a finer step of that one as much as a second, and they are the better of the two next to never.
     pub const LADDER: [Self; 8] = [
         Self::Rigid,
         Self::Modal(1),
         Self::Modal(2),
         Self::Elastica(1, Quality::Fast),
         Self::Elastica(2, Quality::Fast),
-        Self::Elastica(3, Quality::Fast),
         Self::Elastica(2, Quality::Fine),
+        Self::Elastica(3, Quality::Fast),
         Self::FINEST,
     ];
 
     /// The last.
     pub const FINEST: Self = Self::Elastica(3, Quality::Fine);
+
+    /// Every rung, in the order of what its tick costs on the target for that arm. Damping and gravity
+    /// cost small deflections more than the exact kinematics. A test compares both orders with
+    /// `docs/instructions.csv`.
+    pub fn ladder(scene: &Scene) -> [Self; 8] {
+        let mut ladder = Self::LADDER;
+        let Damping { alpha, beta } = scene.damping;
+        if scene.gravity > 0.0 || alpha > 0.0 || beta > 0.0 {
+            ladder.swap(2, 3);
+            ladder.swap(5, 6);
+        }
+        ladder
+    }
+
+    /// Whether it is set up for a bend.
+    pub(super) fn is_elastica(self) -> bool {
+        matches!(self, Self::Elastica(..))
+    }
 }
 
 impl fmt::Display for Rung {
@@ -52,29 +73,17 @@ impl fmt::Display for Rung {
 pub struct Choice {
     /// The cheapest that is good enough.
     pub rung: Rung,
-    /// Largest distance of its tip from the real one to expect, fraction of L: the distance seen
-    /// in the trial, and what the trial's own reference leaves out.
+    /// Largest distance of its tip from the real one to expect, fraction of L: the distance seen in
+    /// the trial, and a little for what the trial itself leaves out.
     pub error: f64,
     /// Tip angle relative to the hub that it is set up for, rad.
     pub bend: f64,
+    /// Steps of the exact rod that were taken to find it: the cost of the choice.
+    pub steps: u32,
 }
 
-/// Error to expect of a rung whose tip was `distance` away, both fractions of L.
-pub(super) fn expected(distance: f64, floor: f64) -> f64 {
-    1.02 * distance + floor
+/// Error to expect of a rung, fraction of L: the distance from the exact rod, and what that leaves
+/// out, more polynomials and the rounding of long moves.
+pub(super) fn expected(outcome: &Outcome) -> f64 {
+    1.02 * outcome.distance + 2e-5 * outcome.deflection + 2e-6
 }
-
-/// What the trial's reference itself leaves out. `finest` is the finest rung's outcome, `twin` that
-/// of the reference's twin, fitted for [`TWIN_RANGE`] times the bend; `w` the largest deflection
-/// over L.
-///
-/// The expansion's error shows as the distance of the twins; the modes beyond the third make
-/// `1e-4 w`; the steps, of second order, a third of what quartering the finest rung's made. 1.6 times
-/// the first two held for nine in ten of 145 random arms with `w` of 0.4 to 1, 2.7 times for all.
-pub(super) fn floor(finest: &Outcome, twin: &Outcome) -> f64 {
-    let w = finest.deflection;
-    1.6 * (twin.distance + 1e-4 * w + 2e-6) + finest.distance / 3.0
-}
-
-/// See [`floor`].
-pub(super) const TWIN_RANGE: f64 = 1.45;

@@ -1,20 +1,19 @@
 //! The cheapest stepper that is good enough, chosen once for an arm and its moves.
 
+mod exact;
 mod ladder;
 mod trial;
 
 pub use ladder::{Choice, Rung};
 
-use super::{
-    Elastica, ElasticaState, Modal, ModalState, Quality, Response, Rigid, Stepper, check_tick,
-};
+use super::{Elastica, ElasticaState, Modal, ModalState, Response, Rigid, Stepper, check_tick};
 use crate::beam::{EightElements, Rod};
 use crate::math::Scalar;
 use crate::motion::{Hub, Limits, Move, Peaks, Plan, Start};
 use crate::{Error, Scene};
 use trial::Trial;
 
-/// One of the steppers of [`Rung::LADDER`], known at run time only.
+/// One of the steppers of [`Rung::ladder`], known at run time only.
 ///
 /// It takes the room of the largest; a firmware that knows its arm links the stepper itself.
 #[derive(Clone, Copy, Debug)]
@@ -100,9 +99,13 @@ impl<T: Scalar> Auto<T> {
     /// where the real one is, over these moves from rest at `from` rad and one first period after
     /// them; with the error to expect.
     ///
-    /// Every rung is tried, cheapest first, on the moves themselves, against three modes of the
-    /// exact kinematics at a quarter of the tick; what that reference itself leaves out is added:
-    /// see [`Choice::error`]. Set-up: it costs as many ticks as the moves have, a few times over.
+    /// Every rung is tried, cheapest first, on the moves themselves, beside the exact rod in six
+    /// modes and small steps; a rung that is further off than the tolerance is given up at once. What
+    /// that costs at set-up stands in `docs/auto.md`.
+    ///
+    /// # Errors
+    /// No rung is good enough: [`Error::Tolerance`] with the error of the finest; or the finest cannot
+    /// be set up for these moves, and why.
     pub fn choose(
         scene: &Scene,
         tick: f64,
@@ -112,36 +115,38 @@ impl<T: Scalar> Auto<T> {
     ) -> Result<(Self, Choice), Error> {
         let tick = check_tick(tick)?;
         let tolerance = Error::check("solver.tolerance", tolerance, 1e-6, 1.0, "of the length")?;
-        let rod = Rod::<3>::new(scene)?;
-        let bend = expected_bend(&rod, tick, from, moves)?;
-        let reference = Elastica::<f32, 3>::new(&rod, 0.5 * tick, Quality::Fine, bend)?;
-        let period = core::f64::consts::TAU / rod.frequency()[0];
-        let trial = Trial { reference, from, moves, settle: period, length: scene.link.length };
-
-        let range = ladder::TWIN_RANGE * bend;
-        let twin = Elastica::<f32, 3>::fitted(&rod, 0.5 * tick, Quality::Fine, bend, range);
-        let finest = Auto::<f32>::new(scene, tick, Rung::FINEST, bend)?;
-        let floor = ladder::floor(&trial.run(finest)?, &trial.run(twin)?);
-        let mut best = f64::INFINITY;
-        for rung in Rung::LADDER {
-            let candidate = Auto::<f32>::new(scene, tick, rung, bend)?;
-            let error = match trial.run(candidate) {
-                Ok(outcome) => ladder::expected(outcome.distance, floor),
-                // The plan of the moves has passed: it is the rung that cannot turn so fast.
-                Err(Error::TooFast { .. }) => continue,
-                Err(error) => return Err(error),
-            };
-            if error <= tolerance {
-                return Ok((Self::new(scene, tick, rung, bend)?, Choice { rung, error, bend }));
+        let expected_bend = expected_bend(scene, tick, from, moves)?;
+        let (least, most) = Elastica::<f32, 3>::BEND;
+        let bend = expected_bend.clamp(least, most);
+        let trial = Trial::new(scene, tick, from, moves)?;
+        let mut steps = 0;
+        let mut attempt = |rung: Rung| {
+            if rung.is_elastica() && expected_bend > most {
+                return Err(Error::BendsTooFar { bend: expected_bend, max: most });
             }
-            best = error.min(best);
+            // The last is tried to the end, to tell its error.
+            let stop = if rung == Rung::FINEST { f64::INFINITY } else { tolerance };
+            let outcome = trial.run(Auto::<f32>::new(scene, tick, rung, bend)?, stop)?;
+            steps += outcome.steps;
+            Ok(Choice { rung, error: ladder::expected(&outcome), bend, steps })
+        };
+        let mut reason = Error::Tolerance { tolerance, best: f64::INFINITY };
+        for rung in Rung::ladder(scene) {
+            match attempt(rung) {
+                Ok(choice) if choice.error <= tolerance => {
+                    return Ok((Self::new(scene, tick, rung, bend)?, choice));
+                }
+                Ok(choice) => reason = Error::Tolerance { tolerance, best: choice.error },
+                // The moves are planned and the scene is valid: it is the rung that cannot do it.
+                Err(error) => reason = error,
+            }
         }
-        Err(Error::Tolerance { tolerance, best })
+        Err(reason)
     }
 }
 
-/// The largest tip angle to expect of the moves, in the range of [`Elastica::BEND`].
-fn expected_bend(rod: &Rod<3>, tick: f64, from: f64, moves: &[Move]) -> Result<f64, Error> {
+/// The largest tip angle to expect of the moves, rad.
+fn expected_bend(scene: &Scene, tick: f64, from: f64, moves: &[Move]) -> Result<f64, Error> {
     let mut start = Start::at_rest(from)?;
     let mut acceleration: f64 = 0.0;
     for motion in moves {
@@ -149,9 +154,7 @@ fn expected_bend(rod: &Rod<3>, tick: f64, from: f64, moves: &[Move]) -> Result<f
         acceleration = acceleration.max(outline.peaks.acceleration);
         start = outline.end;
     }
-    let (least, max) = Elastica::<f32, 3>::BEND;
-    let bend = rod.bend(acceleration).max(least);
-    if bend <= max { Ok(bend) } else { Err(Error::BendsTooFar { bend, max }) }
+    Ok(Rod::<1>::new(scene)?.bend(acceleration))
 }
 
 impl<T: Scalar> Stepper for Auto<T> {
