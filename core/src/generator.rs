@@ -170,8 +170,10 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let before = self.hub;
         let mut landing = None;
         let mut at_rest = false;
+        let mut rested = false;
         self.k = k;
         if k >= self.current.count() {
+            rested = self.resting;
             self.turn_over();
             landing = Some(self.landing);
         } else if S::PLAIN || !self.resting {
@@ -186,10 +188,15 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         let acceleration = landing.unwrap_or(self.hub.acceleration);
         let arrival = Hub { acceleration, ..self.hub };
-        // The first tick too: the arm was at rest before it, and stays so.
-        self.stepper.step(&mut self.state, &before, &arrival);
+        if S::PLAIN && rested {
+            // The last tick of a rest as all others of it, to the bit.
+            self.stepper.swing(&mut self.state, &arrival);
+        } else {
+            // The first tick too: the arm was at rest before it, and stays so.
+            self.stepper.step(&mut self.state, &before, &arrival);
+        }
         if at_rest {
-            self.asleep = self.stepper.is_settled(&self.state);
+            self.asleep = self.holding && self.stepper.is_settled(&self.state);
         }
         self.setpoint()
     }
@@ -203,7 +210,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.k = k;
         if !self.asleep {
             self.stepper.swing(&mut self.state, &self.hub);
-            self.asleep = self.stepper.is_settled(&self.state);
+            self.asleep = self.holding && self.stepper.is_settled(&self.state);
         }
         respond(&self.hub, self.stepper.response_at_rest(&self.state, &self.hub))
     }

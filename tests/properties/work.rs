@@ -130,9 +130,12 @@ proptest! {
         prop_assert!(newmark < 2e-3, "newmark: {newmark:e}");
 
         let model = EightElements::consistent(&scene).expect("a model");
-        let shape = Modes::of(&model).shape;
-        let lift = |a: &[f64; 3]| -> [f64; 16] {
-            core::array::from_fn(|i| (0..3).map(|k| shape[k][i] * a[k]).sum())
+        let modes = Modes::of(&model);
+        // The state holds `ωa`.
+        let lift = |y: &[f64; 3]| -> [f64; 16] {
+            core::array::from_fn(|i| {
+                (0..3).map(|k| modes.shape[k][i] * y[k] / modes.frequency[k]).sum()
+            })
         };
         let stepper = Modal::<f64, 3>::new(&model, tick).expect("a stepper");
         let modal = imbalance(stepper, &turn, |arm| {

@@ -27,24 +27,32 @@ fn every_bit_of_every_setpoint_agrees() {
 }
 
 /// A rotary inertia of the payload asks for another lumped type; whichever it is, each scene runs
-/// once with each method of the tables, and the scenes with still moves once more with those.
+/// once with each method of the tables, and the scenes with still moves once more with those. One
+/// lumped element goes limp at the rate of `spin-up`, and is refused.
 #[test]
 fn every_scene_runs_with_every_method() {
     let mut methods = BTreeSet::new();
     let mut cases = BTreeSet::new();
     let mut planned = BTreeSet::new();
-    stillbeam_golden::run(&mut |case, _, _| {
+    let count = stillbeam_golden::run(&mut |case, _, _| {
         if case.method == "still" {
             planned.insert(case.scene);
             return;
         }
         let method = (case.method, case.size, case.quality, case.skip);
         methods.insert(method);
-        cases.insert((case.scene, method, case.index));
+        cases.insert((case.scene, method));
     })
     .unwrap();
     assert_eq!(methods.len(), 22);
-    assert_eq!(cases.len(), SCENES.len() * methods.len());
+    let refused: Vec<_> = SCENES
+        .iter()
+        .flat_map(|run| methods.iter().map(|method| (run.name, *method)))
+        .filter(|pair| !cases.contains(pair))
+        .collect();
+    assert_eq!(refused, [("spin-up", ("newmark", 1, "lumped", ""))]);
+    let tried: u32 = cases.len() as u32 + refused.len() as u32 + STILL_SCENES.len() as u32;
+    assert_eq!(tried, count);
     assert_eq!(planned, BTreeSet::from(STILL_SCENES));
 }
 

@@ -1,5 +1,7 @@
 //! The random arms and moves that the choices of `auto` are judged on.
 
+use std::f64::consts::PI;
+
 use rand::rngs::StdRng;
 use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
@@ -65,7 +67,7 @@ impl Case {
         let arm = arm(rng)?;
         let period = rod::first_period(&arm)?;
         let tick = log(rng, 0.002, 0.020);
-        let from = if arm.gravity > 0.0 { rng.random_range(-3.14..3.14) } else { 0.0 };
+        let from = if arm.gravity > 0.0 { rng.random_range(-PI..PI) } else { 0.0 };
         let mut case = Self { arm, period, tick, from, moves: Vec::new(), tolerance: 0.0 };
         if rng.random_bool(0.125) {
             let rate = rng.random_range(-4.0..4.0) / period;
