@@ -1,11 +1,13 @@
 //! Small deflections in modal coordinates: the tick costs the same for any number of elements.
 
+mod bounded;
+
 use super::oscillator::{Drive, Oscillator, check_turns, jolt};
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::{Model, Modes};
-use crate::math::{Band, HalfForm, Scalar, cast, dot, sqrt};
-use crate::motion::Hub;
+use crate::math::{Band, HalfForm, Scalar, cast, dot};
+use crate::motion::{Hub, Peaks};
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
 ///
@@ -108,7 +110,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                     .forced_by(omega[k] * omega[k])
             }),
             rest: cast(&rest),
-            fastest: T::from_f64(fastest(&spin, &omega, tick)),
+            fastest: T::from_f64(bounded::predicted(&spin, &omega, tick)),
             spin,
             shortening: between(model.shortening()).half_form(),
             tip: core::array::from_fn(|k| T::from_f64(shape[k][model.tip()])),
@@ -218,6 +220,10 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     #[inline(always)]
     fn is_directed(&self) -> bool {
         self.terms.gravity
+    }
+
+    fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
+        if self.terms.spin { self.admit_rate(peaks.rate) } else { Ok(()) }
     }
 
     fn equilibrium(&self, hub: &Hub<T>) -> ModalState<T, K> {
@@ -413,23 +419,4 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let a = &state.coordinate;
         [self.reach - self.shortening.at(a), dot(&self.tip, a)]
     }
-}
-
-/// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken
-/// at a predicted state, as within plain cubics; faster ones take the general step. `θ̇²Γ` is compared
-/// with `2/h²`, above which a mode that the tick resolves blows up, or with a twentieth of the `ω²` of a
-/// mode that turns more than 2 rad a tick: beyond half a turn such a scheme always feeds a mode a
-/// little.
-fn fastest<T: Scalar, const K: usize>(spin: &Band<T, K, K>, omega: &[f64; K], tick: f64) -> f64 {
-    let mut least = f64::INFINITY;
-    for k in 0..K {
-        let turn = omega[k] * tick;
-        let most = if turn < 2.0 { 2.0 / (turn * turn) } else { 0.05 };
-        // Of a mode that turning softens, not all that it has.
-        let own = spin.get(k, k).to_f64();
-        let most = if own < 0.0 { f64::min(most, 0.8) } else { most };
-        let sum: f64 = (0..K).map(|j| spin.get(k, j).to_f64().abs()).sum();
-        least = f64::min(least, most / sum.max(f64::MIN_POSITIVE));
-    }
-    sqrt(least)
 }
