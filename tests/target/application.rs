@@ -103,7 +103,7 @@ fn still_moves_are_planned_on_the_target_while_ticks_and_drives_go_on() {
     let outcome = |text: &str| lines.iter().find(|line| line.starts_with(text)).expect("a step");
     let short = outcome("still 0 0.5 0.1");
     assert!(short.contains("refused: move.duration = 0.1 s: accepted is "), "{short}");
-    let fast = outcome("still 0 -1.5 0.9");
+    let fast = outcome("still 0 -1.5 0.76");
     assert!(fast.contains("refused: limits.") && fast.contains("accepted is 0 to "), "{fast}");
     let rests = session.history(0).last().expect("ticks").setpoint;
     assert_near("angle", rests.angle.radians(), 1.2, 1e-6);

@@ -241,10 +241,15 @@ impl<T: Scalar> Segment<T> {
         matches!(self.rest, Rest::Cubic)
     }
 
-    /// A bound of `|θ̇|` over a cubic, rad/s.
+    /// A bound of `|θ̇|` over a cubic, rad/s: `c₁ + 3c₃u²` lies between its values at the middle and at the
+    /// ends.
     pub(crate) fn rate_bound(&self) -> T {
-        let [c1, c2, c3] = self.low.map(|c| if c < T::ZERO { -c } else { c });
-        (c1 + T::TWO * c2 + (T::TWO + T::ONE) * c3) * self.rate_scale
+        let [c1, c2, c3] = self.low;
+        let end = c1 + (T::TWO + T::ONE) * c3;
+        let abs = |x: T| if x < T::ZERO { -x } else { x };
+        let (middle, end) = (abs(c1), abs(end));
+        let most = if middle < end { end } else { middle };
+        (most + T::TWO * abs(c2)) * self.rate_scale
     }
 
     /// Whether the hub stays where it is.

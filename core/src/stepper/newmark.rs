@@ -455,12 +455,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     /// `c/(½hω₁)²` and `d/(½hω₁)` make it.
     #[inline(always)]
     fn is_settled(&self, state: &Vibration<T, N>) -> bool {
-        let mut swing = T::ZERO;
-        for i in 0..N {
-            let ([c2, d2], c, d) = (self.awake, state.restoring[i], state.gain[i]);
-            swing += c2 * c * c + d2 * d * d;
-        }
-        swing < T::ONE
+        let [far, fast] = self.awake;
+        far * dot(&state.restoring, &state.restoring) + fast * dot(&state.gain, &state.gain) < T::ONE
     }
 
     /// `τ = J_h θ̈ + (J_r − Fᵀb)θ̈ + αJ_r θ̇ + Fᵀ(v̇ + αq̇) + g cosθ S − g sinθ f_gᵀq

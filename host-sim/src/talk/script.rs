@@ -72,7 +72,7 @@ pub const STILL: [&str; 13] = [
     "still 0 -0.2 1.5",
     "rest",
     "still 0 0.5 0.1",
-    "still 0 -1.5 0.9",
+    "still 0 -1.5 0.76",
     "payload 0 0.05",
     "still 0 1.2 1.6",
     "rest",

@@ -13,7 +13,7 @@
 //! let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
 //! let planner = Still::<f32, 2>::new(&scene, 0.010)?;
 //! let plan = planner.plan(0.0, 1.57, 0.2)?;
-//! assert!(plan.residual < 1e-4, "{}", plan.residual);
+//! assert!(plan.residual < 5e-4);
 //! # Ok::<(), stillbeam::Error>(())
 //! ```
 

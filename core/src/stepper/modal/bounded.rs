@@ -1,9 +1,10 @@
 //! Rates of the hub at which the spin terms leave the steps bounded.
 //!
-//! Each mode is advanced exactly, the spin force as a straight line over the tick: of second order and
-//! symmetric in time, but not stable whatever the rate. A mode alone grows where it turns just less than
-//! an odd number of half turns a tick, two together where their turns add up to whole ones, and no
-//! formula is simpler than asking the step itself.
+//! Each mode is advanced exactly, the spin force as a straight line over the tick: of second order, but
+//! not stable whatever the rate. A mode alone grows where it turns just less than an odd number of half
+//! turns a tick, two together where their turns add up to whole ones, and no formula is simpler than
+//! asking the step itself: the trace of its power, the sum of the powers of its eigenvalues, stays
+//! below their number where nothing grows.
 
 use super::{Modal, ModalState};
 use crate::Error;
@@ -11,87 +12,103 @@ use crate::math::{Band, Scalar, sqrt};
 use crate::motion::Hub;
 use crate::stepper::Stepper;
 
-/// What a step makes of `(ωa, ωȧ)`, linear: the image of each of the `2K` units.
-type Step<T, const K: usize> = [[[[T; 2]; K]; 2]; K];
+/// A step at a constant rate, linear: the image of each unit of coordinate, rate and force.
+struct Step<T, const K: usize>([[[[T; 3]; K]; 3]; K]);
 
 /// Shares of a rate that are asked besides the whole: a spin-up passes through them.
 const SHARES: u32 = 8;
 
-/// Ticks that a rate may be held for, `2²⁰`, without a hundredfold growth.
-const DOUBLINGS: u32 = 20;
+/// Rates are tried in this ratio.
+const RATIO: f64 = 1.15;
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
-    /// Refuses a rate that would feed the modes, held or passed through. Set-up only: where the bound of
-    /// the plain ticks does not settle it, some 100,000 operations.
+    /// Refuses a rate that would feed the modes a hundredfold within `2²⁰` ticks, held or passed through.
+    /// Set-up only: where the bound of the plain ticks does not settle it, a million operations.
     pub(super) fn admit_rate(&self, rate: f64) -> Result<(), Error> {
         let settled = self.fastest.to_f64();
         let carries = |rate: f64| {
             let share = rate / f64::from(SHARES);
-            rate <= settled || (1..=SHARES).all(|i| self.is_bounded(f64::from(i) * share))
+            let bounded = |i| self.held(f64::from(i) * share, false).is_bounded(20, 100.0);
+            rate <= settled || (1..=SHARES).all(bounded)
         };
         if carries(rate) {
             return Ok(());
         }
-        let mut max = 0.9 * rate;
+        let mut max = rate / RATIO;
         while !carries(max) {
-            max *= 0.9;
+            max /= RATIO;
         }
         Err(Error::TooFast { rate, max })
     }
 
-    /// Whether no entry on the diagonal of the step's power grows to 100 within `2²⁰` ticks: of all
-    /// entries those do not depend on how the state is scaled.
-    fn is_bounded(&self, rate: f64) -> bool {
-        let mut power = self.held(T::from_f64(rate));
-        (0..DOUBLINGS).all(|_| {
-            power = power.map(|part| part.map(|image| apply(&power, &image)));
-            (0..K).all(|k| {
-                (0..2).all(|i| power[k][i][k][i] * power[k][i][k][i] <= T::from_u32(10_000))
+    /// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken
+    /// at a predicted state, as within plain cubics; faster ones take the general step.
+    pub(super) fn fastest_plain(&self, omega: &[f64; K]) -> f64 {
+        let mut rate = surely_plain(&self.spin, omega, self.tick);
+        while rate * self.tick < 1.0 && self.held(rate * RATIO, true).is_bounded(10, 2.0) {
+            rate *= RATIO;
+        }
+        rate
+    }
+
+    /// The step without what shifts the modes and does not feed them: weight and the drag of the
+    /// turning.
+    fn held(&self, rate: f64, plain: bool) -> Step<T, K> {
+        let hub = Hub { rate: T::from_f64(rate), cos: T::ZERO, ..Hub::ZERO };
+        let level = Self { alpha: T::ZERO, ..self.clone() };
+        Step(core::array::from_fn(|k| {
+            core::array::from_fn(|part| {
+                let mut y = [[T::ZERO; K]; 3];
+                y[part][k] = T::ONE;
+                let [coordinate, rate, force] = y;
+                let mut state = ModalState { coordinate, rate, force, softening: [T::ZERO; K] };
+                if plain {
+                    level.advance_in_cubic(&mut state, &hub, &hub);
+                } else {
+                    level.step(&mut state, &hub, &hub);
+                }
+                core::array::from_fn(|j| [state.coordinate[j], state.rate[j], state.force[j]])
             })
+        }))
+    }
+}
+
+impl<T: Scalar, const K: usize> Step<T, K> {
+    /// Whether the mean of the eigenvalues' powers stays below `most` through `2^doublings` ticks: a
+    /// trace, which does not depend on how the state is scaled.
+    fn is_bounded(mut self, doublings: u32, most: f64) -> bool {
+        let most = T::from_f64(most * 2.0 * K as f64);
+        (0..doublings).all(|_| {
+            self = Self(self.0.map(|part| part.map(|image| self.of(&image))));
+            let mut trace = T::ZERO;
+            for k in 0..K {
+                for i in 0..3 {
+                    trace += self.0[k][i][k][i];
+                }
+            }
+            -most < trace && trace < most
         })
     }
 
-    /// The step at a constant rate without what shifts the modes and does not feed them: weight and the
-    /// drag of the turning.
-    fn held(&self, rate: T) -> Step<T, K> {
-        let hub = Hub { rate, cos: T::ZERO, ..Hub::ZERO };
-        let level = Self { alpha: T::ZERO, ..self.clone() };
-        let mut images = [[[[T::ZERO; 2]; K]; 2]; K];
-        for k in 0..K {
-            for i in 0..2 {
-                let mut y = [[T::ZERO; K]; 2];
-                y[i][k] = T::ONE;
-                let [coordinate, rate] = y;
-                let [force, softening] = level.force(&coordinate, &hub);
-                let mut state = ModalState { coordinate, rate, force, softening };
-                level.step(&mut state, &hub, &hub);
-                images[k][i] = core::array::from_fn(|j| [state.coordinate[j], state.rate[j]]);
-            }
-        }
-        images
-    }
-}
-
-fn apply<T: Scalar, const K: usize>(step: &Step<T, K>, y: &[[T; 2]; K]) -> [[T; 2]; K] {
-    let mut sum = [[T::ZERO; 2]; K];
-    for (images, y) in step.iter().zip(y) {
-        for (image, &y) in images.iter().zip(y) {
-            for (sum, image) in sum.iter_mut().zip(image) {
-                for (sum, &image) in sum.iter_mut().zip(image) {
-                    *sum += y * image;
+    fn of(&self, y: &[[T; 3]; K]) -> [[T; 3]; K] {
+        let mut sum = [[T::ZERO; 3]; K];
+        for (images, y) in self.0.iter().zip(y) {
+            for (image, &y) in images.iter().zip(y) {
+                for (sum, image) in sum.iter_mut().zip(image) {
+                    for (sum, &image) in sum.iter_mut().zip(image) {
+                        *sum += y * image;
+                    }
                 }
             }
         }
+        sum
     }
-    sum
 }
 
-/// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken
-/// at a predicted state, as within plain cubics; faster ones take the general step. `θ̇²Γ` is compared
-/// with `2/h²`, above which a mode that the tick resolves blows up, or with a twentieth of the `ω²` of a
-/// mode that turns more than 2 rad a tick: beyond half a turn such a scheme always feeds a mode a
-/// little.
-pub(super) fn predicted<T: Scalar, const K: usize>(
+/// A rate that feeds no mode: `θ̇²Γ` is compared with `2/h²`, above which a mode that the tick resolves
+/// blows up, or with a twentieth of the `ω²` of a mode that turns more than 2 rad a tick: beyond half a
+/// turn a predicted force always feeds a mode a little.
+fn surely_plain<T: Scalar, const K: usize>(
     spin: &Band<T, K, K>,
     omega: &[f64; K],
     tick: f64,

@@ -104,13 +104,13 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let residual = scene.rigid_inertia() - dot(&coupling, &coupling);
         let tension = between(&model.tension().scaled(gravity));
         let spin: Band<T, K, K> = between(model.spin());
-        Ok(Self {
+        let mut modal = Self {
             modes: core::array::from_fn(|k| {
                 Oscillator::new(omega[k], alpha, beta, support[k], tick)
                     .forced_by(omega[k] * omega[k])
             }),
             rest: cast(&rest),
-            fastest: T::from_f64(bounded::predicted(&spin, &omega, tick)),
+            fastest: T::ZERO,
             spin,
             shortening: between(model.shortening()).half_form(),
             tip: core::array::from_fn(|k| T::from_f64(shape[k][model.tip()])),
@@ -136,7 +136,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                 [floor, omega[k] * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
             }),
             tick,
-        })
+        };
+        modal.fastest = T::from_f64(modal.fastest_plain(&omega));
+        Ok(modal)
     }
 
     /// Leaves out every term in θ̇², as [`super::Newmark::without_spin`] does.
