@@ -156,7 +156,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.current.drive_cubic(&mut self.hub, k);
             let response = self.stepper.advance_in_cubic(&mut self.state, &before, &self.hub);
             respond(&self.hub, response)
-        } else if S::PLAIN && self.resting {
+        } else if S::RESTS && self.resting {
             self.tick_at_rest(k)
         } else {
             self.tick_otherwise(k)
@@ -176,7 +176,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             rested = self.resting;
             self.turn_over();
             landing = Some(self.landing);
-        } else if S::PLAIN || !self.resting {
+        } else if S::RESTS || !self.resting {
             self.current.drive(&mut self.hub, k);
             if self.stepper.is_directed() {
                 self.hub.aim();
@@ -188,7 +188,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         let acceleration = landing.unwrap_or(self.hub.acceleration);
         let arrival = Hub { acceleration, ..self.hub };
-        if S::PLAIN && rested {
+        if S::RESTS && rested {
             // The last tick of a rest as all others of it, to the bit.
             self.stepper.swing(&mut self.state, &arrival);
         } else {

@@ -65,6 +65,9 @@ pub trait Stepper {
     /// room for them.
     const PLAIN: bool = false;
 
+    /// Whether the ticks of a hub at rest are advanced by [`Self::swing`], likewise.
+    const RESTS: bool = Self::PLAIN;
+
     /// Whether the scene leaves so little to do that the ticks inside a cubic, in which `|θ̇|` is at most
     /// `rate`, are to be advanced by [`Self::advance_in_cubic`]: asked once a segment. Only of an arm
     /// that is not [directed](Self::is_directed).
@@ -90,8 +93,7 @@ pub trait Stepper {
         self.response(state, after)
     }
 
-    /// [`Self::step`] where the hub has been at rest and stays so. Of a stepper with plain ticks, what
-    /// it takes in any scene.
+    /// [`Self::step`] where the hub has been at rest and stays so, in any scene.
     #[inline(always)]
     fn swing(&self, state: &mut Self::State, hub: &Hub<Self::Scalar>) {
         self.step(state, hub, hub);

@@ -392,6 +392,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     }
 
     const PLAIN: bool = N <= 2 && Self::PRINCIPAL;
+    const RESTS: bool = N > 2 || Self::PLAIN;
 
     #[inline(always)]
     fn is_plain(&self, _: T) -> bool {
@@ -456,7 +457,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     #[inline(always)]
     fn is_settled(&self, state: &Vibration<T, N>) -> bool {
         let [far, fast] = self.awake;
-        far * dot(&state.restoring, &state.restoring) + fast * dot(&state.gain, &state.gain) < T::ONE
+        far * dot(&state.restoring, &state.restoring) + fast * dot(&state.gain, &state.gain)
+            < T::ONE
     }
 
     /// `τ = J_h θ̈ + (J_r − Fᵀb)θ̈ + αJ_r θ̇ + Fᵀ(v̇ + αq̇) + g cosθ S − g sinθ f_gᵀq
