@@ -79,7 +79,10 @@ pub struct Segment<T> {
 /// cubic need not look which shape it is, and taking a cubic up moves nothing else.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Rest<T> {
-    Cubic,
+    Cubic {
+        /// Not less than `|dΔ/du|`.
+        steepest: T,
+    },
     /// `c₄`, `c₅`.
     Quintic([T; 2]),
     /// `a`, `b`.
@@ -157,7 +160,7 @@ impl<T: Scalar> Segment<T> {
     fn derivatives(&self, u: T) -> Derivatives<T> {
         let [c1, c2, c3] = self.low;
         match self.rest {
-            Rest::Cubic => cubic(self.low, u),
+            Rest::Cubic { .. } => cubic(self.low, u),
             Rest::Quintic([c4, c5]) => quintic([c1, c2, c3, c4, c5], u),
             Rest::Bulged { high: [c4, c5], d } => {
                 let (base, bulge) = (quintic([c1, c2, c3, c4, c5], u), bulge(&d, u));
@@ -238,18 +241,13 @@ impl<T: Scalar> Segment<T> {
     /// Whether it is a cubic: its θ̈ is then a straight line.
     #[inline(always)]
     pub(crate) fn is_cubic(&self) -> bool {
-        matches!(self.rest, Rest::Cubic)
+        matches!(self.rest, Rest::Cubic { .. })
     }
 
-    /// A bound of `|θ̇|` over a cubic, rad/s: `c₁ + 3c₃u²` lies between its values at the middle and at the
-    /// ends.
+    /// A bound of `|θ̇|` over a cubic, rad/s; of the other shapes 0.
+    #[inline(always)]
     pub(crate) fn rate_bound(&self) -> T {
-        let [c1, c2, c3] = self.low;
-        let end = c1 + (T::TWO + T::ONE) * c3;
-        let abs = |x: T| if x < T::ZERO { -x } else { x };
-        let (middle, end) = (abs(c1), abs(end));
-        let most = if middle < end { end } else { middle };
-        (most + T::TWO * abs(c2)) * self.rate_scale
+        if let Rest::Cubic { steepest } = self.rest { steepest * self.rate_scale } else { T::ZERO }
     }
 
     /// Whether the hub stays where it is.
@@ -271,8 +269,8 @@ impl<T: Scalar> Segment<T> {
         self.landing = other.landing;
         self.entry = other.entry;
         self.low = other.low;
-        if other.is_cubic() {
-            self.rest = Rest::Cubic;
+        if let Rest::Cubic { steepest } = other.rest {
+            self.rest = Rest::Cubic { steepest };
         } else {
             self.rest = other.rest;
         }
@@ -309,6 +307,15 @@ impl<T: Scalar> Angle<T> {
     }
 }
 
+/// A bound of `|c₁ + 2c₂u + 3c₃u²|`: without its middle term it lies between its values at the middle and
+/// at the ends.
+fn steepest<T: Scalar>([c1, c2, c3]: [T; 3]) -> T {
+    let abs = |x: T| if x < T::ZERO { -x } else { x };
+    let (middle, end) = (abs(c1), abs(c1 + (T::TWO + T::ONE) * c3));
+    let most = if middle < end { end } else { middle };
+    most + T::TWO * abs(c2)
+}
+
 impl<T: Scalar> Shape<T> {
     fn low(&self) -> [T; 3] {
         match *self {
@@ -322,7 +329,7 @@ impl<T: Scalar> Shape<T> {
 
     fn rest(&self) -> Rest<T> {
         match *self {
-            Self::Cubic(_) => Rest::Cubic,
+            Self::Cubic(c) => Rest::Cubic { steepest: steepest(c) },
             Self::Quintic([_, _, _, c4, c5]) => Rest::Quintic([c4, c5]),
             Self::Harmonic { a, b, .. } => Rest::Harmonic([a, b]),
             Self::Bulged { c: [_, _, _, c4, c5], d } => Rest::Bulged { high: [c4, c5], d },
@@ -409,7 +416,7 @@ impl Segment<f64> {
             entry: f(self.entry),
             low: self.low.map(f),
             rest: match self.rest {
-                Rest::Cubic => Rest::Cubic,
+                Rest::Cubic { steepest } => Rest::Cubic { steepest: f(steepest) },
                 Rest::Quintic(high) => Rest::Quintic(high.map(f)),
                 Rest::Harmonic(ab) => Rest::Harmonic(ab.map(f)),
                 Rest::Bulged { high, d } => Rest::Bulged { high: high.map(f), d: d.map(f) },
