@@ -17,11 +17,20 @@ mod time_reversal;
 mod units;
 mod work;
 
-use proptest::prelude::ProptestConfig;
+use proptest::test_runner::{Config, RngSeed};
 
-/// So many random cases; `PROPTEST_CASES` makes it another number, and Miri one.
-fn cases(cases: u32) -> ProptestConfig {
+/// The seed of the everyday run, so that it is the same run every day.
+const SEED: u64 = 20_261_125;
+
+/// So many random cases; `PROPTEST_CASES` makes it another number, `PROPTEST_RNG_SEED` other cases, and
+/// Miri one.
+fn cases(cases: u32) -> Config {
+    let default = Config::default();
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok());
     let cases = if cfg!(miri) { 1 } else { asked.unwrap_or(cases) };
-    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+    let rng_seed = match default.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(SEED),
+        asked => asked,
+    };
+    Config { cases, failure_persistence: None, rng_seed, ..default }
 }

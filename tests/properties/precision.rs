@@ -9,7 +9,7 @@ use stillbeam::{Generator, Move, Scalar, Scene, Setpoint};
 use crate::arms::{TICK, Turn, arms, turns};
 use crate::cases;
 use crate::methods::{Method, Property, all};
-use crate::runs::{arm, push, ticks};
+use crate::runs::{QUEUE, arm, push, ticks};
 
 struct Finite {
     scene: Scene,
@@ -42,9 +42,11 @@ fn newmark<T: Scalar, const N: usize, const W: usize>(
 ) -> Vec<Setpoint<T>> {
     let model = Model::<N, W, _>::consistent(scene).expect("a model");
     let stepper = Newmark::<T, N, W>::new(&model, TICK).expect("a stepper");
-    let mut arm = Generator::<_, 8>::new(stepper, from).expect("an angle");
-    let ticks = arm.push(motion).expect("a move").ticks;
-    (0..ticks + 100).map(|_| arm.tick()).collect()
+    let mut arm = Generator::<_, QUEUE>::new(stepper, from).expect("an angle");
+    // A dwell and not a hold, which falls asleep a tick sooner or later by a last bit.
+    let rest = Move::Dwell { duration: 100.0 * TICK };
+    let count = push(&mut arm, &[*motion, rest]);
+    ticks(&mut arm, count)
 }
 
 proptest! {

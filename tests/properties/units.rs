@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use stillbeam::{Damping, Generator, Hub, Link, Payload, Scene};
+use stillbeam::{Damping, Generator, Hub, Link, Move, Payload, Scene};
 
 use crate::arms::{TICK, Turn, arms, turns};
 use crate::cases;
@@ -59,7 +59,9 @@ impl Change {
         let stepper = M::stepper::<f64>(&scene, TICK * units.time).expect("an arm");
         let mut arm = Generator::<_, QUEUE>::new(stepper, 0.3).expect("an angle");
         let turn = Turn { duration: self.turn.duration * units.time, ..self.turn };
-        let count = push(&mut arm, &[turn.from(0.3)]) + 50;
+        // A dwell and not a hold, which falls asleep a tick sooner or later by a last bit.
+        let rest = Move::Dwell { duration: 50.0 * TICK * units.time };
+        let count = push(&mut arm, &[turn.from(0.3), rest]);
         ticks(&mut arm, count).iter().map(numbers).map(|now| units.back(now)).collect()
     }
 }

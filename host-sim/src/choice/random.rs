@@ -30,9 +30,9 @@ pub const DISTRIBUTION: &[(&str, &str)] = &[
     (
         "moves",
         "1 to 3; each turn of a random profile (one in six a still move, a quintic where \
-               none is found), −3.1 to 3.1 rad, 0.7 to 6 first periods and at least 10 ticks; behind \
+               none is found), −3.1 to 3.1 rad, 0.7 to 6 first periods and at least 20 ticks; behind \
                4 in 10 a dwell of up to 2 first periods; one arm in 8 spins up instead, to as \
-               much as 4 rad a first period, and down again",
+               much as 4 rad a first period and half a radian a tick, and down again",
     ),
     ("tolerance", "2e-4 to 5e-2 of L"),
 ];
@@ -70,7 +70,8 @@ impl Case {
         let from = if arm.gravity > 0.0 { rng.random_range(-PI..PI) } else { 0.0 };
         let mut case = Self { arm, period, tick, from, moves: Vec::new(), tolerance: 0.0 };
         if rng.random_bool(0.125) {
-            let rate = rng.random_range(-4.0..4.0) / period;
+            // Half a radian a tick at most.
+            let rate = rng.random_range(-1.0..1.0) * f64::min(4.0 / period, 0.5 / tick);
             for rate in [rate, 0.0] {
                 case.moves.push(Move::SpinUp { duration: case.duration(rng), rate });
                 case.pause(rng);
@@ -90,7 +91,7 @@ impl Case {
     }
 
     fn duration(&self, rng: &mut StdRng) -> f64 {
-        (log(rng, 0.7, 6.0) * self.period).max(10.0 * self.tick)
+        (log(rng, 0.7, 6.0) * self.period).max(20.0 * self.tick)
     }
 
     fn pause(&mut self, rng: &mut StdRng) {
