@@ -34,8 +34,8 @@ use crate::motion::{Hub, Peaks};
 /// Second order in the tick; period error `(ωh)²/12`. Unconditionally stable in the linear part.
 ///
 /// Full matrices, `W = N`, are taken along the principal axes of stiffness and spin, in which both
-/// are diagonal. [`Self::nodal`] is without: its set-up is 2 KB of code less, its tick takes a quarter
-/// more instructions.
+/// are diagonal. [`Self::nodal`] is without: 3 KB of code less, and ticks that take half as many
+/// instructions again where there is neither damping nor gravity.
 // The numbers of a plain tick first: within a short reach of the generator's own.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
