@@ -142,7 +142,7 @@ pub fn energy(rings: &[Ring]) -> String {
 /// First modes that ring on, rad a tick.
 const TURNS: [f64; 5] = [1e-3, 1e-2, 0.1, 1.0, 3.0];
 
-/// Ticks of [`long`] in all.
+/// Ticks of [`long()`] in all.
 pub fn long_ticks(ticks: u64) -> u64 {
     (3 + TURNS.len() as u64 + 1) * ticks
 }

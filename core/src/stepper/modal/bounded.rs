@@ -28,7 +28,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let settled = self.fastest.to_f64();
         let carries = |rate: f64| {
             let share = rate / f64::from(SHARES);
-            let bounded = |i| self.held(f64::from(i) * share, false).is_bounded(20, 100.0);
+            let bounded = |i| self.held(f64::from(i) * share, false).stays_bounded(20, 100.0);
             rate <= settled || (1..=SHARES).all(bounded)
         };
         if carries(rate) {
@@ -45,7 +45,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// at a predicted state, as within plain cubics; faster ones take the general step.
     pub(super) fn fastest_plain(&self, omega: &[f64; K]) -> f64 {
         let mut rate = surely_plain(&self.spin, omega, self.tick);
-        while rate * self.tick < 1.0 && self.held(rate * RATIO, true).is_bounded(10, 2.0) {
+        while rate * self.tick < 1.0 && self.held(rate * RATIO, true).stays_bounded(10, 2.0) {
             rate *= RATIO;
         }
         rate
@@ -55,7 +55,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// turning.
     fn held(&self, rate: f64, plain: bool) -> Step<T, K> {
         let hub = Hub { rate: T::from_f64(rate), cos: T::ZERO, ..Hub::ZERO };
-        let level = Self { alpha: T::ZERO, ..self.clone() };
+        let level = Self { alpha: T::ZERO, ..*self };
         Step(core::array::from_fn(|k| {
             core::array::from_fn(|part| {
                 let mut y = [[T::ZERO; K]; 3];
@@ -76,7 +76,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 impl<T: Scalar, const K: usize> Step<T, K> {
     /// Whether the mean of the eigenvalues' powers stays below `most` through `2^doublings` ticks: a
     /// trace, which does not depend on how the state is scaled.
-    fn is_bounded(mut self, doublings: u32, most: f64) -> bool {
+    fn stays_bounded(mut self, doublings: u32, most: f64) -> bool {
         let most = T::from_f64(most * 2.0 * K as f64);
         (0..doublings).all(|_| {
             self = Self(self.0.map(|part| part.map(|image| self.of(&image))));
