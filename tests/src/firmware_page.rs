@@ -15,6 +15,9 @@ use crate::{firmware, image, root};
 const INSTRUCTIONS: u32 = 156_250;
 const SHARE: u32 = INSTRUCTIONS / 2;
 
+/// The application's own stepper in the instruction table.
+const OWN: &str = "newmark 1 nodal";
+
 /// A block of a page: what is between its two lines is written by the command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
@@ -135,8 +138,9 @@ fn axes(both: u32) -> Result<String, String> {
     for line in table.lines().skip(1) {
         let cells: Vec<&str> = line.split(',').collect();
         let &[method, size, quality, skip, _, worst, ..] = cells.as_slice() else { continue };
-        // A rigid arm's rows name the motion where it is not the cubic.
-        if skip.contains("no-spin") || method == "rigid" && !quality.is_empty() {
+        // A plan is no tick; a rigid arm's rows name the motion where it is not the cubic.
+        let other_motion = method == "rigid" && !quality.is_empty();
+        if method == "plan" || skip.contains("no-spin") || other_motion {
             continue;
         }
         let name = [method, size, quality].join(" ");
@@ -146,8 +150,8 @@ fn axes(both: u32) -> Result<String, String> {
             None => methods.push((name.trim().to_owned(), worst)),
         }
     }
-    let own = methods.iter().find(|(name, _)| name == "newmark 1 consistent");
-    let own = own.ok_or(format!("{}: no newmark 1 consistent", path.display()))?.1;
+    let own = methods.iter().find(|(name, _)| name == OWN);
+    let own = own.ok_or(format!("{}: no {OWN}", path.display()))?.1;
     let beside = (both / 2).saturating_sub(own);
     let mut text = format!(
         "Beside the generator the application takes {beside} instructions an axis and tick.\n\n\
