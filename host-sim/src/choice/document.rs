@@ -10,7 +10,7 @@ use super::summary::Summary;
 use super::verdict::Verdict;
 use crate::error::Error;
 use crate::plot::{Axis, Chart, Colour, Dash, Series};
-use crate::sweep::tables::aligned;
+use crate::sweep::tables::{aligned, grouped};
 
 /// Borders of the histogram of true error over tolerance.
 const BORDERS: [f64; 8] = [0.0, 1e-3, 1e-2, 0.1, 0.5, 0.9, 1.0, f64::INFINITY];
@@ -208,15 +208,6 @@ fn percent(n: usize, of: usize) -> String {
     if of == 0 { "–".into() } else { format!("{:.2} %", 100.0 * n as f64 / of as f64) }
 }
 
-/// With a comma between thousands.
 fn thousands(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        let _ = write!(text, "{digit}");
-    }
-    text
+    grouped(n as u64)
 }

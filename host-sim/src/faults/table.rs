@@ -1,7 +1,7 @@
 //! The campaign as a table.
 
 use super::campaign::Outcome;
-use crate::sweep::tables::aligned;
+use crate::sweep::tables::{aligned, grouped};
 
 /// A line a fault, in Markdown: what was injected, how often, what came out.
 pub fn markdown(rows: &[(&str, Outcome)]) -> String {
@@ -54,17 +54,4 @@ pub fn refusals(rows: &[(&str, Outcome)]) -> String {
     let counts: Vec<String> =
         all.refused.iter().map(|(kind, count)| format!("{kind} {}", grouped(*count))).collect();
     format!("Refused: {}.\n", counts.join(", "))
-}
-
-/// Thousands apart.
-fn grouped(count: u64) -> String {
-    let digits = count.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -7,20 +7,7 @@ use super::energy::Ring;
 use super::long;
 use super::summary::{Summary, bound};
 use crate::error::Error;
-use crate::sweep::tables::aligned;
-
-/// Thousands apart.
-pub fn grouped(count: u64) -> String {
-    let digits = count.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
+use crate::sweep::tables::{aligned, grouped};
 
 fn words<const N: usize>(line: [&str; N]) -> Vec<String> {
     line.map(str::to_owned).to_vec()
