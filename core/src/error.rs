@@ -169,6 +169,11 @@ impl fmt::Display for Error {
                 "move.duration = {duration}: too short for the arm to arrive at rest; accepted is \
                  from {shortest:.6} s, 0.9 first periods"
             ),
+            Self::NotStill { duration, residual } if !residual.is_finite() => write!(
+                f,
+                "move.duration = {duration}: the arm would be bent out of all shape on its way; \
+                 accepted is a longer move, or a smaller angle in rad"
+            ),
             Self::NotStill { duration, residual } => write!(
                 f,
                 "move.duration = {duration}: the arm would ring with {:.3} % of its length; accepted \

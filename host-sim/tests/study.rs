@@ -4,10 +4,11 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
+use stillbeam_sim::plan::contest::{Entry, ROBUST};
 use stillbeam_sim::report;
 use stillbeam_sim::study::{REPORT, Study};
 
-static STUDY: LazyLock<Study> = LazyLock::new(|| Study::compute().unwrap());
+static STUDY: LazyLock<Study> = LazyLock::new(|| Study::compute(&|| ()).unwrap());
 static PAGE: LazyLock<String> = LazyLock::new(|| report::render(&STUDY).unwrap());
 
 #[track_caller]
@@ -160,12 +161,36 @@ fn every_picture_is_well_formed() {
         assert!(count("text") > 6 && count("polyline") > 2, "{:?}", root.attribute("aria-label"));
         pictures += 1;
     }
-    assert_eq!(pictures, 1 + 4 + 3 + 8 + 1 + 6);
+    assert_eq!(pictures, 1 + 4 + 3 + 8 + 1 + 6 + 2);
 }
 
 fn program(folder: &Path, args: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_stillbeam-sim"));
     command.current_dir(folder).args(args).output().unwrap()
+}
+
+/// The table of the report: every motion by name, and the still ones below the others.
+#[test]
+fn still_moves_leave_less_than_the_usual_ones() {
+    let found = &STUDY.stillness;
+    let residual = |name: &str| {
+        let entry = found.entry(name).unwrap_or_else(|| panic!("{name} is missing"));
+        entry.nominal().residual
+    };
+    for base in ["cubic", "quintic", "cycloid", "s-curve"] {
+        for name in ["", ", ZV", ", ZVD", ", EI", ", MZV"].map(|shaper| format!("{base}{shaper}")) {
+            assert!(residual(&name) > 100.0 * residual("still"), "{name}");
+        }
+    }
+    close(residual("quintic, EI"), 0.0768, 5e-4);
+    let robust = found.entry(ROBUST).unwrap();
+    let most = |entry: &Entry| entry.residuals().fold(0.0, f64::max);
+    assert!(found.entries.iter().all(|entry| most(entry) >= most(robust)));
+    // The curves go through the table.
+    for curve in &found.curves {
+        let (_, left) = curve.points[curve.points.len() / 2];
+        close(left, residual(&curve.motion), 1e-9);
+    }
 }
 
 /// Names and contents, by name.
@@ -204,6 +229,8 @@ fn without_a_command_the_study_runs_and_a_second_run_is_the_same() {
         "profiles.csv",
         REPORT,
         "setpoints.csv",
+        "stillness-swing.csv",
+        "stillness.csv",
     ];
     assert_eq!(names, expected);
     assert!(first == second, "the second run differs");

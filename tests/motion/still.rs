@@ -135,6 +135,25 @@ fn a_robust_move_stays_still_across_its_band() {
     assert!(scaled < 10.0, "{scaled}");
 }
 
+/// Where three arms are nearly one and the time is short, the outer two are brought to rest.
+#[test]
+fn a_narrow_band_in_a_short_time_is_planned_for_two_arms() {
+    let arm = member_a();
+    let planner = Still::<f32, 2>::robust(&arm, TICK, 0.05).expect("planner");
+    let plan = planner.plan(0.0, PI, 1.5 * planner.first_period()).expect("plan");
+    let left = [-0.04, 0.0, 0.04].map(|error| residual(&arm, &plan, 0.0, error));
+    assert!(left[0] < 1e-3 && left[2] < 1e-3 && left[1] < 0.015, "{left:?}");
+    assert!((plan.residual - left[1]).abs() < 1e-4, "{} {left:?}", plan.residual);
+}
+
+/// An angle meant in degrees: refused in words, not in a number that is none.
+#[test]
+fn a_move_that_no_arm_can_make_is_refused_in_words() {
+    let planner = Still::<f32, 2>::new(&member_a(), TICK).expect("planner");
+    let refused = planner.plan(0.0, 180.0, 1.7).expect_err("too far").to_string();
+    assert!(refused.contains("accepted is") && !refused.contains("NaN"), "{refused}");
+}
+
 /// The shortest move keeps every limit at every tick, and a tick less would exceed one.
 #[test]
 fn the_shortest_move_keeps_the_limits() {

@@ -29,12 +29,17 @@ impl StillArgs {
         let filled =
             blocks::fill(&text, "still", &found?).map_err(|error| error.within(path.display()))?;
         if !self.check {
-            let picture = path.with_extension("svg");
+            let bar = progress::bar("pictures", document::PICTURE_STEPS);
             let mut files = Files::default();
             files.add(path, |file| file.write_all(filled.as_bytes()))?;
-            document::picture(&mut files, &picture)?;
+            let pictures = document::pictures(&mut files, path, &|| bar.inc(1));
+            bar.finish_and_clear();
+            let pictures = pictures?;
             files.finish()?;
-            println!("{}: filled; {}: drawn", path.display(), picture.display());
+            println!("{}: filled", path.display());
+            for picture in pictures {
+                println!("{}: drawn", picture.display());
+            }
             return Ok(ExitCode::SUCCESS);
         }
         if let Some((old, new)) = blocks::difference(&text, &filled) {

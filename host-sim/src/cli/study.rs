@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
+use stillbeam_sim::progress;
 use stillbeam_sim::study::Study;
 
 #[derive(clap::Args)]
@@ -24,7 +25,10 @@ impl Default for StudyArgs {
 impl StudyArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         Study::check_folder(&self.out)?;
-        let study = Study::compute()?;
+        let bar = progress::bar("reference rod", Study::STEPS);
+        let study = Study::compute(&|| bar.inc(1));
+        bar.finish_and_clear();
+        let study = study?;
         let files = study.write(&self.out)?;
         print(&study);
         if let Some((report, tables)) = files.split_first() {

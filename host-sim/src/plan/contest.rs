@@ -1,18 +1,38 @@
 //! Still moves against other motions of the same duration.
 
+use std::f64::consts::PI;
+
 use rayon::prelude::*;
 use stillbeam::motion::{Shaper, ShaperKind, Still};
 use stillbeam::{Error as CoreError, Move, Profile, Scene};
 
-use super::judge::{Judgement, Motion};
+use super::judge::{self, Judgement, Motion};
 use crate::error::Error;
 use crate::reference::rod;
 
 /// Frequency errors of the table's columns.
 pub const ERRORS: [f64; 7] = [-0.2, -0.1, -0.05, 0.0, 0.05, 0.1, 0.2];
 
+/// Head of the table.
+pub const HEADER: [&str; ERRORS.len() + 4] = [
+    "motion",
+    "\u{2212}20 %",
+    "\u{2212}10 %",
+    "\u{2212}5 %",
+    "0 %",
+    "+5 %",
+    "+10 %",
+    "+20 %",
+    "rate",
+    "acceleration",
+    "torque",
+];
+
 /// Band that the robust entry is planned for.
 pub const SPREAD: f64 = 0.2;
+
+/// Its name.
+pub const ROBUST: &str = "still, robust to \u{b1}20 %";
 
 /// One motion and what it leaves.
 #[derive(Clone, Debug)]
@@ -27,6 +47,20 @@ impl Entry {
     /// Residual for each of [`ERRORS`], fraction of L.
     pub fn residuals(&self) -> impl Iterator<Item = f64> + '_ {
         self.judgements.iter().map(|judgement| judgement.residual)
+    }
+
+    /// A row of the table, see [`HEADER`]: residuals in % of L, rate in π/T, acceleration in π/T²,
+    /// torque in mN m.
+    pub fn cells(&self, duration: f64) -> Vec<String> {
+        let nominal = self.nominal();
+        std::iter::once(self.name.clone())
+            .chain(self.residuals().map(percent))
+            .chain([
+                format!("{:.2}", nominal.rate * duration / PI),
+                format!("{:.2}", nominal.acceleration * duration * duration / PI),
+                format!("{:.1}", 1e3 * nominal.torque),
+            ])
+            .collect()
     }
 
     /// The run with the frequency that was planned for.
@@ -48,7 +82,7 @@ pub fn entries(
     motions
         .into_par_iter()
         .map(|(name, motion)| {
-            let judged = |&error: &f64| motion.judge(arm, error);
+            let judged = |&error: &f64| motion.judge_with(arm, error, &judge::BRISK);
             let judgements = ERRORS.par_iter().map(judged).collect::<Result<_, _>>()?;
             done();
             Ok(Entry { name, judgements })
@@ -83,15 +117,24 @@ pub(super) fn motions(
     }
     let still = Still::<f32, 2>::new(arm, tick)?.plan(0.0, to, duration);
     let robust = Still::<f32, 2>::robust(arm, tick, SPREAD)?.plan(0.0, to, duration);
-    let robust_name = format!("still, robust to \u{b1}{:.0} %", 100.0 * SPREAD);
-    for (name, plan) in [("still".to_owned(), still), (robust_name, robust)] {
+    for (name, plan) in [("still", still), (ROBUST, robust)] {
         match plan {
-            Ok(plan) => all.push((name, Motion::of(0.0, plan.motion(), tick))),
+            Ok(plan) => all.push((name.to_owned(), Motion::of(0.0, plan.motion(), tick))),
             Err(CoreError::NotStill { .. } | CoreError::TooShort { .. }) => {}
             Err(error) => return Err(error.into()),
         }
     }
     Ok(all)
+}
+
+/// A fraction as per cent: three digits, 0.001 at the finest.
+pub(super) fn percent(fraction: f64) -> String {
+    let value = 100.0 * fraction;
+    match value {
+        _ if value >= 10.0 => format!("{value:.1}"),
+        _ if value >= 1.0 => format!("{value:.2}"),
+        _ => format!("{value:.3}"),
+    }
 }
 
 /// Shortest base motion of a shaped one, first periods.

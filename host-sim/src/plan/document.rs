@@ -1,18 +1,18 @@
 //! `docs/still.md`: its tables and its picture, by a command.
 
 use std::f64::consts::PI;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use stillbeam::motion::Still;
-use stillbeam::{Profile, Scene};
+use stillbeam::{Error as CoreError, Profile, Scene};
 
-use super::contest::{self, ERRORS, Entry};
+use super::contest::{self, ERRORS, Entry, percent};
 use super::duration::durations;
-use super::judge::{Judgement, Motion};
+use super::judge::Motion;
+use super::picture;
 use crate::error::Error;
 use crate::output::Files;
-use crate::plot::{Axis, Chart, Colour, Dash, Series};
 use crate::reference::rod;
 use crate::scenes;
 use crate::sweep::tables::aligned;
@@ -26,8 +26,14 @@ const RATIOS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
 /// Durations of the contest, first periods.
 const CONTEST: [f64; 3] = [1.5, 2.0, 3.0];
 
+/// Bands of the table of robust moves.
+const SPREADS: [f64; 2] = [0.05, 0.15];
+
 /// Steps of [`blocks`], for a progress bar.
-pub const STEPS: usize = 150;
+pub const STEPS: usize = 112;
+
+/// Steps of [`pictures`].
+pub const PICTURE_STEPS: usize = 28;
 
 /// Everything between markers, by name.
 pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<(String, String)>, Error> {
@@ -39,6 +45,7 @@ pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<(String, String)>, Error> 
         let entries = contest::entries(&arm, PI, duration, TICK, done)?;
         blocks.push((format!("contest-{ratio}"), contest_table(&entries, duration)));
     }
+    blocks.push(("robust".to_owned(), robust_table(done)?));
     blocks.push(("durations".to_owned(), duration_table(&arm, period)?));
     Ok(blocks)
 }
@@ -92,26 +99,57 @@ fn residuals(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
 }
 
 fn contest_table(entries: &[Entry], duration: f64) -> String {
-    let mut header = vec!["motion".to_owned()];
-    header.extend(ERRORS.map(|error| {
-        format!("{:+.0} %", 100.0 * error).replace('-', "\u{2212}").replace("+0 %", "0 %")
-    }));
-    header.extend(["rate", "acceleration", "torque"].map(str::to_owned));
-    let mut lines = vec![header];
-    let scale = |judged: &Judgement| {
-        [
-            format!("{:.2}", judged.rate * duration / PI),
-            format!("{:.2}", judged.acceleration * duration * duration / PI),
-            format!("{:.1}", 1e3 * judged.torque),
-        ]
-    };
-    for entry in entries {
-        let mut line = vec![entry.name.clone()];
-        line.extend(entry.residuals().map(percent));
-        line.extend(scale(entry.nominal()));
-        lines.push(line);
-    }
-    aligned(&lines)
+    let header = contest::HEADER.map(str::to_owned).to_vec();
+    let rows = entries.iter().map(|entry| entry.cells(duration));
+    aligned(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
+}
+
+/// Robust moves for bands of other widths, with damping and gravity too.
+fn robust_table(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
+    let mut header = ["arm", "planned for", "duration"].map(str::to_owned).to_vec();
+    header.extend(contest::HEADER[1..=ERRORS.len()].iter().map(|&error| error.to_owned()));
+    header.push("acceleration".to_owned());
+    let shown = [0, 5, 6];
+    let arms: Vec<_> = arms()?.into_iter().enumerate().filter(|(k, _)| shown.contains(k)).collect();
+    let cases: Vec<_> = arms
+        .iter()
+        .flat_map(|(_, arm)| SPREADS.map(|spread| (arm, spread)))
+        .flat_map(|(arm, spread)| CONTEST.map(|ratio| (arm, spread, ratio)))
+        .collect();
+    let rows = cases
+        .into_par_iter()
+        .map(|((name, arm), spread, ratio)| {
+            let period = rod::first_period(arm)?;
+            let tick = TICK.min(period / 10.0);
+            let planner = Still::<f32, 2>::robust(arm, tick, spread)?;
+            let found = planner.plan(0.0, PI, ratio * period);
+            let mut line = vec![
+                (*name).to_owned(),
+                format!("\u{b1}{:.0} %", 100.0 * spread),
+                format!("{ratio} T\u{2081}"),
+            ];
+            let plan = match found {
+                Ok(plan) => plan,
+                // No move for three arms in so short a time.
+                Err(CoreError::NotStill { .. }) => {
+                    line.extend(std::iter::repeat_n("\u{2013}".to_owned(), ERRORS.len() + 1));
+                    done();
+                    return Ok(line);
+                }
+                Err(error) => return Err(error.into()),
+            };
+            let motion = Motion::of(0.0, plan.motion(), tick);
+            for error in ERRORS {
+                line.push(percent(motion.judge(arm, error)?.residual));
+            }
+            let duration = plan.duration();
+            line.push(format!("{:.2}", plan.peaks.acceleration * duration * duration / PI));
+            done();
+            Ok(line)
+        })
+        .collect::<Result<Vec<_>, Error>>()?;
+    let lines: Vec<_> = std::iter::once(header).chain(rows).collect();
+    Ok(aligned(&lines))
 }
 
 fn duration_table(arm: &Scene, period: f64) -> Result<String, Error> {
@@ -133,48 +171,24 @@ fn duration_table(arm: &Scene, period: f64) -> Result<String, Error> {
     Ok(aligned(&lines))
 }
 
-/// A fraction as per cent: three digits, 0.001 at the finest.
-fn percent(fraction: f64) -> String {
-    let value = 100.0 * fraction;
-    match value {
-        _ if value >= 10.0 => format!("{value:.1}"),
-        _ if value >= 1.0 => format!("{value:.2}"),
-        _ => format!("{value:.3}"),
-    }
-}
-
-/// Residual over frequency error at equal total duration: what a move is to be chosen by.
-pub fn picture(files: &mut Files, path: &Path) -> Result<(), Error> {
+/// Draws the pictures beside the text, `still.svg` and `still-swing.svg` for `still.md`. Returns
+/// their paths.
+pub fn pictures(
+    files: &mut Files,
+    text: &Path,
+    done: &(dyn Fn() + Sync),
+) -> Result<[PathBuf; 2], Error> {
     let arm = arm("a-tip30")?;
     let period = rod::first_period(&arm)?;
     let duration = (2.0 * period / TICK).round() * TICK;
-    let shown = [
-        ("quintic", "quintic", Colour::Grey, Dash::Dotted),
-        ("quintic, ZV", "ZV on a quintic", Colour::Orange, Dash::Dashed),
-        ("quintic, ZVD", "ZVD on a quintic", Colour::Green, Dash::Dashed),
-        ("quintic, EI", "EI on a quintic", Colour::Purple, Dash::Dashed),
-        ("still", "still", Colour::Blue, Dash::Solid),
-        ("robust", "still, robust to \u{b1}20 %", Colour::Vermilion, Dash::Solid),
-    ];
-    let motions = contest::motions(&arm, PI, duration, TICK)?;
-    let mut chart = Chart::new(
-        "What is left after a half turn in two first periods, delay of the shapers included",
-        Axis::tight("error of the arm's frequency, %"),
-        Axis::log("residual vibration, % of the arm's length"),
-    )
-    .sized(760, 460);
-    for (name, label, colour, dash) in shown {
-        let found =
-            motions.iter().find(|(is, _)| is == name || (name == "robust" && is.contains(name)));
-        let Some((_, motion)) = found else { continue };
-        let points = (-20..=20)
-            .into_par_iter()
-            .map(|percent| f64::from(percent) / 100.0)
-            .map(|error| Ok((100.0 * error, 100.0 * motion.judge(&arm, error)?.residual.max(1e-5))))
-            .collect::<Result<Vec<_>, Error>>()?;
-        let width = if dash == Dash::Solid { 3 } else { 2 };
-        chart = chart.with(Series::line(label, points).colour(colour).dash(dash).width(width));
+    let curves = picture::curves(&arm, PI, duration, TICK, done)?;
+    let entries = contest::entries(&arm, PI, duration, TICK, done)?;
+    let swing = picture::swing(&entries, duration, arm.link.length);
+    let stem = text.file_stem().unwrap_or_default().to_string_lossy();
+    let paths = [text.with_extension("svg"), text.with_file_name(format!("{stem}-swing.svg"))];
+    for (chart, path) in [picture::sensitivity(&curves), swing].iter().zip(&paths) {
+        let svg = chart.svg()?;
+        files.add(path, |file| file.write_all(svg.as_bytes()))?;
     }
-    let svg = chart.svg()?;
-    files.add(path, |file| file.write_all(svg.as_bytes()))
+    Ok(paths)
 }

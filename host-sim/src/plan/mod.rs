@@ -7,6 +7,7 @@ pub mod document;
 pub mod duration;
 pub mod judge;
 pub mod page;
+pub mod picture;
 pub mod request;
 
 pub use judge::Judgement;

@@ -8,6 +8,7 @@ mod findings;
 pub mod parts;
 mod profiles;
 mod setpoints;
+mod stillness;
 
 use maud::{Markup, html};
 
@@ -38,6 +39,7 @@ pub fn render(study: &Study) -> Result<String, Error> {
         fig6::section(study)?,
         profiles::section(study)?,
         setpoints::section(study)?,
+        stillness::section(study)?,
     ];
     let body = html! {
         header { (findings::head(study)) (findings::in_short(study)) }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{Run, Study};
 use crate::error::Error;
 use crate::output::Files;
+use crate::plan::picture;
 use crate::table::Row;
 use crate::{report, table};
 
@@ -65,6 +66,8 @@ impl Study {
             self.member_columns(),
             self.member_summary(),
             self.profile_columns(),
+            self.stillness_columns(),
+            self.swing_columns(),
         ]
     }
 
@@ -150,6 +153,34 @@ impl Study {
         Columns::new("fig6-summary.csv", &header, self.members.members.iter().map(row).collect())
     }
 
+    fn stillness_columns(&self) -> Columns {
+        let curves = &self.stillness.curves;
+        let header = std::iter::once("frequency_error".to_owned())
+            .chain(curves.iter().map(|curve| format!("residual_{}_l", column(&curve.motion))));
+        let count = curves.first().map_or(0, |curve| curve.points.len());
+        let row = |k: usize| {
+            std::iter::once(curves[0].points[k].0)
+                .chain(curves.iter().map(|curve| curve.points[k].1))
+                .collect()
+        };
+        let rows = (0..count).map(row).collect();
+        Columns { file: "stillness.csv", header: header.collect(), rows }
+    }
+
+    fn swing_columns(&self) -> Columns {
+        let entries: Vec<_> = picture::swung(&self.stillness.entries).collect();
+        let header = entries.iter().flat_map(|entry| {
+            let name = column(&entry.name);
+            [format!("t_{name}_s"), format!("deflection_{name}_m")]
+        });
+        // A shaped motion may last a tick less, and has a row or two less.
+        let samples = || entries.iter().map(|entry| &entry.nominal().samples);
+        let count = samples().map(|samples| samples.len()).min().unwrap_or(0);
+        let row = |k: usize| samples().flat_map(|all| [all[k].t, all[k].deflection]).collect();
+        let rows = (0..count).map(row).collect();
+        Columns { file: "stillness-swing.csv", header: header.collect(), rows }
+    }
+
     fn profile_columns(&self) -> Columns {
         let curves = &self.profiles.curves;
         let header = std::iter::once("duration_periods".to_owned())
@@ -163,6 +194,12 @@ impl Study {
         let rows = (0..count).map(row).collect();
         Columns { file: "profiles.csv", header: header.collect(), rows }
     }
+}
+
+/// A motion's name as part of a column's.
+fn column(name: &str) -> String {
+    let word = |part: &str| part.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "");
+    name.split([' ', ',']).map(word).filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_")
 }
 
 /// Tip X and deflection of named runs with the same ticks, two columns each.

@@ -11,6 +11,7 @@ pub mod members;
 pub mod profiles;
 pub mod setpoints;
 pub mod steps;
+pub mod stillness;
 pub mod tip_path;
 
 pub use files::REPORT;
@@ -41,11 +42,17 @@ pub struct Study {
     pub profiles: profiles::Profiles,
     /// Setpoints of one move.
     pub setpoints: setpoints::Setpoints,
+    /// Moves that arrive still, which the paper has none of.
+    pub stillness: stillness::Stillness,
 }
 
 impl Study {
-    /// Runs everything, in well under a second. Writes nothing.
-    pub fn compute() -> Result<Self, Error> {
+    /// Steps of [`Self::compute`], for a progress bar.
+    pub const STEPS: usize = 28;
+
+    /// Runs everything, in a few seconds. Writes nothing. `done` is called about [`Self::STEPS`]
+    /// times.
+    pub fn compute(done: &(dyn Fn() + Sync)) -> Result<Self, Error> {
         Ok(Self {
             link_mass: link_mass::LinkMass::compute()?,
             tip_path: tip_path::TipPath::compute()?,
@@ -54,6 +61,7 @@ impl Study {
             members: members::Members::compute()?,
             profiles: profiles::Profiles::compute()?,
             setpoints: setpoints::Setpoints::compute()?,
+            stillness: stillness::Stillness::compute(done)?,
         })
     }
 }

@@ -64,7 +64,8 @@ const LONG: f64 = 1.4;
 ///
 /// A robust planner takes the move for three arms at once, with frequencies at `1 − 0.8 δ`, 1 and
 /// `1 + 0.8 δ` of the scene's. The outer two arrive at rest; the scene's own too where that costs
-/// less than twice the peak, else it keeps as much vibration as that price leaves.
+/// less than twice the peak, else it keeps as much vibration as that price leaves, or, where no such
+/// move is found, what the outer two leave it.
 #[derive(Clone, Debug)]
 pub struct Still<T, const K: usize> {
     chain: Chain<T, K>,

@@ -36,6 +36,8 @@ pub(super) enum Search {
     First,
     /// The second too, where it is left ringing by more than [`RINGS`].
     Second,
+    /// The first, of the outer arms of a robust planner only.
+    Outer,
 }
 
 /// A still move and what its planner expects of it.
@@ -131,7 +133,13 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             Search::Second => Search::First,
             other => other,
         };
-        let plan = self.search_in(manner, from, flex, to, duration, first)?;
+        let plan = match self.search_in(manner, from, flex, to, duration, first) {
+            // Three arms that are nearly one, or a short time, ask for too much.
+            Err(Error::NotStill { .. }) if self.robust && search != Search::None => {
+                self.search_in(manner, from, flex, to, duration, Search::Outer)
+            }
+            found => found,
+        }?;
         let alone = manner != Manner::Acceleration || self.robust;
         if search != Search::Second || alone || plan.residual < RINGS {
             return Ok(plan);
@@ -172,6 +180,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let steps = ticks * stride.steps;
         let curve = stride.fine(&path).segment(&[0.0; BULGE]).cast::<T>();
         let arms = self.arms(stride);
+        let sought = if search == Search::Outer { 1..arms.len() } else { 0..arms.len() };
         let (mut begin, mut rest) = ([Flex::STRAIGHT; MAX_ARMS], [Flex::STRAIGHT; MAX_ARMS]);
         for (n, arm) in arms.iter().enumerate() {
             if self.scene.gravity != 0.0 {
@@ -189,6 +198,9 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             if let Some(flex) = flex {
                 begin[n] = *flex;
             }
+            if !sought.contains(&n) {
+                continue;
+            }
             linear.add(
                 &arm.oscillation[0],
                 &c,
@@ -201,7 +213,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             }
         }
         let each = if half { 1 } else { 2 };
-        let tolerated = if arms.len() == MAX_ARMS {
+        let tolerated = if sought.len() == MAX_ARMS {
             linear.tolerate(each, &c, manner, duration)
         } else {
             [T::ZERO; 2]
@@ -211,8 +223,8 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let aimed = if half { [Flex::STRAIGHT; MAX_ARMS] } else { rest };
         let most = match search {
             Search::None => 1,
-            Search::First | Search::Second if arms.len() == 1 => MOST,
-            Search::First | Search::Second => MOST_OF_SEVERAL,
+            _ if sought.len() == 1 => MOST,
+            _ => MOST_OF_SEVERAL,
         };
         let fly = |n: usize, bulge: &[T; BULGE]| {
             let curve = curve.bulged(bulge);
@@ -224,12 +236,12 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             let bulge = effort.bulge(aim);
             let mut miss = [T::ZERO; MAX_AIMS];
             let mut rung = [T::ZERO; 2];
-            for (n, arm) in arms.iter().enumerate() {
+            for (row, n) in sought.clone().enumerate() {
                 let end = fly(n, &bulge);
-                let left = arm.amplitudes(0, &end, &aimed[n]);
-                miss[each * n..each * (n + 1)].copy_from_slice(&left[..each]);
+                let left = arms[n].amplitudes(0, &end, &aimed[n]);
+                miss[each * row..each * (row + 1)].copy_from_slice(&left[..each]);
                 if n == 0 && K > 1 {
-                    rung[..each].copy_from_slice(&arm.amplitudes(1, &end, &aimed[n])[..each]);
+                    rung[..each].copy_from_slice(&arms[n].amplitudes(1, &end, &aimed[n])[..each]);
                 }
             }
             for i in 0..each {
@@ -255,6 +267,14 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let mut flights = found.evaluations;
         let mut rings = amplitude(&second);
         let mut residual = missed + amplitude(&tolerated);
+        if search == Search::Outer {
+            let end = fly(0, &d);
+            flights += 1;
+            residual = amplitude(&arms[0].amplitudes(0, &end, &aimed[0])[..each]);
+            if K > 1 {
+                rings = amplitude(&arms[0].amplitudes(1, &end, &aimed[0])[..each]);
+            }
+        }
         if search == Search::Second && arms.len() == 1 && rings > RINGS {
             let arm = &arms[0];
             let mut other = Linear::new();
