@@ -132,7 +132,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             let _ = self.queue.push_back(*segment);
         })?;
         let fits = if needed > free { Err(Error::QueueFull { needed, free }) } else { Ok(()) };
-        if let Err(error) = fits.and(self.stepper.admit(&outline.peaks)) {
+        if let Err(error) = fits.and(self.stepper.admit(&outline.peaks, outline.end.rate)) {
             for _ in 0..needed.min(free) {
                 self.queue.pop_back();
             }

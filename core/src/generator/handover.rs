@@ -127,7 +127,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if needed > free {
             return Err(Rejected::QueueFull { needed, free });
         }
-        self.stepper.admit(&planned.outline.peaks).map_err(Rejected::Arm)?;
+        let Outline { peaks, end, .. } = &planned.outline;
+        self.stepper.admit(peaks, end.rate).map_err(Rejected::Arm)?;
         for segment in &planned.segments {
             // There is room: just counted.
             let _ = self.queue.push_back(segment.shifted(S::Scalar::from_f64(turned)));

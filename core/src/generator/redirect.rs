@@ -49,7 +49,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// ```
     pub fn redirect(&mut self, lead: u32, plan: &StillMove) -> Result<(), Error> {
         self.limits.admit(&plan.peaks)?;
-        self.stepper.admit(&plan.peaks)?;
+        self.stepper.admit(&plan.peaks, 0.0)?;
         let place = self.place(lead);
         let here = Origin::of(&self.hub_of(&place));
         if here != plan.from {

@@ -50,8 +50,9 @@ pub trait Stepper {
         true
     }
 
-    /// Whether a move with these peaks is one that the stepper was set up for. Not for the tick.
-    fn admit(&self, _peaks: &Peaks) -> Result<(), Error> {
+    /// Whether a move with these peaks, after which the hub goes on turning at `held` rad/s, is one that
+    /// the stepper was set up for. Not for the tick.
+    fn admit(&self, _peaks: &Peaks, _held: f64) -> Result<(), Error> {
         Ok(())
     }
 

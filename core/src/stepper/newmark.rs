@@ -62,6 +62,8 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     /// `K`; the identity along the principal axes.
     stiffness: Band<T, N, W>,
     terms: Terms,
+    /// Fraction of `d` taken a tick from an arm that nothing damps, its hub at rest.
+    calm: T,
     /// The tip's deflection is the last degree of freedom, not the last but one.
     tip_last: bool,
     /// Weights of the squares of `c` and of `d` in what the arm still swings by, of what it may when it
@@ -83,12 +85,30 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     weight: [T; N],
     /// `g S`, S the first moment.
     moment: T,
+    /// Largest `c`: an arm that gravity feeds without end, its hub turning at twice its frequency, stays
+    /// finite.
+    most: T,
 }
 
 /// Heaviest payload along principal axes, in link masses over the roundings of the tick's precision:
 /// 17,000 of them in f32. The effective matrix is then as ill-conditioned as the squares of the first
 /// two frequencies are apart, 80 times the ratio of the masses.
 const HEAVIEST: f64 = 0.002;
+
+/// By how much more `K` counts in the effective matrix than it should, in roundings a degree of freedom.
+/// Where `4/h² M` is small against it, a `c` beyond `q*` feeds the arm: the rounding of the two must not
+/// get it there. A mode that the tick resolves does not notice.
+const MARGIN: f64 = 4.0;
+
+/// What the rounding of `K q` may feed an arm by, in roundings a tick: in f32, undamped arms of four
+/// and eight elements gained 1e-8 and 1e-7 of their energy a tick.
+const fn calm<const N: usize>() -> f64 {
+    let share = N as f64 / 16.0;
+    2.5 * share * share * share
+}
+
+/// Largest `c`, in link lengths: far beyond anything that means something.
+const MOST_LENGTHS: f64 = 1e6;
 
 /// Terms that the scene needs; the others cost nothing but a branch that never changes.
 #[derive(Clone, Copy, Debug)]
@@ -146,7 +166,9 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         let vector = |v: &[P; N]| onto(&principal, v);
         let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));
         let damping = mass.scaled(per_half * alpha).plus(per_half * beta, &stiffness);
-        let effective = damping.plus(per_half * per_half, &mass).plus(P::ONE, &stiffness);
+        let margin = if Self::PRINCIPAL { 0.0 } else { MARGIN * N as f64 * T::EPSILON.to_f64() };
+        let stiffer = P::ONE + P::from_f64(margin);
+        let effective = damping.plus(per_half * per_half, &mass).plus(stiffer, &stiffness);
         // A tick so long that `4/h² M` is a rounding of `K` would leave a mass that is not positive, and
         // the step would feed the arm: refused from where a pivot of the one is that of the other.
         let inertia = mass.factored();
@@ -190,6 +212,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
                 gravity: gravity != P::ZERO,
                 damping: alpha != P::ZERO || beta != P::ZERO,
             },
+            calm: T::EPSILON * T::from_f64(calm::<N>()),
             tip_last: model.tip() + 1 == N,
             awake: [weight / stiff, weight].map(round),
             tick,
@@ -202,6 +225,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             bent: tension.map(round).half_form(),
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * scene.first_moment()),
+            most: T::from_f64(MOST_LENGTHS * scene.link.length.to_f64()),
         })
     }
 
@@ -322,7 +346,16 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         for i in 0..N {
             force[i] += changed[i] + self.weight[i] * cos;
         }
-        self.effective.plus(T::ONE, &change).solve(&force)
+        let restoring = self.effective.plus(T::ONE, &change).solve(&force);
+        restoring.map(|c| {
+            if c > self.most {
+                self.most
+            } else if c < -self.most {
+                -self.most
+            } else {
+                c
+            }
+        })
     }
 
     /// Adds what damping puts on a hub that turns.
@@ -354,7 +387,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
 
     /// Refuses rates at which the arm has no stiffness left, upright where there is gravity. Lumped
     /// mass overrates what turning softens: one element gives way at 1.5 ω₁.
-    fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
+    fn admit(&self, peaks: &Peaks, _: f64) -> Result<(), Error> {
         if !Self::PRINCIPAL || !self.terms.spin {
             return Ok(());
         }
@@ -432,11 +465,16 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
                 force[i] += damping[i];
             }
         }
-        let restoring = if self.terms.gravity {
+        let mut restoring = if self.terms.gravity {
             self.solve_hanging(force, &q, self.tension.scaled(-hub.sin), hub.cos)
         } else {
             self.factors.solve(&force)
         };
+        if !Self::PRINCIPAL && !self.terms.damping {
+            for i in 0..N {
+                restoring[i] += self.calm * d[i];
+            }
+        }
         *state = Self::correct(q, d, restoring);
     }
 

@@ -160,7 +160,7 @@ fn ring_on<S: Stepper>(
     let (mut sum, mut looks) = (0.0, 0);
     for tick in 0..ticks {
         // As the generator has it.
-        if S::PLAIN {
+        if S::RESTS {
             stepper.swing(&mut state, &hub);
         } else {
             stepper.step(&mut state, &hub, &hub);

@@ -36,9 +36,10 @@ impl Survey {
 
 impl<T: Scalar, const K: usize> Still<T, K> {
     /// Flies the scene's own arm through a move, once: from the state that the move was planned
-    /// from.
+    /// from. An arm that is not at rest then is flown in short steps whatever the duration: what the
+    /// long ones of a search miss of one that rings hard has reached 0.15 % of L.
     pub fn survey(&self, plan: &StillMove, flex: Option<&Flex<T, K>>) -> Survey {
-        let stride = self.stride(plan.duration());
+        let stride = if flex.is_some() { &self.fine } else { self.stride(plan.duration()) };
         let path = stride.fine(&plan.path());
         let curve = path.segment(&plan.bulge).cast::<T>();
         let arm = &stride.arms[0];

@@ -170,8 +170,8 @@ impl<T: Scalar> Stepper for Auto<T> {
         each!(self, s => s.is_directed())
     }
 
-    fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
-        each!(self, s => s.admit(peaks))
+    fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error> {
+        each!(self, s => s.admit(peaks, held))
     }
 
     fn equilibrium(&self, hub: &Hub<T>) -> AutoState<T> {

@@ -15,13 +15,16 @@
 //! straight link's: the tick rarely resolves that mode, and then a frequency that varies would
 //! make an explicit step unstable; what drives it, and how it bends, is complete to second order.
 
+mod calm;
 mod flex;
 mod mode;
 mod polynomial;
 mod remainder;
+mod settle;
 
 pub use flex::Flex;
 
+use calm::Calm;
 use remainder::{Remainder, Value};
 
 use mode::Mode;
@@ -65,6 +68,7 @@ pub struct Elastica<T, const K: usize> {
     /// Distance from where a mode rests, in `ωa`, below which it sleeps.
     asleep: [T; K],
     quality: Quality,
+    calm: Calm<T, K>,
     /// What a kink of the motion inside a tick moves `ωa` and `p̃` by, see [`jolt`].
     jolt: [[T; 2]; K],
     tick: f64,
@@ -118,6 +122,10 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// Least and greatest tip angle that the expansion is fitted for, rad.
     pub const BEND: (f64, f64) = (0.05, 2.0);
 
+    /// Fastest turn that may go on and on, rad a tick: beyond it the predictor's spin terms feed the arm,
+    /// too little to matter within a move.
+    pub const HELD: f64 = 0.1;
+
     /// For steps of `tick` s and tip angles up to `bend` rad relative to the hub, in
     /// [`Self::BEND`]: see [`Rod::bend`]. f64 inside.
     pub fn new(rod: &Rod<K>, tick: f64, quality: Quality, bend: f64) -> Result<Self, Error> {
@@ -125,7 +133,18 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         let bend = Error::check("bend", bend, Self::BEND.0, Self::BEND.1, "rad")?;
         let damping = rod.scene().damping;
         check_turns(rod.frequency(), damping.alpha, damping.beta, tick)?;
-        Ok(Self::fitted(rod, tick, quality, bend, bend))
+        let stepper = Self::fitted(rod, tick, quality, bend, bend);
+        if !stepper.rests() {
+            let mut shorter = tick;
+            for _ in 0..HALVINGS {
+                shorter *= 0.5;
+                if Self::fitted(rod, shorter, quality, bend, bend).rests() {
+                    break;
+                }
+            }
+            Error::check("solver.tick", tick, 1e-6, shorter, "s")?;
+        }
+        Ok(stepper)
     }
 
     /// Admits moves that bend the link by `bend`, but is fitted up to `range`.
@@ -156,6 +175,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
                 [omega * a, p].map(T::from_f64)
             }),
             remainder: Remainder::new(rod, &expansion, &range),
+            calm: Calm::new(rod, step, &range),
             asleep: core::array::from_fn(|k| {
                 let floor = super::sleep_floor::<f64>(scene.link.length, expansion.linear[k].tip);
                 T::from_f64(rod.frequency()[k] * floor)
@@ -203,8 +223,10 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// A step without damping and gravity of an arm whose hub rests.
     #[inline(always)]
     fn ring(&self, state: &mut ElasticaState<T, K>, hub: &Hub<T>) {
+        let calm = self.calm.at(&state.y[0], &state.offset[0]);
         let ElasticaState { y, offset, drift, .. } = state;
-        let guess = core::array::from_fn(|k| self.modes[k].swing(y[k], offset[k], drift[k]));
+        let guess =
+            core::array::from_fn(|k| self.modes[k].swing(y[k], offset[k], drift[k], calm[k]));
         let value = self.remainder.evaluate::<false, false>(&guess, hub);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }
@@ -244,8 +266,10 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     /// Refuses what would bend the link beyond the range of the expansion, with 1e-6 of it for
-    /// rounding.
-    fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
+    /// rounding, and rates to be held beyond [`Self::HELD`].
+    fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error> {
+        let fastest = Self::HELD / self.tick;
+        Error::check("move.rate", held, -fastest, fastest, "rad/s")?;
         let bend = self.sag + self.flexibility * peaks.acceleration;
         if bend <= self.bend * (1.0 + 1e-6) {
             Ok(())
@@ -361,6 +385,9 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         }
     }
 }
+
+/// Halvings of a tick that is too long, in search of one that is not.
+const HALVINGS: u32 = 16;
 
 /// Halvings of the distance to the equilibrium: f32's precision is reached after 24.
 const EQUILIBRIUM_STEPS: usize = 60;

@@ -18,8 +18,12 @@ struct Step<T, const K: usize>([[[[T; 3]; K]; 3]; K]);
 /// Shares of a rate that are asked besides the whole: a spin-up passes through them.
 const SHARES: u32 = 8;
 
-/// Rates are tried in this ratio.
+/// Sines of the angles at which a gravity is asked for.
+const SLOPES: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
+
+/// Rates and gravities are tried in this ratio, so many at most.
 const RATIO: f64 = 1.15;
+const MOST: u32 = 1000;
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Refuses a rate that would feed the modes a hundredfold within `2²⁰` ticks, held or passed through.
@@ -28,14 +32,17 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let settled = self.fastest.to_f64();
         let carries = |rate: f64| {
             let share = rate / f64::from(SHARES);
-            let bounded = |i| self.held(f64::from(i) * share, false).stays_bounded(20, 100.0);
+            let bounded = |i| self.held(f64::from(i) * share, 0.0, false).stays_bounded(20, 100.0);
             rate <= settled || (1..=SHARES).all(bounded)
         };
         if carries(rate) {
             return Ok(());
         }
         let mut max = rate / RATIO;
-        while !carries(max) {
+        for _ in 0..MOST {
+            if carries(max) {
+                break;
+            }
             max /= RATIO;
         }
         Err(Error::TooFast { rate, max })
@@ -45,16 +52,37 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// at a predicted state, as within plain cubics; faster ones take the general step.
     pub(super) fn fastest_plain(&self, omega: &[f64; K]) -> f64 {
         let mut rate = surely_plain(&self.spin, omega, self.tick);
-        while rate * self.tick < 1.0 && self.held(rate * RATIO, true).stays_bounded(10, 2.0) {
+        for _ in 0..MOST {
+            if rate * self.tick >= 1.0 || !self.held(rate * RATIO, 0.0, true).stays_bounded(10, 2.0)
+            {
+                break;
+            }
             rate *= RATIO;
         }
         rate
     }
 
+    /// Refuses a gravity that would feed the modes likewise where the hub rests: one that takes or gives
+    /// much of a mode's stiffness while a tick hardly resolves it. Set-up only.
+    pub(super) fn admit_gravity(&self, gravity: f64) -> Result<(), Error> {
+        let carries = |share: f64| {
+            SLOPES.iter().all(|slope| self.held(0.0, slope * share, false).stays_bounded(20, 100.0))
+        };
+        let mut share = 1.0;
+        for _ in 0..MOST {
+            if carries(share) {
+                break;
+            }
+            share /= RATIO;
+        }
+        Error::check("gravity.acceleration", gravity, 0.0, share * gravity, "m/s^2").map(|_| ())
+    }
+
     /// The step without what shifts the modes and does not feed them: weight and the drag of the
-    /// turning.
-    fn held(&self, rate: f64, plain: bool) -> Step<T, K> {
-        let hub = Hub { rate: T::from_f64(rate), cos: T::ZERO, ..Hub::ZERO };
+    /// turning. The link points upwards by `sin`.
+    fn held(&self, rate: f64, sin: f64, plain: bool) -> Step<T, K> {
+        let [rate, sin] = [rate, sin].map(T::from_f64);
+        let hub = Hub { rate, sin, cos: T::ZERO, ..Hub::ZERO };
         let level = Self { alpha: T::ZERO, ..*self };
         Step(core::array::from_fn(|k| {
             core::array::from_fn(|part| {

@@ -138,6 +138,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             tick,
         };
         modal.fastest = T::from_f64(modal.fastest_plain(&omega));
+        if modal.terms.gravity {
+            modal.admit_gravity(gravity)?;
+        }
         Ok(modal)
     }
 
@@ -224,7 +227,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         self.terms.gravity
     }
 
-    fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
+    fn admit(&self, peaks: &Peaks, _: f64) -> Result<(), Error> {
         if self.terms.spin { self.admit_rate(peaks.rate) } else { Ok(()) }
     }
 
