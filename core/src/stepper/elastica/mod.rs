@@ -68,7 +68,6 @@ pub struct Elastica<T, const K: usize> {
     /// Distance from where a mode rests, in `ωa`, below which it sleeps.
     asleep: [T; K],
     quality: Quality,
-    calm: Calm<T, K>,
     /// What a kink of the motion inside a tick moves `ωa` and `p̃` by, see [`jolt`].
     jolt: [[T; 2]; K],
     tick: f64,
@@ -76,6 +75,7 @@ pub struct Elastica<T, const K: usize> {
     bend: f64,
     sag: f64,
     flexibility: f64,
+    calm: Calm<T, K>,
 }
 
 /// The arm's state; [`Elastica::flex`] says what it means.

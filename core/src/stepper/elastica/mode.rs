@@ -93,20 +93,32 @@ impl<T: Scalar> Mode<T> {
         gain: T,
     ) -> [T; 2] {
         let offset = [offset[0] + self.lag * begin, offset[1]];
-        self.swing(y, offset, [drift[0] + self.lag * gain, drift[1]], T::ZERO)
+        let drift = [drift[0] + self.lag * gain, drift[1]];
+        let off = self.off(y, offset, drift);
+        let [versine, sin] = self.turn[0];
+        [
+            y[0] + ((versine * off[0] + sin * off[1]) - drift[0]),
+            y[1] + ((versine * off[1] - sin * off[0]) - drift[1]),
+        ]
     }
 
     /// The same without a load: the hub rests. Drawn towards the centre by the fraction `calm`.
     #[inline(always)]
     pub(super) fn swing(&self, y: [T; 2], offset: [T; 2], drift: [T; 2], calm: T) -> [T; 2] {
-        let off = [
-            y[0] + (offset[0] - self.per_turn * drift[1]),
-            y[1] + (offset[1] + self.per_turn * drift[0]),
-        ];
+        let off = self.off(y, offset, drift);
         let [versine, sin] = self.turn[0];
         let turned = [versine * off[0] + sin * off[1], versine * off[1] - sin * off[0]];
         // In the gain, not in `y`, of which f32 would round it away.
         [0, 1].map(|r| y[r] + ((turned[r] - calm * (off[r] + turned[r])) - drift[r]))
+    }
+
+    /// How far an undamped mode is from the centre that it turns about in the mean.
+    #[inline(always)]
+    fn off(&self, y: [T; 2], offset: [T; 2], drift: [T; 2]) -> [T; 2] {
+        [
+            y[0] + (offset[0] - self.per_turn * drift[1]),
+            y[1] + (offset[1] + self.per_turn * drift[0]),
+        ]
     }
 
     /// The state once the offset at the end is known: `excess` is how much further than expected
