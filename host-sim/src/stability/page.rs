@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use maud::{Markup, html};
 
+use super::condition::{self, Loss};
 use super::document::Findings;
 use super::map::Map;
 use super::rule::RULES;
 use crate::error::Error;
 use crate::output;
-use crate::plot::{Axis, Chart, Series};
+use crate::plot::{Axis, Chart, Dash, Series};
 use crate::report::parts::{figure, page};
 
 /// Name of the table beside the page.
@@ -21,7 +22,8 @@ pub fn write(folder: &Path, findings: &Findings) -> Result<PathBuf, Error> {
     let moving: Vec<Chart> = findings.moving().iter().map(moving_chart).collect();
     let spinning: Vec<Chart> = findings.spinning().iter().map(spinning_chart).collect();
     let rules = rule_charts();
-    let text = render(&moving, &spinning, &rules)?;
+    let conditions = vec![solution_chart(&fine_losses()?), product_chart(&findings.losses)];
+    let text = render(&moving, &spinning, &rules, &conditions)?;
     let named = |maps: &[Map], what: &str, charts: &[Chart]| {
         let name = |map: &Map| format!("{what}-{}.svg", map.name);
         maps.iter().map(name).zip(charts.to_vec()).collect::<Vec<_>>()
@@ -30,6 +32,8 @@ pub fn write(folder: &Path, findings: &Findings) -> Result<PathBuf, Error> {
     pictures.extend(named(findings.spinning(), "spins", &spinning));
     pictures
         .extend(["rules-radius.svg", "rules-period.svg"].map(str::to_owned).into_iter().zip(rules));
+    let names = ["condition-solution.svg", "condition-product.svg"].map(str::to_owned);
+    pictures.extend(names.into_iter().zip(conditions));
     for (name, chart) in pictures {
         let svg = chart.svg()?;
         output::write_whole(&folder.join(name), |file| file.write_all(svg.as_bytes()))?;
@@ -85,7 +89,52 @@ fn rule_charts() -> Vec<Chart> {
     vec![radius, period]
 }
 
-fn render(moving: &[Chart], spinning: &[Chart], rules: &[Chart]) -> Result<String, Error> {
+/// Over ω₁h, for a curve.
+fn fine_losses() -> Result<Vec<Loss>, Error> {
+    let turns: Vec<f64> = (0..=24).map(|k| 10f64.powf(-4.0 + f64::from(k) / 4.0)).collect();
+    condition::losses(&turns)
+}
+
+/// What a solution in f32 is off by, over ω₁h.
+fn solution_chart(losses: &[Loss]) -> Chart {
+    let of = |elements: usize, scaled: usize| {
+        let of = losses.iter().filter(move |loss| loss.elements == elements);
+        of.map(move |loss| (loss.turn, loss.solved[scaled].max(1e-9)))
+    };
+    Chart::new(
+        "Solution of the effective matrix in f32",
+        Axis::log("\u{3c9}\u{2081}h, rad"),
+        Axis::log("tip off by, of itself"),
+    )
+    .with_all([1, 2, 4, 8].map(|n| {
+        let label = if n == 1 { "1 element".to_owned() } else { format!("{n} elements") };
+        Series::line(label, of(n, 0))
+    }))
+    .with(Series::line("8, scaled", of(8, 1)).dash(Dash::Dashed))
+}
+
+/// What `K q` in f32 is off by, over the number of elements.
+fn product_chart(losses: &[Loss]) -> Chart {
+    let of = |way: usize| {
+        let least = losses.iter().map(|loss| loss.turn).fold(f64::INFINITY, f64::min);
+        let one = losses.iter().filter(move |loss| loss.turn == least);
+        one.map(move |loss| (loss.elements as f64, loss.product[way]))
+    };
+    Chart::new(
+        "K q in f32",
+        Axis::log("elements").limits(0.9, 9.0),
+        Axis::log("first mode's restoring force off by, of itself"),
+    )
+    .with(Series::line("assembled", of(0)))
+    .with(Series::line("by the elements\u{2019} deformations", of(1)).dash(Dash::Dashed))
+}
+
+fn render(
+    moving: &[Chart],
+    spinning: &[Chart],
+    rules: &[Chart],
+    conditions: &[Chart],
+) -> Result<String, Error> {
     let move_caption = html! {
         strong { "A move and what follows it." }
         " A quintic of three first periods, 20 ticks at least, bends an undamped arm by a tenth of a \
@@ -103,6 +152,12 @@ fn render(moving: &[Chart], spinning: &[Chart], rules: &[Chart]) -> Result<Strin
         " The core\u{2019}s is the first: stable at any tick, its period too long by "
         "(\u{3c9}h)\u{b2}/12. With a smaller \u{3b2} it is so up to a bound only."
     };
+    let condition_caption = html! {
+        strong { "What rounding leaves of the effective matrix." }
+        " Scaling the degrees of freedom, as a non-dimensional assembly does, leaves the solution as it is. \
+         What loses digits is " i { "K q" } " of an assembled matrix, with the third power of the number of \
+         elements."
+    };
     let body = html! {
         header {
             h1 { "Where the methods are stable" }
@@ -115,6 +170,7 @@ fn render(moving: &[Chart], spinning: &[Chart], rules: &[Chart]) -> Result<Strin
             (section("moves", "Tick and frequency", &figure(moving, &move_caption, DATA)?))
             (section("spins", "Rate of turning", &figure(spinning, &spin_caption, DATA)?))
             (section("rules", "Other rules", &figure(rules, &rule_caption, DATA)?))
+            (section("condition", "Rounding", &figure(conditions, &condition_caption, DATA)?))
         }
     };
     Ok(page("Where the methods are stable", &body))
