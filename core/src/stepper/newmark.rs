@@ -471,7 +471,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
             self.factors.solve(&force)
         };
         if !Self::PRINCIPAL && !self.terms.damping {
-            for i in 0..N {
+            // Of the deflections: the slopes go with them.
+            for i in (0..N).step_by(2) {
                 restoring[i] += self.calm * d[i];
             }
         }

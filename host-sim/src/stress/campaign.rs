@@ -17,8 +17,9 @@ use crate::solver::Solver;
 /// Scenes between two writes.
 const CHUNK: u64 = 10_000;
 
-/// A scene takes some milliseconds. One that takes this long hangs.
-const PATIENCE: Duration = Duration::from_secs(60);
+/// A scene takes some milliseconds, and half a minute where `auto` tries a stiff arm for ten thousand ticks.
+/// One that takes this long hangs.
+const PATIENCE: Duration = Duration::from_secs(600);
 
 /// Runs `scenes` scenes of a seed. With a `part`, what is done stands in that file after every
 /// ten thousand, and a campaign that finds it goes on from there.

@@ -3,20 +3,17 @@
 use crate::beam::Rod;
 use crate::math::{Scalar, sqrt};
 
-/// Energy gained a step, of itself, per `b²(ω₁h)⁴`, `b` the bend in rad: 9e-4 to 1.1e-3 as measured on
-/// bare and loaded links from ω₁h = 0.03 to 3, and up to 3.5 times as much at one radian.
-const GAIN: f64 = 1.1e-3;
-
-/// How much more that is per rad², in one mode and in several, of which the others take from the first
-/// where it bends far.
-const STEEPER: [f64; 2] = [2.5, 0.5];
+/// Energy gained a step, of itself, per `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in several:
+/// 9e-4 to 1.1e-3 of small bends as measured on bare and loaded links from ω₁h = 0.03 to 3; of one mode
+/// up to 3.5e-3 at one radian, where others take energy from it.
+const GAIN: [f64; 2] = [3.5e-3, 1.2e-3];
 
 /// Greatest `(ωh)⁴` that counts, of the first mode and of the others, which are left more of their
 /// vibration than they may gain.
 const MOST: [f64; 2] = [32.0, 1.0];
 
 /// Fraction of a rounding, 5e-9 a step of which were gained in f32.
-const ROUNDING: f64 = 0.125;
+const ROUNDING: f64 = 0.25;
 
 /// The corrector of [`Elastica`](super::Elastica) is explicit in the remainder: a step feeds an arm by
 /// `GAIN b²(ω₁h)⁴` of its energy, nothing within a move, a lot over a million ticks. An arm that rings on
@@ -35,14 +32,15 @@ impl<T: Scalar, const K: usize> Calm<T, K> {
         let omega = rod.frequency();
         let slope = rod.tip_slope()[0];
         let (bend, most) = (slope / omega[0], slope * range[0]);
+        let gain = if K == 1 { GAIN[0] } else { GAIN[1] };
         Self {
             bend: T::from_f64(bend * bend),
             most: T::from_f64(most * most),
             weight: core::array::from_fn(|k| {
                 let turn = omega[k] * step;
                 let fourth = (turn * turn * turn * turn).min(MOST[k.min(1)]);
-                // Half of the energy is amplitude.
-                T::from_f64(0.5 * GAIN * fourth)
+                // Half of the energy is amplitude, half of that turns by in one of the two.
+                T::from_f64(gain * fourth)
             }),
         }
     }
@@ -52,16 +50,12 @@ impl<T: Scalar, const K: usize> Calm<T, K> {
         T::from_f64(bend / sqrt(self.bend.to_f64()))
     }
 
-    /// The fraction by which each mode is drawn to its centre in a step from `y` and the offset of the
-    /// first.
+    /// The fraction by which each mode is drawn to its centre in a step, by how far the first is off.
     #[inline(always)]
-    pub(super) fn at(&self, y: &[T; 2], offset: &[T; 2]) -> [T; K] {
-        let off = [y[0] + offset[0], y[1] + offset[1]];
+    pub(super) fn at(&self, off: &[T; 2]) -> [T; K] {
         let bend = self.bend * (off[0] * off[0] + off[1] * off[1]);
         let bend = if bend < self.most { bend } else { self.most };
-        let steeper = T::from_f64(if K == 1 { STEEPER[0] } else { STEEPER[1] });
-        let gain = bend + steeper * bend * bend;
         let rounding = T::EPSILON * T::from_f64(ROUNDING);
-        self.weight.map(|weight| weight * gain + rounding)
+        self.weight.map(|weight| weight * bend + rounding)
     }
 }

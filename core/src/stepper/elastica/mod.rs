@@ -223,10 +223,11 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// A step without damping and gravity of an arm whose hub rests.
     #[inline(always)]
     fn ring(&self, state: &mut ElasticaState<T, K>, hub: &Hub<T>) {
-        let calm = self.calm.at(&state.y[0], &state.offset[0]);
         let ElasticaState { y, offset, drift, .. } = state;
-        let guess =
-            core::array::from_fn(|k| self.modes[k].swing(y[k], offset[k], drift[k], calm[k]));
+        let off: [[T; 2]; K] =
+            core::array::from_fn(|k| self.modes[k].off(y[k], offset[k], drift[k]));
+        let calm = self.calm.at(&off[0]);
+        let guess = core::array::from_fn(|k| self.modes[k].swing(y[k], off[k], drift[k], calm[k]));
         let value = self.remainder.evaluate::<false, false>(&guess, hub);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }

@@ -102,19 +102,20 @@ impl<T: Scalar> Mode<T> {
         ]
     }
 
-    /// The same without a load: the hub rests. Drawn towards the centre by the fraction `calm`.
+    /// The same without a load: the hub rests. Drawn towards the centre by the fraction `calm`: by twice
+    /// as much of `p̃` alone, which turns into the other.
     #[inline(always)]
-    pub(super) fn swing(&self, y: [T; 2], offset: [T; 2], drift: [T; 2], calm: T) -> [T; 2] {
-        let off = self.off(y, offset, drift);
+    pub(super) fn swing(&self, y: [T; 2], off: [T; 2], drift: [T; 2], calm: T) -> [T; 2] {
         let [versine, sin] = self.turn[0];
         let turned = [versine * off[0] + sin * off[1], versine * off[1] - sin * off[0]];
         // In the gain, not in `y`, of which f32 would round it away.
-        [0, 1].map(|r| y[r] + ((turned[r] - calm * (off[r] + turned[r])) - drift[r]))
+        let calmed = turned[1] - calm * (off[1] + turned[1]);
+        [y[0] + (turned[0] - drift[0]), y[1] + (calmed - drift[1])]
     }
 
     /// How far an undamped mode is from the centre that it turns about in the mean.
     #[inline(always)]
-    fn off(&self, y: [T; 2], offset: [T; 2], drift: [T; 2]) -> [T; 2] {
+    pub(super) fn off(&self, y: [T; 2], offset: [T; 2], drift: [T; 2]) -> [T; 2] {
         [
             y[0] + (offset[0] - self.per_turn * drift[1]),
             y[1] + (offset[1] + self.per_turn * drift[0]),
