@@ -12,7 +12,7 @@ use crate::trajectory::{Side, Trajectory};
 const FINE: Options = Options { order: 6, tolerance: 1e-8, integrator: None };
 
 /// For comparing many motions of one arm with payload: a residual changes by less than 1e-7 of L,
-/// a torque by 2e-3, and the flight takes half the time. A bare arm wants [`FINE`].
+/// a torque by 2e-3, and the flight takes half the time. A bare arm wants the finer default.
 pub const BRISK: Options = Options { order: 5, tolerance: 1e-6, integrator: None };
 
 /// Instants at which the rest is looked at, over a first period.
