@@ -1,10 +1,11 @@
 //! A piece of the commanded motion in the form that the tick evaluates.
 
 mod braking;
-
-use core::f64::consts::{PI, TAU};
+mod setup;
+mod shape;
 
 pub use braking::Braking;
+pub(crate) use shape::Shape;
 
 use super::Angle;
 use super::curve::{BULGE, Derivatives, bulge, cubic, harmonic, quintic};
@@ -97,20 +98,6 @@ enum Rest<T> {
         rate: T,
         step: i64,
     },
-}
-
-/// Turns from the segment's middle, as a function of `u`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Shape<T> {
-    /// `c₁u + c₂u² + c₃u³`.
-    Cubic([T; 3]),
-    /// `c₁u + … + c₅u⁵`.
-    Quintic([T; 5]),
-    /// `c₁u + c₂u² + a sin πu + b (cos πu − 1)`.
-    Harmonic { c: [T; 2], a: T, b: T },
-    /// `c₁u + … + c₅u⁵ + (1 − u²)³(d₀ + d₁u + … + d₅u⁵)`: the second term bulges between the ends
-    /// and changes neither angle, rate nor acceleration there.
-    Bulged { c: [T; 5], d: [T; BULGE] },
 }
 
 impl<T: Scalar> Segment<T> {
@@ -304,124 +291,5 @@ impl<T: Scalar> Angle<T> {
         let whole = (high >> 32) as i32 + i32::from(fraction < 0);
         let turned = self.plus(T::from_fraction(fraction));
         Self { turns: turned.turns.wrapping_add(whole), part: turned.part }
-    }
-}
-
-/// A bound of `|c₁ + 2c₂u + 3c₃u²|`: without its middle term it lies between its values at the middle and
-/// at the ends.
-fn steepest<T: Scalar>([c1, c2, c3]: [T; 3]) -> T {
-    let abs = |x: T| if x < T::ZERO { -x } else { x };
-    let (middle, end) = (abs(c1), abs(c1 + (T::TWO + T::ONE) * c3));
-    let most = if middle < end { end } else { middle };
-    most + T::TWO * abs(c2)
-}
-
-impl<T: Scalar> Shape<T> {
-    fn low(&self) -> [T; 3] {
-        match *self {
-            Self::Cubic(c) => c,
-            Self::Harmonic { c: [c1, c2], .. } => [c1, c2, T::ZERO],
-            Self::Quintic([c1, c2, c3, _, _]) | Self::Bulged { c: [c1, c2, c3, _, _], .. } => {
-                [c1, c2, c3]
-            }
-        }
-    }
-
-    fn rest(&self) -> Rest<T> {
-        match *self {
-            Self::Cubic(c) => Rest::Cubic { steepest: steepest(c) },
-            Self::Quintic([_, _, _, c4, c5]) => Rest::Quintic([c4, c5]),
-            Self::Harmonic { a, b, .. } => Rest::Harmonic([a, b]),
-            Self::Bulged { c: [_, _, _, c4, c5], d } => Rest::Bulged { high: [c4, c5], d },
-        }
-    }
-
-    /// `Δ(−1)`, `Δ(1)` and `d²Δ/du²(1)`.
-    fn ends(&self) -> [T; 3] {
-        let n = T::from_f64;
-        let (odd, even, bend) = match *self {
-            Self::Cubic([c1, c2, c3]) => (c1 + c3, c2, n(2.0) * c2 + n(6.0) * c3),
-            Self::Quintic([c1, c2, c3, c4, c5]) | Self::Bulged { c: [c1, c2, c3, c4, c5], .. } => {
-                let bend = n(2.0) * c2 + n(6.0) * c3 + n(12.0) * c4 + n(20.0) * c5;
-                (c1 + c3 + c5, c2 + c4, bend)
-            }
-            Self::Harmonic { c: [c1, c2], b, .. } => {
-                (c1, c2 - n(2.0) * b, n(2.0) * c2 + n(PI * PI) * b)
-            }
-        };
-        [even - odd, even + odd, bend]
-    }
-}
-
-impl<T: Scalar> Segment<T> {
-    /// A segment of `length` ticks (not whole in general) that begins `before` ticks, 0 to 1,
-    /// before the first tick that belongs to it.
-    pub(crate) fn new(
-        start: Angle<f64>,
-        shape: Shape<T>,
-        length: T,
-        before: T,
-        count: u32,
-        tick: f64,
-    ) -> Self {
-        let half = T::HALF * length * T::from_f64(tick);
-        let [begin, _, landing] = shape.ends();
-        let rate_scale = T::from_f64(TAU) / half;
-        let acceleration_scale = T::TWO * rate_scale / half;
-        Self {
-            origin: start.plus(-begin.to_f64()).cast(),
-            count,
-            offset: T::TWO * before / length - T::ONE,
-            advance: T::TWO / length,
-            rate_scale,
-            acceleration_scale,
-            landing: T::HALF * landing * acceleration_scale,
-            entry: T::ZERO,
-            low: shape.low(),
-            rest: shape.rest(),
-        }
-    }
-
-    /// Constant `rate` (rad/s) for `count` ticks.
-    pub(crate) fn cruise(start: Angle<f64>, rate: f64, count: u32, tick: f64) -> Self {
-        // At most ½ turn a tick by the rate check of `Plan`, so the product fits an i64.
-        let step = (rate * tick * (18_446_744_073_709_551_616.0 / TAU)) as i64;
-        Self {
-            origin: start.cast(),
-            count,
-            offset: T::ZERO,
-            advance: T::ZERO,
-            rate_scale: T::ZERO,
-            acceleration_scale: T::ZERO,
-            landing: T::ZERO,
-            entry: T::ZERO,
-            low: [T::ZERO; 3],
-            rest: Rest::Cruise { rate: T::from_f64(rate), step },
-        }
-    }
-}
-
-impl Segment<f64> {
-    /// Rounds to the scalar of the tick.
-    pub fn cast<T: Scalar>(&self) -> Segment<T> {
-        let f = T::from_f64;
-        Segment {
-            origin: self.origin.cast(),
-            count: self.count,
-            offset: f(self.offset),
-            advance: f(self.advance),
-            rate_scale: f(self.rate_scale),
-            acceleration_scale: f(self.acceleration_scale),
-            landing: f(self.landing),
-            entry: f(self.entry),
-            low: self.low.map(f),
-            rest: match self.rest {
-                Rest::Cubic { steepest } => Rest::Cubic { steepest: f(steepest) },
-                Rest::Quintic(high) => Rest::Quintic(high.map(f)),
-                Rest::Harmonic(ab) => Rest::Harmonic(ab.map(f)),
-                Rest::Bulged { high, d } => Rest::Bulged { high: high.map(f), d: d.map(f) },
-                Rest::Cruise { rate, step } => Rest::Cruise { rate: f(rate), step },
-            },
-        }
     }
 }

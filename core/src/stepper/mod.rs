@@ -8,6 +8,7 @@ mod modal;
 mod newmark;
 mod oscillator;
 mod rigid;
+mod terms;
 
 pub use auto::{Auto, AutoState, Choice, Rung};
 pub use elastica::{Elastica, ElasticaState, Flex, Quality};

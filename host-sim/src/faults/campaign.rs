@@ -1,21 +1,18 @@
 //! Runs of an axis under a fault, counted.
 
-use std::collections::BTreeMap;
-
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use rayon::prelude::*;
 use stillbeam::axis::{Cause, Mode};
 use stillbeam::drive::ClassicFrame;
-use stillbeam::drive::odrive::{EncoderEstimates, Node};
 use stillbeam::{Move, Profile};
 use stillbeam_protocol::frame::{MAX, encode};
-use stillbeam_protocol::{Command, Refusal, Request};
+use stillbeam_protocol::{Command, Request};
 
-use super::board::{PERIOD, Step};
+use super::board::PERIOD;
 use super::line::Line;
 use super::machine::{CONFIGURATIONS, Configuration, TICK};
-use super::{Board, Excess, Fault, Watch, host, stops};
+use super::{Board, Drive, Fault, Outcome, Watch, host, stops};
 use crate::error::Error;
 
 /// Ticks of a run before the host falls silent.
@@ -24,107 +21,6 @@ const TICKS: u32 = 800;
 /// Ticks in which a silent axis must have come to rest: its patience, and a stop from the greatest
 /// rate.
 const SILENCE: u32 = 50 + 250;
-
-/// What came out, of one run or of many.
-#[derive(Clone, Debug, Default)]
-pub struct Outcome {
-    /// Runs.
-    pub runs: u64,
-    /// Faults injected.
-    pub injected: u64,
-    /// Setpoints judged.
-    pub setpoints: u64,
-    /// Frames dropped as garbled.
-    pub dropped: u64,
-    /// Requests accepted.
-    pub accepted: u64,
-    /// Requests refused, by the kind of refusal.
-    pub refused: BTreeMap<&'static str, u64>,
-    /// Stops asked for, by a lost link, by missed ticks.
-    pub stops: [u64; 3],
-    /// Greatest shares of what is allowed.
-    pub worst: Excess,
-    /// What was promised and did not hold.
-    pub broken: Vec<String>,
-}
-
-impl Outcome {
-    /// Of one run.
-    pub(super) fn of(board: &Board, watch: &Watch) -> Self {
-        let mut outcome = Self {
-            runs: 1,
-            setpoints: watch.setpoints,
-            dropped: board.garbled,
-            worst: watch.worst,
-            broken: watch.broken.iter().cloned().collect(),
-            ..Self::default()
-        };
-        for answer in &board.answers {
-            match answer {
-                Ok(_) => outcome.accepted += 1,
-                Err(refusal) => *outcome.refused.entry(kind(refusal)).or_default() += 1,
-            }
-        }
-        outcome
-    }
-
-    /// Both together.
-    pub fn add(&mut self, other: Self) {
-        self.runs += other.runs;
-        self.injected += other.injected;
-        self.setpoints += other.setpoints;
-        self.dropped += other.dropped;
-        self.accepted += other.accepted;
-        for (kind, count) in other.refused {
-            *self.refused.entry(kind).or_default() += count;
-        }
-        for (mine, theirs) in self.stops.iter_mut().zip(other.stops) {
-            *mine += theirs;
-        }
-        self.worst = self.worst.max(other.worst);
-        self.broken.extend(other.broken);
-    }
-}
-
-fn kind(refusal: &Refusal<'_>) -> &'static str {
-    match refusal {
-        Refusal::Range { .. } => "out of range",
-        Refusal::Queue { .. } => "queue full",
-        Refusal::Mode(_) => "mode",
-        Refusal::NotAtRest => "not at rest",
-        Refusal::Stale => "stale",
-        Refusal::NotMeasured => "not measured",
-        Refusal::Busy => "busy",
-        Refusal::NoPlanner => "no planner",
-        Refusal::Axis(_) => "no such axis",
-    }
-}
-
-/// A drive that does as it is told, and says where it is.
-pub struct Drive {
-    position: f32,
-}
-
-impl Drive {
-    /// Standing there, turns.
-    pub fn at(position: f32) -> Self {
-        Self { position }
-    }
-
-    /// Takes a setpoint.
-    pub fn follow(&mut self, step: &Step) {
-        if step.tick.mode != Mode::Disabled {
-            self.position = step.demand.position.in_turns() as f32;
-        }
-    }
-
-    /// Where the encoder is.
-    pub fn report(&self, node: Node) -> ClassicFrame {
-        let estimates = EncoderEstimates { position: self.position, velocity: 0.0 };
-        // Eight bytes are a frame.
-        node.estimates_frame(&estimates).unwrap_or_else(|| unreachable!("eight bytes"))
-    }
-}
 
 /// Every kind of fault `count` times, and every stop there is, in the order of the table.
 pub fn all(

@@ -79,22 +79,24 @@ fn payload(rng: &mut StdRng) -> Payload {
     Payload { mass: value(rng), inertia: 1e-3 * value(rng) }
 }
 
+/// Values that numbers go wrong at.
+pub const EDGES: [f64; 12] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::MAX,
+    f64::MIN_POSITIVE,
+    -0.0,
+    0.0,
+    1e6,
+    -1e6,
+    0.005,
+    0.01,
+    167_772.16,
+];
+
 /// Any bits, or a value that numbers go wrong at.
 pub fn any(rng: &mut StdRng) -> f64 {
-    const EDGES: [f64; 12] = [
-        f64::NAN,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        f64::MAX,
-        f64::MIN_POSITIVE,
-        -0.0,
-        0.0,
-        1e6,
-        -1e6,
-        0.005,
-        0.01,
-        167_772.16,
-    ];
     match rng.random_range(0..3) {
         0 => f64::from_bits(rng.random()),
         1 => EDGES[rng.random_range(0..EDGES.len())],

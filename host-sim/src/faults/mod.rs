@@ -8,15 +8,18 @@
 
 mod board;
 pub mod campaign;
+mod drive;
 pub mod host;
 mod kind;
 pub mod line;
 pub mod machine;
+mod outcome;
 mod stops;
 pub mod table;
 mod watch;
 
 pub use board::{Answer, Board, PERIOD};
-pub use campaign::Drive;
+pub use drive::Drive;
 pub use kind::Fault;
+pub use outcome::Outcome;
 pub use watch::{Excess, Watch};

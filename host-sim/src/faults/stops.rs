@@ -6,9 +6,8 @@ use stillbeam::{Move, Profile};
 use stillbeam_protocol::Command;
 
 use super::board::PERIOD;
-use super::campaign::{Drive, Outcome};
 use super::machine::{CONFIGURATIONS, Configuration, TICK};
-use super::{Board, Watch};
+use super::{Board, Drive, Outcome, Watch};
 use crate::error::Error;
 
 /// Ticks of the moves, and a few after.

@@ -1,6 +1,6 @@
 //! The campaign as a table.
 
-use super::campaign::Outcome;
+use super::Outcome;
 use crate::sweep::tables::{aligned, grouped};
 
 /// A line a fault, in Markdown: what was injected, how often, what came out.

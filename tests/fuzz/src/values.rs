@@ -3,23 +3,10 @@
 use arbitrary::{Arbitrary, Result, Unstructured};
 use stillbeam::Angle;
 use stillbeam::motor::Demand;
+use stillbeam_sim::faults::host::EDGES;
 
 /// Any bits, a whole multiple of 1/64 up to ±512 turns' worth, or a value that numbers go wrong at.
 pub fn double(u: &mut Unstructured<'_>) -> Result<f64> {
-    const EDGES: [f64; 12] = [
-        f64::NAN,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        f64::MAX,
-        f64::MIN_POSITIVE,
-        -0.0,
-        0.0,
-        1e6,
-        -1e6,
-        0.005,
-        0.01,
-        167_772.16,
-    ];
     Ok(match u.int_in_range(0..=3)? {
         0 => f64::arbitrary(u)?,
         1 => *u.choose(&EDGES)?,

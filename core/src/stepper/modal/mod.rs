@@ -1,12 +1,15 @@
 //! Small deflections in modal coordinates: the tick costs the same for any number of elements.
 
 mod bounded;
+mod implied;
+mod respond;
+mod setup;
 
-use super::oscillator::{Drive, Oscillator, check_turns, jolt};
+use super::oscillator::{Drive, Oscillator};
+use super::terms::Terms;
 use super::{Response, Stepper};
 use crate::Error;
-use crate::beam::{Model, Modes};
-use crate::math::{Band, HalfForm, Scalar, cast, dot};
+use crate::math::{Band, HalfForm, Scalar, dot};
 use crate::motion::{Hub, Peaks};
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
@@ -39,7 +42,7 @@ pub struct Modal<T, const K: usize> {
     inertia: T,
     terms: Terms,
     per_tick: T,
-    /// What a kink of the motion inside a tick moves `ωa` and `ωȧ` by, see [`jolt`].
+    /// What a kink of the motion inside a tick moves `ωa` and `ωȧ` by, see [`jolt`](super::oscillator::jolt).
     jolt: [[T; 2]; K],
     alpha: T,
     /// `α(J_r − bᵀb)` and `βbᵢωᵢ`.
@@ -58,13 +61,6 @@ pub struct Modal<T, const K: usize> {
     fastest: T,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Terms {
-    spin: bool,
-    gravity: bool,
-    damping: bool,
-}
-
 /// Modal coordinates and their rates, times the frequencies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModalState<T, const K: usize> {
@@ -79,71 +75,6 @@ pub struct ModalState<T, const K: usize> {
 }
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
-    /// Keeps the lowest `K` modes of the model for steps of `tick` s. f64 inside.
-    pub fn new<const N: usize, const W: usize>(
-        model: &Model<N, W>,
-        tick: f64,
-    ) -> Result<Self, Error> {
-        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
-        if K > N {
-            return Err(Error::DegreesOfFreedom { given: N, needed: K });
-        }
-        let tick = super::check_tick(tick)?;
-        let scene = model.scene();
-        let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
-        let modes = Modes::of(model);
-        let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);
-        check_turns(&omega, alpha, beta, tick)?;
-        let shape: [[f64; N]; K] = core::array::from_fn(|k| modes.shape[k].map(|x| x / omega[k]));
-        let onto = |load: &[f64; N]| -> [f64; K] { shape.map(|shape| dot(&shape, load)) };
-        let between =
-            |matrix: &Band<f64, N, W>| -> Band<T, K, K> { matrix.onto(&shape).map(T::from_f64) };
-        let rest = onto(model.coupling());
-        let coupling: [f64; K] = core::array::from_fn(|k| rest[k] * omega[k]);
-        let support: [f64; K] = core::array::from_fn(|k| coupling[k] * omega[k]);
-        let residual = scene.rigid_inertia() - dot(&coupling, &coupling);
-        let tension = between(&model.tension().scaled(gravity));
-        let spin: Band<T, K, K> = between(model.spin());
-        let mut modal = Self {
-            modes: core::array::from_fn(|k| {
-                Oscillator::new(omega[k], alpha, beta, support[k], tick)
-                    .forced_by(omega[k] * omega[k])
-            }),
-            rest: cast(&rest),
-            fastest: T::ZERO,
-            spin,
-            shortening: between(model.shortening()).half_form(),
-            tip: core::array::from_fn(|k| T::from_f64(shape[k][model.tip()])),
-            reach: T::from_f64(scene.reach()),
-            support: cast(&support),
-            inertia: T::from_f64(scene.hub.inertia + residual),
-            terms: Terms {
-                spin: true,
-                gravity: gravity != 0.0,
-                damping: alpha != 0.0 || beta != 0.0,
-            },
-            per_tick: T::from_f64(1.0 / tick),
-            jolt: core::array::from_fn(|k| jolt(omega[k], alpha, beta, support[k], tick)),
-            alpha: T::from_f64(alpha),
-            drag: T::from_f64(alpha * residual),
-            loss: cast(&support.map(|b| beta * b)),
-            tension,
-            bent: tension.half_form(),
-            weight: cast(&onto(model.weight()).map(|f| gravity * f)),
-            moment: T::from_f64(gravity * scene.first_moment()),
-            awake: core::array::from_fn(|k| {
-                let floor = super::sleep_floor::<f64>(scene.link.length, shape[k][model.tip()]);
-                [floor, omega[k] * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
-            }),
-            tick,
-        };
-        modal.fastest = T::from_f64(modal.fastest_plain(&omega));
-        if modal.terms.gravity {
-            modal.admit_gravity(gravity)?;
-        }
-        Ok(modal)
-    }
-
     /// Leaves out every term in θ̇², as [`super::Newmark::without_spin`] does.
     pub fn without_spin(mut self) -> Self {
         self.terms.spin = false;
@@ -169,48 +100,15 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         }
         [force, softening]
     }
-}
 
-impl<T: Scalar, const K: usize> Modal<T, K> {
-    /// The change of the force over a step that agrees with the coordinates it leads to, from that
-    /// at the predicted ones: `(I + S D) e = c`, `S = θ̇²Γ − g sinθ Π`, `D` what a mode moves by for a
-    /// change of its force by 1.
-    ///
-    /// Taken at the predicted coordinates the force would feed modes that turn more than half a turn
-    /// a tick: by `½r²` a tick and less, `r` the share of `S` in the mode's stiffness. So the step is
-    /// the same forwards and backwards, and neither feeds nor damps.
+    /// `g sinθ Πa − g cosθ f`, over `ω`.
     #[inline(always)]
-    fn implied(&self, mut change: [T; K], hub: &Hub<T>) -> [T; K] {
-        let rate2 = if self.terms.spin { hub.rate * hub.rate } else { T::ZERO };
-        let mut stiff = self.spin.scaled(rate2);
-        if self.terms.gravity {
-            stiff = stiff.plus(-hub.sin, &self.tension);
+    fn hanging(&self, a: &[T; K], hub: &Hub<T>) -> [T; K] {
+        let mut force = self.tension.times(a);
+        for k in 0..K {
+            force[k] = hub.sin * force[k] - hub.cos * self.weight[k];
         }
-        let mut a: [[T; K]; K] = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                let unit = if i == j { T::ONE } else { T::ZERO };
-                unit + stiff.get(i, j) * self.modes[j].ramp(0, T::ONE)
-            })
-        });
-        // Elimination without pivoting: the diagonal is 1 and more but for weights near buckling.
-        for p in 0..K {
-            let inverse = T::ONE / a[p][p];
-            for i in p + 1..K {
-                let factor = a[i][p] * inverse;
-                for j in p..K {
-                    a[i][j] -= factor * a[p][j];
-                }
-                change[i] -= factor * change[p];
-            }
-            a[p][p] = inverse;
-        }
-        for p in (0..K).rev() {
-            for j in p + 1..K {
-                change[p] -= a[p][j] * change[j];
-            }
-            change[p] = change[p] * a[p][p];
-        }
-        change
+        force
     }
 }
 
@@ -376,52 +274,5 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
-    }
-}
-
-impl<T: Scalar, const K: usize> Modal<T, K> {
-    /// `(J_h + J_r − bᵀb)θ̈ + bᵀ(ä + bu + αȧ + βω²ȧ)`: the drive and the drag cancel, and the force less
-    /// the spring is left.
-    #[inline(always)]
-    fn inertial(&self, state: &ModalState<T, K>, acceleration: T) -> T {
-        let mut pull = state.coordinate;
-        for k in 0..K {
-            pull[k] -= state.force[k];
-        }
-        self.inertia * acceleration - dot(&self.support, &pull)
-    }
-
-    /// `u aᵀΓa + 2θ̇ aᵀΓȧ`.
-    #[inline(always)]
-    fn spin_torque(&self, state: &ModalState<T, K>, u: T, rate: T) -> T {
-        let twice = rate + rate;
-        let mut arm = state.coordinate;
-        for k in 0..K {
-            arm[k] = u * arm[k] + twice * state.rate[k];
-        }
-        dot(&state.softening, &arm)
-    }
-
-    /// `g cosθ S − g sinθ fᵀa − ½ g cosθ aᵀΠa`.
-    #[inline(always)]
-    fn weight_torque(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> T {
-        let a = &state.coordinate;
-        hub.cos * (self.moment - self.bent.at(a)) - hub.sin * dot(&self.weight, a)
-    }
-
-    /// `g sinθ Πa − g cosθ f`, over `ω`.
-    #[inline(always)]
-    fn hanging(&self, a: &[T; K], hub: &Hub<T>) -> [T; K] {
-        let mut force = self.tension.times(a);
-        for k in 0..K {
-            force[k] = hub.sin * force[k] - hub.cos * self.weight[k];
-        }
-        force
-    }
-
-    #[inline(always)]
-    fn tip_of(&self, state: &ModalState<T, K>) -> [T; 2] {
-        let a = &state.coordinate;
-        [self.reach - self.shortening.at(a), dot(&self.tip, a)]
     }
 }

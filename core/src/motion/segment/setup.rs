@@ -1,0 +1,80 @@
+//! Segments made, and rounded to what the tick works with.
+
+use core::f64::consts::TAU;
+
+use super::{Rest, Segment, Shape};
+use crate::math::Scalar;
+use crate::motion::Angle;
+
+impl<T: Scalar> Segment<T> {
+    /// A segment of `length` ticks (not whole in general) that begins `before` ticks, 0 to 1,
+    /// before the first tick that belongs to it.
+    pub(crate) fn new(
+        start: Angle<f64>,
+        shape: Shape<T>,
+        length: T,
+        before: T,
+        count: u32,
+        tick: f64,
+    ) -> Self {
+        let half = T::HALF * length * T::from_f64(tick);
+        let [begin, _, landing] = shape.ends();
+        let rate_scale = T::from_f64(TAU) / half;
+        let acceleration_scale = T::TWO * rate_scale / half;
+        Self {
+            origin: start.plus(-begin.to_f64()).cast(),
+            count,
+            offset: T::TWO * before / length - T::ONE,
+            advance: T::TWO / length,
+            rate_scale,
+            acceleration_scale,
+            landing: T::HALF * landing * acceleration_scale,
+            entry: T::ZERO,
+            low: shape.low(),
+            rest: shape.rest(),
+        }
+    }
+
+    /// Constant `rate` (rad/s) for `count` ticks.
+    pub(crate) fn cruise(start: Angle<f64>, rate: f64, count: u32, tick: f64) -> Self {
+        // At most ½ turn a tick by the rate check of `Plan`, so the product fits an i64.
+        let step = (rate * tick * (18_446_744_073_709_551_616.0 / TAU)) as i64;
+        Self {
+            origin: start.cast(),
+            count,
+            offset: T::ZERO,
+            advance: T::ZERO,
+            rate_scale: T::ZERO,
+            acceleration_scale: T::ZERO,
+            landing: T::ZERO,
+            entry: T::ZERO,
+            low: [T::ZERO; 3],
+            rest: Rest::Cruise { rate: T::from_f64(rate), step },
+        }
+    }
+}
+
+impl Segment<f64> {
+    /// Rounds to the scalar of the tick.
+    pub fn cast<T: Scalar>(&self) -> Segment<T> {
+        let f = T::from_f64;
+        Segment {
+            origin: self.origin.cast(),
+            count: self.count,
+            offset: f(self.offset),
+            advance: f(self.advance),
+            rate_scale: f(self.rate_scale),
+            acceleration_scale: f(self.acceleration_scale),
+            landing: f(self.landing),
+            entry: f(self.entry),
+            low: self.low.map(f),
+            rest: match self.rest {
+                Rest::Cubic { steepest } => Rest::Cubic { steepest: f(steepest) },
+                Rest::Quintic(high) => Rest::Quintic(high.map(f)),
+                Rest::Harmonic(ab) => Rest::Harmonic(ab.map(f)),
+                Rest::Bulged { high, d } => Rest::Bulged { high: high.map(f), d: d.map(f) },
+                Rest::Cruise { rate, step } => Rest::Cruise { rate: f(rate), step },
+            },
+        }
+    }
+}

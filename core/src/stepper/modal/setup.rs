@@ -1,0 +1,72 @@
+//! A model's lowest modes, made ready for ticks.
+
+use super::Modal;
+use crate::Error;
+use crate::beam::{Model, Modes};
+use crate::math::{Band, Scalar, cast, dot};
+use crate::stepper::oscillator::{Oscillator, check_turns, jolt};
+use crate::stepper::terms::Terms;
+use crate::stepper::{check_tick, sleep_floor};
+
+impl<T: Scalar, const K: usize> Modal<T, K> {
+    /// Keeps the lowest `K` modes of the model for steps of `tick` s. f64 inside.
+    pub fn new<const N: usize, const W: usize>(
+        model: &Model<N, W>,
+        tick: f64,
+    ) -> Result<Self, Error> {
+        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
+        if K > N {
+            return Err(Error::DegreesOfFreedom { given: N, needed: K });
+        }
+        let tick = check_tick(tick)?;
+        let scene = model.scene();
+        let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
+        let modes = Modes::of(model);
+        let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);
+        check_turns(&omega, alpha, beta, tick)?;
+        let shape: [[f64; N]; K] = core::array::from_fn(|k| modes.shape[k].map(|x| x / omega[k]));
+        let onto = |load: &[f64; N]| -> [f64; K] { shape.map(|shape| dot(&shape, load)) };
+        let between =
+            |matrix: &Band<f64, N, W>| -> Band<T, K, K> { matrix.onto(&shape).map(T::from_f64) };
+        let rest = onto(model.coupling());
+        let coupling: [f64; K] = core::array::from_fn(|k| rest[k] * omega[k]);
+        let support: [f64; K] = core::array::from_fn(|k| coupling[k] * omega[k]);
+        let residual = scene.rigid_inertia() - dot(&coupling, &coupling);
+        let tension = between(&model.tension().scaled(gravity));
+        let spin: Band<T, K, K> = between(model.spin());
+        let mut modal = Self {
+            modes: core::array::from_fn(|k| {
+                Oscillator::new(omega[k], alpha, beta, support[k], tick)
+                    .forced_by(omega[k] * omega[k])
+            }),
+            rest: cast(&rest),
+            fastest: T::ZERO,
+            spin,
+            shortening: between(model.shortening()).half_form(),
+            tip: core::array::from_fn(|k| T::from_f64(shape[k][model.tip()])),
+            reach: T::from_f64(scene.reach()),
+            support: cast(&support),
+            inertia: T::from_f64(scene.hub.inertia + residual),
+            terms: Terms::of(scene),
+            per_tick: T::from_f64(1.0 / tick),
+            jolt: core::array::from_fn(|k| jolt(omega[k], alpha, beta, support[k], tick)),
+            alpha: T::from_f64(alpha),
+            drag: T::from_f64(alpha * residual),
+            loss: cast(&support.map(|b| beta * b)),
+            tension,
+            bent: tension.half_form(),
+            weight: cast(&onto(model.weight()).map(|f| gravity * f)),
+            moment: T::from_f64(gravity * scene.first_moment()),
+            awake: core::array::from_fn(|k| {
+                let floor = sleep_floor::<f64>(scene.link.length, shape[k][model.tip()]);
+                [floor, omega[k] * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
+            }),
+            tick,
+        };
+        modal.fastest = T::from_f64(modal.fastest_plain(&omega));
+        if modal.terms.gravity {
+            modal.admit_gravity(gravity)?;
+        }
+        Ok(modal)
+    }
+}

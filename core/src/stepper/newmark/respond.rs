@@ -1,0 +1,49 @@
+//! What the state means to the hub and at the tip.
+
+use super::{Newmark, Vibration};
+use crate::math::{Scalar, dot};
+use crate::motion::Hub;
+
+impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
+    /// `(J_h + J_r − Fᵀb) θ̈ + Fᵀv̇`.
+    #[inline(always)]
+    pub(super) fn inertial(&self, state: &Vibration<T, N>, acceleration: T) -> T {
+        self.inertia * acceleration + dot(&self.coupling, &state.restoring)
+    }
+
+    /// `u qᵀGq + 2θ̇ qᵀGq̇`, `u = θ̈ + αθ̇`.
+    #[inline(always)]
+    pub(super) fn spin_torque(&self, state: &Vibration<T, N>, forced: T, rate: T) -> T {
+        let q = &state.deflection;
+        let twice = self.twice_per_half * rate;
+        let mut arm = *q;
+        for i in 0..N {
+            arm[i] = forced * q[i] + twice * state.gain[i];
+        }
+        dot(&self.spun(q), &arm)
+    }
+
+    /// `g cosθ S − g sinθ f_gᵀq − ½ g cosθ qᵀK_P q`.
+    #[inline(never)]
+    pub(super) fn weight_torque(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> T {
+        let q = &state.deflection;
+        hub.cos * (self.moment - self.bent.at(q)) - hub.sin * dot(&self.weight, q)
+    }
+
+    #[inline(always)]
+    pub(super) fn tip_of(&self, state: &Vibration<T, N>) -> [T; 2] {
+        let q = &state.deflection;
+        [self.reach - self.shortening.at(q), self.tip_deflection(q)]
+    }
+
+    /// `w(L)`.
+    #[inline(always)]
+    fn tip_deflection(&self, q: &[T; N]) -> T {
+        if Self::PRINCIPAL {
+            dot(&self.tip, q)
+        } else {
+            // Both indices are constants: no bounds check, and `q` may stay in registers.
+            if self.tip_last { q[N - 1] } else { q[N.saturating_sub(2)] }
+        }
+    }
+}

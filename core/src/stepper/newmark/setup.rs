@@ -1,0 +1,117 @@
+//! An arm's matrices, made ready for ticks.
+
+use super::Newmark;
+use crate::Error;
+use crate::beam::Model;
+use crate::math::{Band, Scalar, cast, dot, principal_axes, root, round};
+use crate::stepper::terms::Terms;
+use crate::stepper::{SLEEP, check_tick};
+
+/// Heaviest payload along principal axes, in link masses over the roundings of the tick's precision:
+/// 17,000 of them in f32. The effective matrix is then as ill-conditioned as the squares of the first
+/// two frequencies are apart, 80 times the ratio of the masses.
+const HEAVIEST: f64 = 0.002;
+
+/// By how much more `K` counts in the effective matrix than it should, in roundings a degree of freedom.
+/// Where `4/h² M` is small against it, a `c` beyond `q*` feeds the arm: the rounding of the two must not
+/// get it there. A mode that the tick resolves does not notice.
+const MARGIN: f64 = 4.0;
+
+/// What the rounding of `K q` may feed an arm by, in roundings a tick: in f32, undamped arms of four
+/// and eight elements gained 1e-8 and 1e-7 of their energy a tick.
+const fn calm<const N: usize>() -> f64 {
+    let share = N as f64 / 16.0;
+    2.5 * share * share * share
+}
+
+/// Largest `c`, in link lengths: far beyond anything that means something.
+const MOST_LENGTHS: f64 = 1e6;
+
+impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
+    #[inline(always)]
+    pub(super) fn set_up<P: Scalar>(model: &Model<N, W, P>, tick: f64) -> Result<Self, Error> {
+        let tick = check_tick(tick)?;
+        let scene = model.scene();
+        if Self::PRINCIPAL {
+            let most = HEAVIEST / T::EPSILON.to_f64() * scene.link.mass.to_f64();
+            Error::check("payload.mass", scene.payload.mass, 0.0, most, "kg")?;
+        }
+        let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
+        let half = P::from_f64(0.5 * tick);
+        let per_half = P::ONE / half;
+        let principal = if Self::PRINCIPAL {
+            principal_axes(model.stiffness(), model.spin())
+        } else {
+            core::array::from_fn(|i| {
+                core::array::from_fn(|j| if i == j { P::ONE } else { P::ZERO })
+            })
+        };
+        let band = |a: &Band<P, N, W>| if Self::PRINCIPAL { a.onto(&principal) } else { *a };
+        let vector = |v: &[P; N]| onto(&principal, v);
+        let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));
+        let damping = mass.scaled(per_half * alpha).plus(per_half * beta, &stiffness);
+        let margin = if Self::PRINCIPAL { 0.0 } else { MARGIN * N as f64 * T::EPSILON.to_f64() };
+        let stiffer = P::ONE + P::from_f64(margin);
+        let effective = damping.plus(per_half * per_half, &mass).plus(stiffer, &stiffness);
+        // A tick so long that `4/h² M` is a rounding of `K` would leave a mass that is not positive, and
+        // the step would feed the arm: refused from where a pivot of the one is that of the other.
+        let inertia = mass.factored();
+        let ratio = |i: usize| inertia.pivot(i) / stiffness.get(i, i);
+        let lightest = (1..N).map(ratio).fold(ratio(0), |x, y| if y < x { y } else { x });
+        let longest = P::TWO * root(lightest / P::from_f64(T::EPSILON.to_f64()));
+        Error::check("solver.tick", tick, 1e-6, longest.to_f64(), "s")?;
+        let tension = band(model.tension()).scaled(gravity);
+        let coupling = vector(model.coupling());
+        let turn = inertia.solve(&coupling);
+        let residual = scene.rigid_inertia() - dot(&coupling, &turn);
+        let scaled = |scale: P| cast(&coupling.map(|f| scale * f));
+        let tip: [P; N] = principal.map(|axis| axis[model.tip()]);
+        // (½hω₁)², by Rayleigh's quotient of the shape that turning bends.
+        let bent = if Self::PRINCIPAL { coupling } else { stiffness.factored().solve(&coupling) };
+        let stiff = half * half * dot(&bent, &coupling) / dot(&bent, &mass.times(&bent));
+        let floor = P::from_f64(SLEEP) * scene.link.length;
+        // Principal coordinates by what they move the tip together; nodes' by their deflection or, a
+        // slope, by that of a link's length.
+        let long = scene.link.length * scene.link.length;
+        let reach = match Self::PRINCIPAL {
+            true => dot(&tip, &tip),
+            false if long > P::ONE => long,
+            false => P::ONE,
+        };
+        let weight = reach / (floor * floor * stiff);
+        Ok(Self {
+            turn: cast(&turn.map(|b| half * b)),
+            spin: band(model.spin()).map(round),
+            effective: effective.map(round),
+            coupling: scaled(-per_half * per_half),
+            inertia: round(scene.hub.inertia + residual),
+            twice_per_half: round(P::TWO * per_half),
+            reach: round(scene.reach()),
+            shortening: band(model.shortening()).map(round).half_form(),
+            tip: cast(&tip),
+            factors: effective.factored().map(round),
+            stiffness: stiffness.map(round),
+            terms: Terms::of(scene),
+            calm: T::EPSILON * T::from_f64(calm::<N>()),
+            tip_last: model.tip() + 1 == N,
+            awake: [weight / stiff, weight].map(round),
+            tick,
+            damping: damping.map(round),
+            drag: scaled(alpha),
+            drag_torque: scaled(per_half * alpha),
+            alpha: round(alpha),
+            rigid_drag: round(alpha * scene.rigid_inertia()),
+            tension: tension.map(round),
+            bent: tension.map(round).half_form(),
+            weight: cast(&vector(model.weight()).map(|f| gravity * f)),
+            moment: round(gravity * scene.first_moment()),
+            most: T::from_f64(MOST_LENGTHS * scene.link.length.to_f64()),
+        })
+    }
+}
+
+/// `vᵢᵀf` for the axes `vᵢ`.
+#[inline(never)]
+fn onto<P: Scalar, const N: usize>(axes: &[[P; N]; N], f: &[P; N]) -> [P; N] {
+    axes.map(|axis| dot(&axis, f))
+}

@@ -1,0 +1,118 @@
+//! The implicit step: `q*` and `d*`, and what restores them.
+
+use super::{Newmark, Vibration};
+use crate::math::{Band, Scalar};
+use crate::motion::Hub;
+
+impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
+    /// `K q`.
+    #[inline(always)]
+    pub(super) fn stiff(&self, q: &[T; N]) -> [T; N] {
+        if Self::PRINCIPAL { *q } else { self.stiffness.times(q) }
+    }
+
+    /// `G q`.
+    #[inline(always)]
+    pub(super) fn spun(&self, q: &[T; N]) -> [T; N] {
+        if Self::PRINCIPAL { self.spin.diagonal_times(q) } else { self.spin.times(q) }
+    }
+
+    /// `q*` and `d*`, the hub having gained that much rate.
+    #[inline(always)]
+    pub(super) fn predict(&self, state: &Vibration<T, N>, gained: T) -> ([T; N], [T; N]) {
+        let (mut q, mut d) = (state.deflection, state.gain);
+        for i in 0..N {
+            let d0 = d[i];
+            d[i] = d0 - state.restoring[i] - self.turn[i] * gained;
+            q[i] += d0 + d[i];
+        }
+        (q, d)
+    }
+
+    /// The state from `q*` and `d*` and what restores them.
+    #[inline(always)]
+    pub(super) fn correct(mut q: [T; N], mut d: [T; N], restoring: [T; N]) -> Vibration<T, N> {
+        for i in 0..N {
+            q[i] -= restoring[i];
+            d[i] -= restoring[i];
+        }
+        Vibration { deflection: q, gain: d, restoring }
+    }
+
+    /// `[E + θ̇²G] c = f + θ̇²G q`, `E` the effective matrix.
+    #[inline(always)]
+    pub(super) fn solve_turning(&self, mut force: [T; N], q: &[T; N], rate: T) -> [T; N] {
+        let square = rate * rate;
+        if Self::PRINCIPAL {
+            let change = self.spin.diagonal().map(|g| square * g);
+            for i in 0..N {
+                force[i] += change[i] * q[i];
+            }
+            self.effective.plus_diagonal(&change).solve(&force)
+        } else {
+            let change = self.spin.scaled(square);
+            let changed = change.times(q);
+            for i in 0..N {
+                force[i] += changed[i];
+            }
+            self.effective.plus(T::ONE, &change).solve(&force)
+        }
+    }
+
+    /// `c` from `[4/h² M + 2/h C + K_t] c = K_t q + 2/h C d + αFθ̇ + g cosθ f_g`, with
+    /// `K_t = K + θ̇²G − g sinθ K_P`; the factors of set-up serve while `K_t` is `K`.
+    #[inline(always)]
+    pub(super) fn solve(&self, q: &[T; N], d: &[T; N], hub: &Hub<T>) -> [T; N] {
+        let mut force = self.stiff(q);
+        self.damp(&mut force, d, hub.rate);
+        let turns = self.terms.spin && hub.rate != T::ZERO;
+        if !self.terms.gravity {
+            return if turns {
+                self.solve_turning(force, q, hub.rate)
+            } else {
+                self.factors.solve(&force)
+            };
+        }
+        let mut change = self.tension.scaled(-hub.sin);
+        if turns {
+            change = change.plus(hub.rate * hub.rate, &self.spin);
+        }
+        self.solve_hanging(force, q, change, hub.cos)
+    }
+
+    /// `[E + A] c = f + A q + g cosθ f_g`, `A` being `change`.
+    #[inline(never)]
+    pub(super) fn solve_hanging(
+        &self,
+        mut force: [T; N],
+        q: &[T; N],
+        change: Band<T, N, W>,
+        cos: T,
+    ) -> [T; N] {
+        let changed = change.times(q);
+        for i in 0..N {
+            force[i] += changed[i] + self.weight[i] * cos;
+        }
+        let restoring = self.effective.plus(T::ONE, &change).solve(&force);
+        restoring.map(|c| {
+            if c > self.most {
+                self.most
+            } else if c < -self.most {
+                -self.most
+            } else {
+                c
+            }
+        })
+    }
+
+    /// Adds what damping puts on a hub that turns.
+    #[inline(always)]
+    pub(super) fn damp(&self, force: &mut [T; N], d: &[T; N], rate: T) {
+        if self.terms.damping {
+            let damping = self.damping.times(d);
+            for i in 0..N {
+                force[i] += damping[i] + self.drag[i] * rate;
+            }
+        }
+    }
+}

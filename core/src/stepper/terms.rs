@@ -1,0 +1,23 @@
+//! What a scene asks of a tick.
+
+use crate::Scene;
+use crate::math::Scalar;
+
+/// Terms that the scene needs; the others cost nothing but a branch that never changes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Terms {
+    pub spin: bool,
+    pub gravity: bool,
+    pub damping: bool,
+}
+
+impl Terms {
+    pub fn of<P: Scalar>(scene: &Scene<P>) -> Self {
+        let damping = scene.damping;
+        Self {
+            spin: true,
+            gravity: scene.gravity != P::ZERO,
+            damping: damping.alpha != P::ZERO || damping.beta != P::ZERO,
+        }
+    }
+}

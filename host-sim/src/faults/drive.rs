@@ -1,0 +1,33 @@
+//! What hangs on the other end of the bus.
+
+use stillbeam::axis::Mode;
+use stillbeam::drive::ClassicFrame;
+use stillbeam::drive::odrive::{EncoderEstimates, Node};
+
+use super::board::Step;
+
+/// A drive that does as it is told, and says where it is.
+pub struct Drive {
+    position: f32,
+}
+
+impl Drive {
+    /// Standing there, turns.
+    pub fn at(position: f32) -> Self {
+        Self { position }
+    }
+
+    /// Takes a setpoint.
+    pub fn follow(&mut self, step: &Step) {
+        if step.tick.mode != Mode::Disabled {
+            self.position = step.demand.position.in_turns() as f32;
+        }
+    }
+
+    /// Where the encoder is.
+    pub fn report(&self, node: Node) -> ClassicFrame {
+        let estimates = EncoderEstimates { position: self.position, velocity: 0.0 };
+        // Eight bytes are a frame.
+        node.estimates_frame(&estimates).unwrap_or_else(|| unreachable!("eight bytes"))
+    }
+}
