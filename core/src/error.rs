@@ -58,7 +58,7 @@ pub enum Error {
     Tolerance {
         /// What was asked for, fraction of L.
         tolerance: f64,
-        /// The error to expect of the best, fraction of L.
+        /// The error to expect of the best, fraction of L; infinite where none follows.
         best: f64,
     },
     /// The queue has not enough free segments for the move.
@@ -154,6 +154,11 @@ impl fmt::Display for Error {
                 f,
                 "move.duration: the tip is expected to turn {bend:.3} rad against the hub; accepted \
                  is up to {max:.3} rad, by a longer move, a stiffer link or a stepper set up for more"
+            ),
+            Self::Tolerance { tolerance, best } if !best.is_finite() => write!(
+                f,
+                "solver.tolerance = {tolerance}: no method follows this move at this tick; accepted \
+                 is a longer move or a shorter tick"
             ),
             Self::Tolerance { tolerance, best } => write!(
                 f,

@@ -6,7 +6,7 @@ use stillbeam_sim::stress::energy;
 /// highest of many elements in f32.
 #[test]
 fn an_arm_that_rings_on_gains_nothing() {
-    let rings = energy::rings(8, 12, 200_000, &|| ());
+    let rings = energy::rings(8, 0, 12, 200_000, &|| ());
     assert!(rings.len() > 200, "{}", rings.len());
     for ring in rings {
         let rounded = ring.method.starts_with("newmark") && ring.method.ends_with("f32");

@@ -36,6 +36,17 @@ fn newmark_stays_finite_under_parametric_resonance() {
     assert_eq!(run.broken, [None, None], "{run:?}");
 }
 
+/// The same of modes.
+#[test]
+fn modal_stays_finite_under_parametric_resonance() {
+    for (index, modes) in [(62_616, 3), (97_077, 1), (423_763, 2)] {
+        let outcome =
+            outcome(8, index, |solver| solver.method == Method::Modal && solver.modes == modes);
+        let Verdict::Ran(run) = &outcome else { panic!("{index}: {outcome:?}") };
+        assert_eq!(run.broken, [None, None], "{index}: {run:?}");
+    }
+}
+
 /// A gravity that takes nearly all of the first mode's stiffness, at 1.6 rad a tick: the step fed the
 /// arm until it was no number.
 #[test]

@@ -39,7 +39,7 @@ fn a_campaign_does_not_depend_on_how_it_is_cut() {
 
 #[test]
 fn undamped_arms_gain_no_energy() {
-    let rings = energy::rings(8, 4, 50_000, &|| ());
+    let rings = energy::rings(8, 0, 4, 50_000, &|| ());
     let of = |method: &str| rings.iter().filter(|ring| ring.method == method).count();
     assert!(of("modal, 2, f32") >= 3 && of("newmark, 4, f64") >= 3);
     for ring in rings {

@@ -34,6 +34,18 @@ pub(crate) fn dot<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
     sum
 }
 
+/// `x` within `±most`.
+#[inline(always)]
+pub(crate) fn clip<T: Scalar>(x: T, most: T) -> T {
+    if x > most {
+        most
+    } else if x < -most {
+        -most
+    } else {
+        x
+    }
+}
+
 /// Rounds a set-up vector to the scalar of the tick.
 pub(crate) fn cast<T: Scalar, P: Scalar, const N: usize>(v: &[P; N]) -> [T; N] {
     v.map(round)

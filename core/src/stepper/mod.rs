@@ -132,6 +132,11 @@ pub trait Stepper {
 /// the best reference resolves, and a few f32 roundings.
 pub const SLEEP: f64 = 1e-6;
 
+/// Largest change in a tick of what gravity puts on an arm, in link lengths that it deflects by: far beyond
+/// anything that means something. An arm that it feeds without end, the hub turning at twice its
+/// frequency, stays finite.
+const MOST: f64 = 1e6;
+
 /// Floors of a mode's coordinate for [`Stepper::is_settled`], from its tip deflection per unit.
 fn sleep_floor<T: Scalar>(length: f64, tip: f64) -> T {
     T::from_f64(SLEEP * length / tip.abs())

@@ -88,7 +88,7 @@ impl StabilityArgs {
         bar.finish_and_clear();
         let summary = summary?;
         let bar = progress::bar("arms that ring on", self.arms);
-        let rings = energy::rings(self.seed, self.arms, energy::TICKS, &|| bar.inc(1));
+        let rings = energy::rings(self.seed, 0, self.arms, energy::TICKS, &|| bar.inc(1));
         bar.finish_and_clear();
         let bar = progress::bar("ticks", document::long_ticks(self.ticks) as usize);
         let long = document::long(self.ticks, &|n| bar.inc(n));

@@ -29,22 +29,23 @@ pub struct StressArgs {
     /// In place of random scenes: repeated moves, a vibration and a rotation for so many ticks each
     #[arg(long, value_name = "TICKS")]
     long: Option<u64>,
-    /// Only this scene, and what comes of it
+    /// Only this scene, and what comes of it; of arms that ring on, the first
     #[arg(long, value_name = "INDEX")]
     scene: Option<u64>,
 }
 
 impl StressArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        if let Some(index) = self.scene {
-            return Ok(self.one(index));
-        }
         if let Some(arms) = self.energy {
             let bar = progress::bar("arms that ring on", arms);
-            let rings = energy::rings(self.seed, arms, energy::TICKS, &|| bar.inc(1));
+            let first = self.scene.unwrap_or(0);
+            let rings = energy::rings(self.seed, first, arms, energy::TICKS, &|| bar.inc(1));
             bar.finish_and_clear();
             print!("{}", document::energy(&rings));
             return Ok(ExitCode::SUCCESS);
+        }
+        if let Some(index) = self.scene {
+            return Ok(self.one(index));
         }
         if let Some(ticks) = self.long {
             let bar = progress::bar("ticks", document::long_ticks(ticks) as usize);

@@ -97,7 +97,7 @@ pub fn energy(rings: &[Ring]) -> String {
     for ring in rings {
         by_method.entry(&ring.method).or_default().push(ring);
     }
-    let mut header = words(["method", "arms"]);
+    let mut header = words(["method", "arms", "within 1e-3"]);
     for range in ["to 0.1", "0.1 to 0.5", "above"] {
         header.push(format!("growth, ω₁h {range}"));
         header.push("loss, median".to_owned());
@@ -105,26 +105,30 @@ pub fn energy(rings: &[Ring]) -> String {
     header.push("largest growth at scene".to_owned());
     let mut lines = vec![header];
     for (method, rings) in by_method {
-        let mut line = vec![method.to_owned(), rings.len().to_string()];
+        let kept = rings.iter().filter(|ring| ring.growth <= GROWTH).count();
+        let mut line = vec![method.to_owned(), rings.len().to_string(), kept.to_string()];
         for edge in EDGES.windows(2) {
             let within: Vec<&&Ring> =
                 rings.iter().filter(|ring| (edge[0]..edge[1]).contains(&ring.turn)).collect();
-            let growth = within.iter().map(|ring| ring.growth).fold(f64::NAN, f64::max);
+            let growth = within.iter().map(|ring| ring.growth).reduce(f64::max);
             let mut losses: Vec<f64> = within.iter().map(|ring| ring.loss).collect();
             losses.sort_by(f64::total_cmp);
-            line.push(format!("{growth:.0e}"));
-            line.push(
-                losses.get(losses.len() / 2).map_or("\u{2013}".into(), |x| format!("{x:.0e}")),
-            );
+            let figure = |x: Option<&f64>| x.map_or("\u{2013}".into(), |x| format!("{x:.0e}"));
+            line.push(figure(growth.as_ref()));
+            line.push(figure(losses.get(losses.len() / 2)));
         }
         let worst = rings.iter().max_by(|a, b| a.growth.total_cmp(&b.growth));
-        line.push(
-            worst.map_or(String::new(), |ring| format!("{} ({:.1e})", ring.scene, ring.turn)),
-        );
+        line.push(match worst {
+            Some(ring) if ring.growth > 0.0 => format!("{} ({:.1e})", ring.scene, ring.turn),
+            _ => "\u{2013}".into(),
+        });
         lines.push(line);
     }
     aligned(&lines)
 }
+
+/// Growth of the energy that is wanted at most.
+const GROWTH: f64 = 1e-3;
 
 /// First modes that ring on, rad a tick.
 const TURNS: [f64; 5] = [1e-3, 1e-2, 0.1, 1.0, 3.0];

@@ -35,10 +35,16 @@ pub struct Ring {
     pub loss: f64,
 }
 
-/// Undamped level arms of scenes of a seed, each method that takes them in both precisions, for so
-/// many ticks.
-pub fn rings(seed: u64, arms: usize, ticks: u64, done: &(dyn Fn() + Sync)) -> Vec<Ring> {
-    let moved = (0..).filter_map(|index| suitable(seed, index)).take(arms);
+/// Undamped level arms of scenes of a seed, from scene `first` on, each method that takes them in both
+/// precisions, for so many ticks.
+pub fn rings(
+    seed: u64,
+    first: u64,
+    arms: usize,
+    ticks: u64,
+    done: &(dyn Fn() + Sync),
+) -> Vec<Ring> {
+    let moved = (first..).filter_map(|index| suitable(seed, index)).take(arms);
     let moved: Vec<Arm> = moved.collect();
     moved
         .into_par_iter()

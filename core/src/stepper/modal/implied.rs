@@ -1,7 +1,7 @@
 //! The force at the end of a step that leads there.
 
 use super::Modal;
-use crate::math::Scalar;
+use crate::math::{Scalar, clip};
 use crate::motion::Hub;
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
@@ -43,6 +43,6 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             }
             change[p] = change[p] * a[p][p];
         }
-        change
+        if self.terms.gravity { change.map(|force| clip(force, self.most)) } else { change }
     }
 }

@@ -57,6 +57,8 @@ pub struct Modal<T, const K: usize> {
     /// arm is to sleep.
     awake: [[T; 2]; K],
     tick: f64,
+    /// Largest change of a force over `ω` in a tick, see [`super::MOST`].
+    most: T,
     /// Rate up to which the spin terms may be taken at a predicted state, as within plain cubics, rad/s.
     fastest: T,
 }

@@ -6,7 +6,7 @@ use crate::beam::{Model, Modes};
 use crate::math::{Band, Scalar, cast, dot};
 use crate::stepper::oscillator::{Oscillator, check_turns, jolt};
 use crate::stepper::terms::Terms;
-use crate::stepper::{check_tick, sleep_floor};
+use crate::stepper::{MOST, check_tick, sleep_floor};
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Keeps the lowest `K` modes of the model for steps of `tick` s. f64 inside.
@@ -62,6 +62,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                 [floor, omega[k] * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
             }),
             tick,
+            most: T::from_f64(MOST * scene.link.length / shape[0][model.tip()].abs()),
         };
         modal.fastest = T::from_f64(modal.fastest_plain(&omega));
         if modal.terms.gravity {

@@ -90,8 +90,7 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     weight: [T; N],
     /// `g S`, S the first moment.
     moment: T,
-    /// Largest `c`: an arm that gravity feeds without end, its hub turning at twice its frequency, stays
-    /// finite.
+    /// Largest `c`, see [`super::MOST`].
     most: T,
 }
 

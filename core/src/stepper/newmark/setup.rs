@@ -5,7 +5,7 @@ use crate::Error;
 use crate::beam::Model;
 use crate::math::{Band, Scalar, cast, dot, principal_axes, root, round};
 use crate::stepper::terms::Terms;
-use crate::stepper::{SLEEP, check_tick};
+use crate::stepper::{MOST, SLEEP, check_tick};
 
 /// Heaviest payload along principal axes, in link masses over the roundings of the tick's precision:
 /// 17,000 of them in f32. The effective matrix is then as ill-conditioned as the squares of the first
@@ -23,9 +23,6 @@ const fn calm<const N: usize>() -> f64 {
     let share = N as f64 / 16.0;
     2.5 * share * share * share
 }
-
-/// Largest `c`, in link lengths: far beyond anything that means something.
-const MOST_LENGTHS: f64 = 1e6;
 
 impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
     #[inline(always)]
@@ -105,7 +102,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             bent: tension.map(round).half_form(),
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * scene.first_moment()),
-            most: T::from_f64(MOST_LENGTHS * scene.link.length.to_f64()),
+            most: T::from_f64(MOST * scene.link.length.to_f64()),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! The implicit step: `q*` and `d*`, and what restores them.
 
 use super::{Newmark, Vibration};
-use crate::math::{Band, Scalar};
+use crate::math::{Band, Scalar, clip};
 use crate::motion::Hub;
 
 impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
@@ -94,15 +94,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             force[i] += changed[i] + self.weight[i] * cos;
         }
         let restoring = self.effective.plus(T::ONE, &change).solve(&force);
-        restoring.map(|c| {
-            if c > self.most {
-                self.most
-            } else if c < -self.most {
-                -self.most
-            } else {
-                c
-            }
-        })
+        restoring.map(|c| clip(c, self.most))
     }
 
     /// Adds what damping puts on a hub that turns.
