@@ -46,8 +46,11 @@ pub fn scenes(summary: &Summary) -> String {
         grouped(summary.ticks),
         aligned(&lines)
     );
+    if !summary.failures.is_empty() {
+        text.push('\n');
+    }
     for failure in &summary.failures {
-        text += &format!("\nScene {}, {}: {}.", failure.index, failure.method, failure.what);
+        text += &format!("- scene {}, {}: {}\n", failure.index, failure.method, failure.what);
     }
     text
 }

@@ -12,10 +12,8 @@ use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status}
 use crate::axes::{self, AXES, CONFIGURATIONS};
 use crate::board::{self, LinkReader};
 use crate::link;
-use crate::plan::{self, DONE, Done, JOBS, Job, Work};
-use crate::shared::{self, Joint};
-
-pub type Outcome<T> = Result<T, Refusal<'static>>;
+use crate::plan::{DONE, Done, JOBS, Job, Work};
+use crate::shared::{self, Outcome, on, scene};
 
 /// Takes requests one by one and answers each, at once or when it is planned.
 #[embassy_executor::task]
@@ -102,15 +100,6 @@ fn change(axis: usize, command: Command) -> Outcome<u32> {
     }
 }
 
-/// Changes an axis with the tick masked.
-pub fn on(axis: usize, change: impl FnOnce(&mut Joint) -> Outcome<()>) -> Outcome<u32> {
-    shared::with(|s| {
-        let joint = s.joints.get_mut(axis).ok_or(Refusal::Axis(AXES as u8))?;
-        let tick = joint.axis.clock();
-        change(joint).map(|()| tick)
-    })
-}
-
 /// Names the angle where a disabled axis stands.
 fn home(axis: usize, angle: f64) -> Outcome<u32> {
     if !(-1e6..=1e6).contains(&angle) {
@@ -142,7 +131,7 @@ fn describe(axis: usize) -> Outcome<Description<'static>> {
         axes: AXES as u8,
         method: axes::METHOD,
         tick: axes::TICK,
-        scene: plan::scene(axis)?,
+        scene: scene(axis)?,
         policy: configuration.policy,
         joint: configuration.joint,
         direction: configuration.direction,

@@ -8,8 +8,7 @@ use stillbeam::{Departure, Error, Move, Payload, Planned, Rejected, Scene};
 use stillbeam_protocol::Refusal;
 
 use crate::axes::{self, AXES};
-use crate::command::{Outcome, on};
-use crate::shared;
+use crate::shared::{self, Outcome, on, scene};
 use crate::still::Planners;
 
 /// What is to be planned or set up.
@@ -94,9 +93,4 @@ fn reload(axis: usize, payload: Payload) -> Outcome<u32> {
         joint.scene = changed;
         Ok(())
     })
-}
-
-/// The arm as it is now.
-pub fn scene(axis: usize) -> Outcome<Scene> {
-    shared::with(|s| s.joints.get(axis).map(|joint| joint.scene)).ok_or(Refusal::Axis(AXES as u8))
 }

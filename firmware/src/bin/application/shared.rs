@@ -7,8 +7,12 @@ use embassy_sync::blocking_mutex::CriticalSectionMutex;
 use heapless::Vec;
 use stillbeam::motor::Drivetrain;
 use stillbeam::{Angle, Error, Scene};
+use stillbeam_protocol::Refusal;
 
 use crate::axes::{self, AXES, Axis, CONFIGURATIONS, Configuration};
+
+/// What a request comes to.
+pub type Outcome<T> = Result<T, Refusal<'static>>;
 
 /// One axis.
 pub struct Joint {
@@ -91,4 +95,18 @@ fn add(configuration: &Configuration) -> Result<(), Error> {
         let _ = shared.joints.push(Joint { scene: *scene, axis, train, measured: None });
     });
     Ok(())
+}
+
+/// Changes an axis with the tick masked.
+pub fn on(axis: usize, change: impl FnOnce(&mut Joint) -> Outcome<()>) -> Outcome<u32> {
+    with(|s| {
+        let joint = s.joints.get_mut(axis).ok_or(Refusal::Axis(AXES as u8))?;
+        let tick = joint.axis.clock();
+        change(joint).map(|()| tick)
+    })
+}
+
+/// The arm as it is now.
+pub fn scene(axis: usize) -> Outcome<Scene> {
+    with(|s| s.joints.get(axis).map(|joint| joint.scene)).ok_or(Refusal::Axis(AXES as u8))
 }

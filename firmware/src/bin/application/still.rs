@@ -8,8 +8,7 @@ mod planner {
     use stillbeam::{Departure, Error, Planned};
 
     use crate::axes::{AXES, TICK};
-    use crate::command::Outcome;
-    use crate::plan::scene;
+    use crate::shared::{Outcome, scene};
 
     /// The planner of one arm: its exact rod in two modes.
     pub struct Planner(Still<f32, 2>);
@@ -53,7 +52,7 @@ mod planner {
     use stillbeam::{Departure, Error, Planned};
     use stillbeam_protocol::Refusal;
 
-    use crate::command::Outcome;
+    use crate::shared::Outcome;
 
     /// None is built in.
     pub enum Planner {}
