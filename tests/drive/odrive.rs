@@ -124,3 +124,17 @@ fn a_node_beyond_six_bits_is_refused() {
     let error = Node::new(64).unwrap_err().to_string();
     assert_eq!(error, "drive.node = 64: accepted is 0 to 63");
 }
+
+/// Half a turn below 2²¹ the nearest whole number has a bit more than an f32's split gives back: a drive
+/// that stood there was taken to stand as far on the other side. Found by fuzzing.
+#[test]
+fn a_position_past_the_last_turn_is_none() {
+    let estimates = |position| EncoderEstimates { position, velocity: 0.0 };
+    for position in [2_097_151.8, 2_097_151.5, -2_097_151.5, 1e9, f32::INFINITY, f32::NAN] {
+        assert_eq!(estimates(position).angle(), None, "{position}");
+    }
+    for position in [2_097_151.2_f32, -2_097_151.2, 0.5, -0.25] {
+        let angle = estimates(position).angle().expect("an angle");
+        assert_eq!(angle.in_turns(), f64::from(position));
+    }
+}

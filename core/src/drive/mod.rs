@@ -54,8 +54,8 @@ pub struct Encoded<P> {
     pub saturated: Saturated,
 }
 
-/// Turns in one f32 as an angle, if they are finite and below 2²¹.
+/// Turns in one f32 as an angle, if they are finite and nearest to fewer than 2²¹ whole ones.
 fn turns(position: f32) -> Option<Angle<f32>> {
-    let within = position > -2_097_152.0 && position < 2_097_152.0;
+    let within = position > -2_097_151.5 && position < 2_097_151.5;
     within.then(|| Angle { turns: 0, part: 0.0 }.plus(position))
 }

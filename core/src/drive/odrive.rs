@@ -10,6 +10,7 @@ use super::counts::count_i16;
 use super::frame::standard;
 use super::{Encoded, Saturated};
 use crate::Error;
+use crate::motion::Angle;
 use crate::motor::Demand;
 
 /// N m a count of the torque feed-forward.
@@ -31,6 +32,13 @@ pub struct EncoderEstimates {
     pub position: f32,
     /// Turns/s.
     pub velocity: f32,
+}
+
+impl EncoderEstimates {
+    /// The position as an angle. `None` if it is not finite or 2²¹ − ½ turns and more.
+    pub fn angle(&self) -> Option<Angle<f32>> {
+        super::turns(self.position)
+    }
 }
 
 impl Node {
@@ -116,7 +124,7 @@ pub fn encode(demand: &Demand<f32>) -> Option<Encoded<[u8; 8]>> {
     })
 }
 
-/// The demand in a payload. `None` if the position is not finite or beyond 2²¹ turns.
+/// The demand in a payload. `None` if the position is not finite or 2²¹ − ½ turns and more.
 pub fn decode(payload: &[u8; 8]) -> Option<Demand<f32>> {
     let &[p0, p1, p2, p3, v0, v1, t0, t1] = payload;
     let position = f32::from_le_bytes([p0, p1, p2, p3]);

@@ -45,7 +45,8 @@ pub trait Scalar:
 
     /// The nearest whole number, halves to even, and what is left: `self = whole + rest` exactly.
     ///
-    /// `|self| ≤ 2²¹`. Outside of it, and for NaN, both are arbitrary.
+    /// `|self| < 2²¹ − ½`, the nearest of which is a whole number of 22 bits. Outside of it, and for NaN,
+    /// both are arbitrary.
     fn split(self) -> (i32, Self);
 
     /// The signed binary fraction `value / 2⁶⁴`, in `−½ ..= ½`, to the scalar's precision.

@@ -132,11 +132,8 @@ impl Board {
     /// A frame from the drive.
     pub fn hear_drive(&mut self, frame: &ClassicFrame) {
         if let Some(estimates) = self.node.estimates(frame) {
-            let shaft = Angle { turns: 0, part: 0.0 };
-            // As the application: what a float says in turns, below 2²¹ of them.
-            if estimates.position.abs() < 2_097_152.0 {
-                self.measured = Some(shaft.plus(estimates.position));
-            }
+            // As the application.
+            self.measured = estimates.angle();
         }
     }
 

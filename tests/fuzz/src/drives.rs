@@ -8,7 +8,7 @@ use stillbeam_protocol::slcan;
 use crate::values::{close, demand, double};
 
 /// Turns below which every format gives a position back.
-const FAR: f64 = 2_097_152.0;
+const FAR: f64 = 2_097_151.5;
 
 /// ODrive: demands and axis states out, encoder estimates in.
 pub fn odrive(bytes: &[u8]) {

@@ -1,7 +1,6 @@
 //! Frames to the drives and from them. ODrive CAN simple; another protocol of `stillbeam::drive`
 //! goes in here.
 
-use stillbeam::Angle;
 use stillbeam::axis::{Mode, Tick};
 use stillbeam::drive::odrive::{Node, TORQUE_STEP};
 use stillbeam::drive::{ClassicFrame, Freshness, Sequence, TorquePeak};
@@ -83,10 +82,11 @@ pub async fn receive(mut bus: BusReader) {
         for (i, configuration) in CONFIGURATIONS.iter().enumerate() {
             let Ok(node) = Node::new(configuration.node) else { continue };
             let Some(estimates) = node.estimates(&frame) else { continue };
-            let shaft = Angle { turns: 0, part: 0.0 }.plus(estimates.position);
+            // One that an angle cannot hold is no measurement.
+            let shaft = estimates.angle();
             shared::with(|s| {
                 if let Some(joint) = s.joints.get_mut(i) {
-                    joint.measured = Some(shaft);
+                    joint.measured = shaft;
                 }
             });
         }
