@@ -100,7 +100,8 @@ pub fn energy(rings: &[Ring]) -> String {
     for ring in rings {
         by_method.entry(&ring.method).or_default().push(ring);
     }
-    let mut header = words(["method", "arms", "within 1e-3"]);
+    let mut header = words(["method", "arms"]);
+    header.push(format!("within {GROWTH:.0e}"));
     for range in ["to 0.1", "0.1 to 0.5", "above"] {
         header.push(format!("growth, ω₁h {range}"));
         header.push("loss, median".to_owned());

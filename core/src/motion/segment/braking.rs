@@ -130,22 +130,6 @@ impl<T: Scalar> Braking<T> {
 }
 
 impl<T: Scalar> Segment<T> {
-    /// At rest at `angle` for as long as ticks can be counted.
-    pub(crate) fn rest(angle: Angle<T>) -> Self {
-        Self {
-            origin: angle,
-            count: u32::MAX,
-            offset: T::ZERO,
-            advance: T::ZERO,
-            rate_scale: T::ZERO,
-            acceleration_scale: T::ZERO,
-            landing: T::ZERO,
-            entry: T::ZERO,
-            low: [T::ZERO; 3],
-            rest: Rest::Cruise { rate: T::ZERO, step: 0 },
-        }
-    }
-
     /// The same segment that many turns on.
     pub(crate) fn shifted(self, by: T) -> Self {
         Self { origin: self.origin.plus(by), ..self }

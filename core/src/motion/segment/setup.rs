@@ -39,8 +39,18 @@ impl<T: Scalar> Segment<T> {
     pub(crate) fn cruise(start: Angle<f64>, rate: f64, count: u32, tick: f64) -> Self {
         // At most ½ turn a tick by the rate check of `Plan`, so the product fits an i64.
         let step = (rate * tick * (18_446_744_073_709_551_616.0 / TAU)) as i64;
+        Self::steady(start.cast(), T::from_f64(rate), step, count)
+    }
+
+    /// At rest at `angle` for as long as ticks can be counted.
+    pub(crate) fn rest(angle: Angle<T>) -> Self {
+        Self::steady(angle, T::ZERO, 0, u32::MAX)
+    }
+
+    #[inline(always)]
+    fn steady(origin: Angle<T>, rate: T, step: i64, count: u32) -> Self {
         Self {
-            origin: start.cast(),
+            origin,
             count,
             offset: T::ZERO,
             advance: T::ZERO,
@@ -49,7 +59,7 @@ impl<T: Scalar> Segment<T> {
             landing: T::ZERO,
             entry: T::ZERO,
             low: [T::ZERO; 3],
-            rest: Rest::Cruise { rate: T::from_f64(rate), step },
+            rest: Rest::Cruise { rate, step },
         }
     }
 }

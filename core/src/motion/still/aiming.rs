@@ -1,7 +1,7 @@
 //! Finds where to aim so that nothing is left: Broyden's method on a few unknowns.
 
 use super::effort::MAX_AIMS;
-use crate::math::{Scalar, dot};
+use crate::math::{self, Scalar, dot};
 
 /// What was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,12 +98,6 @@ fn update<T: Scalar>(
 /// Each element within `± most`.
 pub(super) fn clip<T: Scalar, const N: usize>(step: &mut [T; N], most: T) {
     for x in step {
-        *x = if *x > most {
-            most
-        } else if *x < -most {
-            -most
-        } else {
-            *x
-        };
+        *x = math::clip(*x, most);
     }
 }
