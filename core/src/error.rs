@@ -7,7 +7,7 @@ use crate::math::Scalar;
 /// A scene or a move that is not accepted.
 ///
 /// Each variant carries the parameter's full name as it stands in a scene file, the value that was
-/// given and what is accepted; [`fmt::Display`] prints them in one line.
+/// given and what it must be; [`fmt::Display`] prints them in one line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Error {
@@ -34,6 +34,8 @@ pub enum Error {
         needed: f64,
         /// Unit of both.
         unit: &'static str,
+        /// What would keep the limit.
+        remedy: Remedy,
     },
     /// The hub would turn more than a radian a tick, or than the stepper carries.
     TooFast {
@@ -110,6 +112,43 @@ pub enum Error {
     },
 }
 
+/// What would keep a limit that a move exceeds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Remedy {
+    /// This duration, s: the shortest whole number of ticks that keeps every limit.
+    Duration(f64),
+    /// A longer duration; how long is not known to the layer that refuses.
+    Longer,
+    /// No duration: the acceleration jumps, so its jerk is infinite. Another profile does.
+    Smoother,
+    /// No duration: the move ends at this rate, rad/s, or begins with it.
+    Slower(f64),
+    /// No duration: holding the arm against its weight on the way takes this much, in the limit's
+    /// unit.
+    Weight(f64),
+}
+
+impl fmt::Display for Remedy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Duration(duration) => write!(f, "a duration of {duration} s fits"),
+            Self::Longer => write!(f, "use a longer move or raise the limit"),
+            Self::Smoother => write!(
+                f,
+                "the acceleration jumps, so no duration helps; use quintic, cycloid, s-curve or still"
+            ),
+            Self::Slower(rate) => {
+                write!(f, "the hub turns at {rate} rad/s at an end, so no duration helps")
+            }
+            Self::Weight(held) => write!(
+                f,
+                "holding the arm against its weight takes {held:.6} on the way, so no duration helps"
+            ),
+        }
+    }
+}
+
 impl Error {
     /// `value` if it lies in `min..=max`, compared in its own precision, else the error that names
     /// `parameter`.
@@ -132,77 +171,77 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::OutOfRange { parameter, value, min, max, unit } => {
-                write!(f, "{parameter} = {value}: accepted is {min} to {max}")?;
+                write!(f, "{parameter} = {value}: must be {min} to {max}")?;
                 if unit.is_empty() { Ok(()) } else { write!(f, " {unit}") }
             }
-            Self::LimitExceeded { parameter, limit, needed, unit } => write!(
+            Self::LimitExceeded { parameter, limit, needed, unit, remedy } => write!(
                 f,
-                "{parameter} = {limit} {unit}: the move needs {needed:.6} {unit}; accepted is a \
-                 longer move or a higher limit"
+                "{parameter}: the move needs {needed:.6} {unit}, must be at most {limit} {unit}; {remedy}"
             ),
             Self::TooFast { rate, max } => write!(
                 f,
-                "move.duration: the move peaks at {rate:.6} rad/s; accepted is up to {max:.6} rad/s for \
+                "move.duration: the move peaks at {rate:.6} rad/s, must be at most {max:.6} rad/s for \
                  this arm, method and tick (never more than one radian a tick)"
             ),
             Self::NotAtRest { rate } => write!(
                 f,
-                "move.profile: the hub turns at {rate} rad/s when this rest-to-rest move begins; \
-                 accepted is a spin-up to rate = 0 before it"
+                "move.profile: the hub turns at {rate} rad/s when this rest-to-rest move begins, \
+                 must be at rest; put a spin-up to rate = 0 before it"
             ),
             Self::BendsTooFar { bend, max } => write!(
                 f,
-                "move.duration: the tip is expected to turn {bend:.3} rad against the hub; accepted \
-                 is up to {max:.3} rad, by a longer move, a stiffer link or a stepper set up for more"
+                "move.duration: the tip is expected to turn {bend:.3} rad against the hub, must \
+                 be at most {max:.3} rad; use a longer move, a stiffer link or a stepper set up for more"
             ),
             Self::Tolerance { tolerance, best } if !best.is_finite() => write!(
                 f,
-                "solver.tolerance = {tolerance}: no method follows this move at this tick; accepted \
-                 is a longer move or a shorter tick"
+                "solver.tolerance = {tolerance}: no method follows this move at this tick; use a \
+                 longer move or a shorter tick"
             ),
             Self::Tolerance { tolerance, best } => write!(
                 f,
-                "solver.tolerance = {tolerance}: accepted is {best:.6} and more for this move at \
+                "solver.tolerance = {tolerance}: must be at least {best:.6} for this move at \
                  this tick; a longer move or a shorter tick takes less"
             ),
             Self::QueueFull { needed, free } => write!(
                 f,
-                "moves: this one takes {needed} segments of the queue; accepted is up to {free} now"
+                "moves: this one takes {needed} segments of the queue, must be at most {free} now; wait for \
+                 a move to end"
             ),
             Self::TooShort { duration, shortest } => write!(
                 f,
-                "move.duration = {duration}: too short for the arm to arrive at rest; accepted is \
-                 from {shortest:.6} s, 0.9 first periods"
+                "move.duration = {duration}: too short for the arm to arrive at rest; must be \
+                 at least {shortest:.6} s, 0.9 first periods"
             ),
             Self::NotStill { duration, residual } if !residual.is_finite() => write!(
                 f,
                 "move.duration = {duration}: the arm would be bent out of all shape on its way; \
-                 accepted is a longer move, or a smaller angle in rad"
+                 use a longer move, or a smaller angle in rad"
             ),
             Self::NotStill { duration, residual } => write!(
                 f,
-                "move.duration = {duration}: the arm would ring with {:.3} % of its length; accepted \
-                 is another duration",
+                "move.duration = {duration}: the arm would ring with {:.3} % of its length; use \
+                 another duration",
                 100.0 * residual
             ),
             Self::DeflectsTooFar { deflection, most } => write!(
                 f,
-                "move.duration: the tip would deflect by {deflection:.6} m; accepted is up to \
-                 {most:.6} m, by a longer move or a stiffer link"
+                "move.duration: the tip would deflect by {deflection:.6} m, must be at most \
+                 {most:.6} m; use a longer move or a stiffer link"
             ),
             Self::Elsewhere { hub, begins } => write!(
                 f,
                 "move.from = {begins} rad: the hub is at {hub} rad at that tick, or turns \
-                 otherwise; accepted is a move planned from there"
+                 otherwise; plan the move from there"
             ),
             Self::Buckles { gravity } => write!(
                 f,
                 "gravity.acceleration = {gravity}: the upright link buckles under its own weight; \
-                 accepted is less gravity, a stiffer link or a lighter payload"
+                 use less gravity, a stiffer link or a lighter payload"
             ),
             Self::DegreesOfFreedom { given, needed } => write!(
                 f,
-                "elements: the model type has {given} degrees of freedom; accepted is {needed} for \
+                "elements: the model type has {given} degrees of freedom, must be {needed} for \
                  this scene"
             ),
         }

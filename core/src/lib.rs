@@ -60,7 +60,7 @@ pub mod motor;
 pub mod scene;
 pub mod stepper;
 
-pub use error::Error;
+pub use error::{Error, Remedy};
 pub use generator::{Departure, Generator, Planned, Rejected, Setpoint};
 pub use math::Scalar;
 pub use motion::{Angle, Limits, Move, Profile};

@@ -11,9 +11,8 @@ pub fn fill(text: &str, page: &str, blocks: &[(String, String)]) -> Result<Strin
     let mut text = text.to_owned();
     for (name, block) in blocks {
         let start = format!("<!-- {page}:{name} -->");
-        let missing = || {
-            Error::new(format_args!("{name}: accepted is a text with {start} and {end} after it"))
-        };
+        let missing =
+            || Error::new(format_args!("{name}: must be a text with {start} and {end} after it"));
         let begin = text.find(&start).ok_or_else(missing)? + start.len();
         let length = text[begin..].find(&end).ok_or_else(missing)?;
         text.replace_range(begin..begin + length, &format!("\n{block}"));

@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// A request that cannot be carried out.
 ///
-/// Displays as one line that names the field or file, its value and what is accepted. The command
+/// Displays as one line that names the field or file, its value and what it must be. The command
 /// line exits with [`Error::EXIT_CODE`] and has written nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error(String);

@@ -29,7 +29,7 @@ fn say(words: std::fmt::Arguments<'_>) {
         // Somebody has read enough.
         std::process::exit(0);
     }
-    complain(format_args!("standard output: {error}; accepted is one that can be written"));
+    complain(format_args!("standard output: {error}; must be one that can be written"));
     std::process::exit(Error::EXIT_CODE.into());
 }
 

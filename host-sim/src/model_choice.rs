@@ -44,7 +44,7 @@ pub fn with_model<V: Visitor>(
         (Mass::Lumped, 4) => visitor.visit(Model::<4, 4>::lumped::<8>(scene)?),
         (Mass::Lumped, 8) if tip_turns => visitor.visit(Model::<9, 9>::lumped::<16>(scene)?),
         (Mass::Lumped, 8) => visitor.visit(Model::<8, 8>::lumped::<16>(scene)?),
-        (_, n) => Err(Error::new(format_args!("solver.elements = {n}: accepted is 1, 2, 4 or 8"))),
+        (_, n) => Err(Error::new(format_args!("solver.elements = {n}: must be 1, 2, 4 or 8"))),
     }
 }
 
@@ -132,7 +132,7 @@ impl<T: Real, V: StepperVisitor> Visitor for ModalOf<'_, T, V> {
         let Self { solver, visitor, .. } = self;
         if solver.modes > N {
             return Err(Error::new(format_args!(
-                "solver.modes = {}: accepted is up to {N} with elements = {} and {} mass",
+                "solver.modes = {}: must be at most {N} with elements = {} and {} mass",
                 solver.modes,
                 solver.elements,
                 solver.mass.name()
@@ -176,8 +176,8 @@ fn elastica<T: Real, const K: usize>(
     let bend = rod.bend(peaks.fold(0.0, f64::max)).max(least);
     if bend > most {
         return Err(Error::new(format_args!(
-            "solver.method = elastica: the tip is expected to turn {bend:.2} rad against the hub; \
-             accepted is up to {most} rad, by a longer move or a stiffer link"
+            "solver.method = elastica: the tip is expected to turn {bend:.2} rad against the hub, \
+             must be at most {most} rad; use a longer move or a stiffer link"
         )));
     }
     Ok(Elastica::new(&rod, solver.tick, quality, bend)?)

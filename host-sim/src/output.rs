@@ -48,7 +48,7 @@ impl Files {
         let ready = match self.prepare(path, write) {
             Ok(ready) => ready,
             Err(Fault::Folder) => {
-                return Err(Error::file(path, "is a folder; accepted is a file's path"));
+                return Err(Error::file(path, "is a folder; must be a file's path"));
             }
             Err(Fault::Io(cause)) => return Err(refusal(path, &cause)),
         };
@@ -152,11 +152,11 @@ impl From<io::Error> for Fault {
 
 /// A path that cannot be written, in one line.
 pub fn refusal(path: &Path, cause: &io::Error) -> Error {
-    let accepted = match cause.kind() {
+    let wanted = match cause.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "a disk with room for it",
         _ => "a path that can be written",
     };
-    Error::file(path, format_args!("{cause}; accepted is {accepted}"))
+    Error::file(path, format_args!("{cause}; must be {wanted}"))
 }
 
 /// Where the file is: a link's own name is not to be replaced.

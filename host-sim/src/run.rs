@@ -95,7 +95,7 @@ pub fn each_tick<S: Stepper>(
 ) -> Result<(), Error> {
     if scene.shaper.is_some() {
         return Err(Error::new(
-            "shaper: a generator has none; accepted by run, reference, compare and sweep",
+            "shaper: a generator has none; use run, reference, compare or sweep",
         ));
     }
     let mut generator = Generator::<S, QUEUE>::new(stepper, scene.from)?;

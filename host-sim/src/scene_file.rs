@@ -122,7 +122,7 @@ impl SceneFile {
     /// Reads and validates a scene file.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path).map_err(|cause| {
-            Error::file(path, format_args!("{cause}; accepted is a scene file or a scene's name"))
+            Error::file(path, format_args!("{cause}; must be a scene file or a scene's name"))
         })?;
         let place = path.display().to_string();
         Self::parse(&place, &text).map_err(|error| error.within(&place))
@@ -152,7 +152,7 @@ impl SceneFile {
             (Some(one), None) => (vec![one], false),
             (None, Some(many)) if !many.is_empty() => (many, true),
             _ => {
-                return Err(Error::new("move: accepted is either [move] or one or more [[moves]]"));
+                return Err(Error::new("move: must be either [move] or one or more [[moves]]"));
             }
         };
         let from = tables[0].from.unwrap_or(0.0);
@@ -177,7 +177,7 @@ impl SceneFile {
         let rate = trajectory.plans().last().map_or(0.0, |plan| plan.outline.end.rate);
         if rate != 0.0 {
             return Err(Error::new(format_args!(
-                "shaper: the hub turns on with {rate} rad/s; accepted with moves that end at rest"
+                "shaper: the hub turns on with {rate} rad/s after the moves; must be moves that end at rest"
             )));
         }
         Ok(trajectory.shaped(shaper.clone()))
@@ -257,7 +257,7 @@ impl LinkTable {
             (None, Some(material), Some(strip)) => material.density * strip.area() * self.length,
             _ => {
                 return Err(Error::new(
-                    "link.mass: missing; accepted is a mass in kg, or material with width and \
+                    "link.mass: missing; must be a mass in kg, or material with width and \
                      thickness",
                 ));
             }
@@ -272,7 +272,7 @@ impl LinkTable {
             }
             _ => {
                 return Err(Error::new(
-                    "link.bending_stiffness: missing; accepted is EI in N m^2, or youngs_modulus \
+                    "link.bending_stiffness: missing; must be EI in N m^2, or youngs_modulus \
                      or material with second_moment or width and thickness",
                 ));
             }
@@ -284,16 +284,14 @@ impl LinkTable {
 fn named_material(name: &str) -> Result<&'static Material, Error> {
     Material::named(name).ok_or_else(|| {
         let known = MATERIALS.map(|material| material.name).join(", ");
-        Error::new(format_args!("link.material = \"{name}\": accepted is {known}"))
+        Error::new(format_args!("link.material = \"{name}\": must be {known}"))
     })
 }
 
 fn missing(field: &str, other: &str, value: f64) -> Error {
-    Error::new(format_args!(
-        "{field}: missing beside {other} = {value}; accepted is both or neither"
-    ))
+    Error::new(format_args!("{field}: missing beside {other} = {value}; must be both or neither"))
 }
 
 fn clash(field: &str, other: &str, value: impl Display) -> Error {
-    Error::new(format_args!("{field}: given beside {other} = {value}; accepted is one of the two"))
+    Error::new(format_args!("{field}: given beside {other} = {value}; must be one of the two"))
 }

@@ -45,7 +45,7 @@ pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
                 error
             } else {
                 Error::new(format_args!(
-                    "scene = \"{name_or_path}\": no such file; accepted is a scene file or one of \
+                    "scene = \"{name_or_path}\": no such file; must be a scene file or one of \
                      {known}"
                 ))
             }

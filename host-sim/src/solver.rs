@@ -223,7 +223,7 @@ impl SolverKeys {
             let others = Method::value_variants().iter().filter(|&&other| reads(other)[k]);
             let others: Vec<&str> = others.map(|other| other.name()).collect();
             unread.push(format!(
-                "solver.{} = {value}: {} does not read it; accepted is {}",
+                "solver.{} = {value}: {} does not read it, must be absent or with {}",
                 names[k],
                 method.name(),
                 if others.len() == 1 {
@@ -272,7 +272,7 @@ impl SolverKeys {
             Some(n @ (1 | 2 | 4 | 8)) => n as usize,
             Some(n) => {
                 return Err(Error::new(format_args!(
-                    "solver.elements = {n}: accepted is 1, 2, 4 or 8"
+                    "solver.elements = {n}: must be 1, 2, 4 or 8"
                 )));
             }
         };
@@ -280,19 +280,17 @@ impl SolverKeys {
             None => default.modes,
             Some(n @ 1..=3) => n as usize,
             Some(n) => {
-                return Err(Error::new(format_args!("solver.modes = {n}: accepted is 1 to 3")));
+                return Err(Error::new(format_args!("solver.modes = {n}: must be 1 to 3")));
             }
         };
         let tick = self.tick.unwrap_or(default.tick);
         if !(1e-6..=1.0).contains(&tick) {
-            return Err(Error::new(format_args!(
-                "solver.tick = {tick}: accepted is 0.000001 to 1 s"
-            )));
+            return Err(Error::new(format_args!("solver.tick = {tick}: must be 0.000001 to 1 s")));
         }
         let tolerance = self.tolerance.unwrap_or(default.tolerance);
         if !(1e-6..=1.0).contains(&tolerance) {
             return Err(Error::new(format_args!(
-                "solver.tolerance = {tolerance}: accepted is 0.000001 to 1, a fraction of the length"
+                "solver.tolerance = {tolerance}: must be 0.000001 to 1, a fraction of the length"
             )));
         }
         Ok(Solver {

@@ -70,7 +70,7 @@ pub fn add(files: &mut Files, path: &Path, rows: &[Row]) -> Result<(), Error> {
 /// Reads a table; refuses other columns, numbers that are not finite and times that do not rise.
 pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
     let mut csv = csv::Reader::from_path(path).map_err(|error| {
-        Error::file(path, format_args!("{error}; accepted is a CSV of run or reference"))
+        Error::file(path, format_args!("{error}; must be a CSV of run or reference"))
     })?;
     let mut rows: Vec<Row> = Vec::new();
     for (index, row) in csv.deserialize().enumerate() {
@@ -89,18 +89,18 @@ pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
         .iter()
         .all(|value| value.is_finite());
         if !finite {
-            return Err(Error::file(path, format_args!("line {line}: accepted is finite numbers")));
+            return Err(Error::file(path, format_args!("line {line}: must be finite numbers")));
         }
         if rows.last().is_some_and(|last| last.t_s >= row.t_s) {
             return Err(Error::file(
                 path,
-                format_args!("line {line}: t_s = {}: accepted is a rising time", row.t_s),
+                format_args!("line {line}: t_s = {}: must be a rising time", row.t_s),
             ));
         }
         rows.push(row);
     }
     if rows.is_empty() {
-        return Err(Error::file(path, "no rows; accepted is a CSV of run or reference"));
+        return Err(Error::file(path, "no rows; must be a CSV of run or reference"));
     }
     Ok(rows)
 }

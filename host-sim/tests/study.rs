@@ -249,7 +249,7 @@ fn a_folder_that_cannot_be_is_refused_in_one_line() {
         assert_eq!(refused.status.code(), Some(2), "{out}");
         let text = String::from_utf8(refused.stderr).unwrap();
         assert_eq!(text.lines().count(), 1, "{text}");
-        assert!(text.contains("--out") && text.contains("accepted is"), "{text}");
+        assert!(text.contains("--out") && text.contains("must be"), "{text}");
     }
     let left = files(folder.path());
     assert_eq!(left, [("file".to_owned(), b"kept".to_vec())]);

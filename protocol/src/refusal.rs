@@ -1,4 +1,4 @@
-//! Why a request is refused: the field, its value and what is accepted, without text formatting on
+//! Why a request is refused: the field, its value and what it must be, without text formatting on
 //! the target.
 
 use core::fmt;
@@ -54,7 +54,7 @@ impl From<Error> for Refusal<'static> {
             Error::OutOfRange { parameter, value, min, max, unit } => {
                 range(parameter, value, min, max, unit)
             }
-            Error::LimitExceeded { parameter, limit, needed, unit } => {
+            Error::LimitExceeded { parameter, limit, needed, unit, .. } => {
                 range(parameter, needed, 0.0, limit, unit)
             }
             Error::TooFast { rate, max } => range("move: peak rate", rate, 0.0, max, "rad/s"),
@@ -108,35 +108,35 @@ impl fmt::Display for Refusal<'_> {
             Self::Range { parameter, value, min, max, unit } => {
                 let space = if unit.is_empty() { "" } else { " " };
                 let (value, min, max) = (Short(value), Short(min), Short(max));
-                write!(f, "{parameter} = {value}{space}{unit}: accepted is ")?;
+                write!(f, "{parameter} = {value}{space}{unit}: must be ")?;
                 if max.0 == f64::INFINITY {
-                    write!(f, "from {min}{space}{unit}")
+                    write!(f, "at least {min}{space}{unit}")
                 } else {
                     write!(f, "{min} to {max}{space}{unit}")
                 }
             }
             Self::Queue { needed, free } => {
-                write!(f, "move takes {needed} segments of the queue: accepted is up to {free} now")
+                write!(f, "move takes {needed} segments of the queue: must be at most {free} now")
             }
             Self::Mode(mode) => {
-                let accepted = match mode {
-                    Mode::Disabled => "accepted after enable",
-                    Mode::Enabled => "accepted after disable",
-                    Mode::Stopping => "accepted once it is at rest",
-                    Mode::Stopped => "accepted after enable",
+                let mend = match mode {
+                    Mode::Disabled => "enable the axis first",
+                    Mode::Enabled => "disable the axis first",
+                    Mode::Stopping => "wait until it is at rest",
+                    Mode::Stopped => "enable the axis first",
                 };
-                write!(f, "mode = {mode:?}: {accepted}")
+                write!(f, "mode = {mode:?}: {mend}")
             }
-            Self::NotAtRest => write!(f, "hub = turning: accepted at rest with no move waiting"),
-            Self::Stale => write!(f, "move = planned before a stop: accepted when sent again"),
+            Self::NotAtRest => write!(f, "hub = turning: must be at rest with no move waiting"),
+            Self::Stale => write!(f, "move = planned before a stop: send it again"),
             Self::NotMeasured => {
-                write!(f, "drive = silent: accepted once it has reported an encoder angle")
+                write!(f, "drive = silent: wait until it has reported an encoder angle")
             }
-            Self::Busy => write!(f, "planner = busy: accepted once it has answered"),
+            Self::Busy => write!(f, "planner = busy: wait until it has answered"),
             Self::NoPlanner => {
-                write!(f, "still = no planner: accepted by a firmware with the feature `still`")
+                write!(f, "still = no planner: use a firmware with the feature `still`")
             }
-            Self::Axis(axes) => write!(f, "axis: accepted is 0 to {}", axes.saturating_sub(1)),
+            Self::Axis(axes) => write!(f, "axis: must be 0 to {}", axes.saturating_sub(1)),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! One line that names the field, its value and what is accepted; exit code 2; nothing written.
+//! One line that names the field, its value and what it must be; exit code 2; nothing written.
 
 use std::fs;
 use std::path::Path;
@@ -105,7 +105,7 @@ fn values_out_of_range() {
     ];
     for (good, bad, words) in cases {
         assert!(GOOD.contains(good), "{good}");
-        refused(&GOOD.replacen(good, bad, 1), &[], &[words, "accepted is"]);
+        refused(&GOOD.replacen(good, bad, 1), &[], &[words, "must be"]);
     }
 }
 
@@ -141,17 +141,17 @@ fn missing_and_contradicting_fields() {
         ("profile = \"cubic\"", "profile = \"spin-up\"", "move.to = 1"),
         ("[move]", "[[moves]]\nprofile = \"cubic\"\nduration = 1.0\nto = 0.5\n[move]", "move"),
         ("length = 0.4", "length = \"long\"", "link.length"),
-        ("[link]", "[link", "accepted"),
+        ("[link]", "[link", "must be"),
     ];
     for (good, bad, words) in cases {
         let scene = GOOD.replacen(good, bad, 1);
-        refused(&scene, &[], if words == "accepted" { &[] } else { std::slice::from_ref(&words) });
+        refused(&scene, &[], if words == "must be" { &[] } else { std::slice::from_ref(&words) });
     }
 }
 
 #[test]
 fn words_on_the_command_line() {
-    refused(GOOD, &["--elements", "5"], &["solver.elements = 5", "accepted is 1, 2, 4 or 8"]);
+    refused(GOOD, &["--elements", "5"], &["solver.elements = 5", "must be 1, 2, 4 or 8"]);
     refused(GOOD, &["--elements", "-1"], &["solver.elements = -1"]);
     refused(GOOD, &["--elements", "many"], &["many", "--elements"]);
     refused(GOOD, &["--tick", "-0.01"], &["solver.tick = -0.01"]);
@@ -161,7 +161,7 @@ fn words_on_the_command_line() {
     refused(
         GOOD,
         &["--method", "modal", "--modes", "3"],
-        &["solver.modes = 3", "accepted is up to 2", "elements = 1"],
+        &["solver.modes = 3", "must be at most 2", "elements = 1"],
     );
     refused(GOOD, &["--modes", "0", "--method", "elastica"], &["solver.modes = 0", "1 to 3"]);
     refused(GOOD, &["--quality", "best"], &["best", "fine"]);
@@ -181,7 +181,7 @@ fn words_that_the_method_does_not_read() {
         (&["--modes", "2"], "solver.modes = 2: newmark"),
     ];
     for (args, words) in cases {
-        refused(GOOD, args, &[words, "accepted is"]);
+        refused(GOOD, args, &[words, "must be"]);
     }
 }
 
@@ -193,7 +193,7 @@ fn files_that_are_not_there() {
         let text = String::from_utf8(output.stderr).expect("text");
         assert_eq!(output.status.code(), Some(2), "{text}");
         assert_eq!(text.lines().count(), 1, "{text}");
-        assert!(text.contains("accepted is"), "{text}");
+        assert!(text.contains("must be"), "{text}");
     };
     run(&["run", "nowhere.toml", "--csv", "out.csv"]);
     run(&["run", "d-fast", "--csv", "/dev/null/out.csv"]);

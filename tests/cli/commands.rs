@@ -95,7 +95,7 @@ fn auto_keeps_its_tolerance_or_says_what_it_could() {
     }
     let (code, _, err) = auto("d-fast", "0.000002");
     assert_eq!((code, err.lines().count()), (2, 1), "{err}");
-    assert!(err.contains("solver.tolerance = 0.000002: accepted is 0.000"), "{err}");
+    assert!(err.contains("solver.tolerance = 0.000002: must be at least 0.000"), "{err}");
 }
 
 #[test]

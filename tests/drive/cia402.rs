@@ -100,5 +100,5 @@ fn what_is_not_finite_is_not_sent() {
 #[test]
 fn a_broadcast_node_is_refused() {
     let error = Drive::new(0, 10_000, 2.0).unwrap_err().to_string();
-    assert_eq!(error, "drive.node = 0: accepted is 1 to 127");
+    assert_eq!(error, "drive.node = 0: must be 1 to 127");
 }

@@ -81,5 +81,5 @@ fn a_nan_which_would_mean_ignore_is_not_sent() {
 #[test]
 fn a_watchdog_of_zero_which_would_mean_the_default_is_refused() {
     let error = Servo::new(1, 0.0).unwrap_err().to_string();
-    assert_eq!(error, "drive.watchdog = 0: accepted is 0.001 to 10 s");
+    assert_eq!(error, "drive.watchdog = 0: must be 0.001 to 10 s");
 }

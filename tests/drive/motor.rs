@@ -135,8 +135,8 @@ fn a_demand_carries_angle_rate_and_torque_to_the_shaft() {
 fn constants_out_of_range_are_named() {
     let bad = Joint { efficiency: 1.2, ..JOINT };
     let error = Drivetrain::<f32>::new(&bad, Direction::Same, 0.0).unwrap_err().to_string();
-    assert_eq!(error, "motor.efficiency = 1.2: accepted is 0.01 to 1");
+    assert_eq!(error, "motor.efficiency = 1.2: must be 0.01 to 1");
     let bad = Joint { ratio: Ratio { motor: 0, link: 1 }, ..JOINT };
     let error = Drivetrain::<f32>::new(&bad, Direction::Same, 0.0).unwrap_err().to_string();
-    assert_eq!(error, "motor.ratio.motor = 0: accepted is 1 to 65535 turns");
+    assert_eq!(error, "motor.ratio.motor = 0: must be 1 to 65535 turns");
 }

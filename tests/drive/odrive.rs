@@ -122,7 +122,7 @@ fn an_estimate_that_is_not_finite_is_none() {
 #[test]
 fn a_node_beyond_six_bits_is_refused() {
     let error = Node::new(64).unwrap_err().to_string();
-    assert_eq!(error, "drive.node = 64: accepted is 0 to 63");
+    assert_eq!(error, "drive.node = 64: must be 0 to 63");
 }
 
 /// Half a turn below 2²¹ the nearest whole number has a bit more than an f32's split gives back: a drive

@@ -67,10 +67,7 @@ fn a_move_of_more_turns_than_a_float_resolves_is_refused() {
     assert_eq!(plan(&far(800.0)), Ok(()));
     let refused = plan(&far(1e5)).expect_err("16,000 turns");
     let Refused::Move(error) = refused else { panic!("{refused:?}") };
-    assert_eq!(
-        error.to_string(),
-        "move: turns = 15915.494309189535: accepted is -128 to 128 turns"
-    );
+    assert_eq!(error.to_string(), "move: turns = 15915.494309189535: must be -128 to 128 turns");
 }
 
 /// Of a payload that turns hard and weighs little, an f32 along principal axes kept a mass matrix with a

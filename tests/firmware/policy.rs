@@ -100,7 +100,7 @@ fn a_full_queue_refuses_the_whole_move_and_keeps_the_others() {
     let refused = ask(&mut axis, &to(Profile::SCurve, 0.8, 1.0));
     assert_eq!(refused, Err(Refused::Queue(Rejected::QueueFull { needed: 7, free: 1 })));
     assert_eq!(run(&mut axis, 120), run(&mut other, 120));
-    // There is room again, and every move that was accepted is followed.
+    // There is room again, and every move that was must be followed.
     ask(&mut axis, &to(Profile::SCurve, 0.8, 1.0)).unwrap();
     assert_near("angle", radians(run(&mut axis, 100).last().unwrap()), 1.0, 1e-6);
 }

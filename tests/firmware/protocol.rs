@@ -240,15 +240,16 @@ fn the_splitter_finds_every_whole_frame_between_garbage() {
 }
 
 #[test]
-fn a_refusal_names_field_value_and_what_is_accepted() {
+fn a_refusal_names_field_value_and_what_it_must_be() {
     let refusal = Refusal::from(stillbeam::Error::LimitExceeded {
         parameter: "limits.rate",
         limit: 6.0,
         needed: 7.5,
         unit: "rad/s",
+        remedy: stillbeam::Remedy::Longer,
     });
-    assert_eq!(refusal.to_string(), "limits.rate = 7.5 rad/s: accepted is 0 to 6 rad/s");
-    assert_eq!(Refusal::Axis(2).to_string(), "axis: accepted is 0 to 1");
+    assert_eq!(refusal.to_string(), "limits.rate = 7.5 rad/s: must be 0 to 6 rad/s");
+    assert_eq!(Refusal::Axis(2).to_string(), "axis: must be 0 to 1");
     let mode = Refusal::Mode(Mode::Stopped).to_string();
-    assert_eq!(mode, "mode = Stopped: accepted after enable");
+    assert_eq!(mode, "mode = Stopped: enable the axis first");
 }

@@ -24,7 +24,7 @@ fn words_are_steps() {
 }
 
 #[test]
-fn what_is_no_step_is_named_with_what_is_accepted() {
+fn what_is_no_step_is_named_with_what_it_must_be() {
     for bad in [
         "",
         "jump 0",
@@ -36,7 +36,7 @@ fn what_is_no_step_is_named_with_what_is_accepted() {
         "still 0 1 x",
     ] {
         let error = bad.parse::<Step>().unwrap_err().to_string();
-        assert!(error.starts_with(&format!("step = \"{bad}\": accepted is enable A,")), "{error}");
+        assert!(error.starts_with(&format!("step = \"{bad}\": must be enable A,")), "{error}");
         assert!(!error.contains('\n'));
     }
 }

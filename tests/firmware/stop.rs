@@ -136,8 +136,5 @@ fn a_stop_at_rest_drops_what_waits_and_moves_nothing() {
 fn a_stop_needs_a_limit_of_acceleration() {
     let limits = Limits::default();
     let error = stillbeam::motion::Braking::<f32>::new(&limits, TICK).unwrap_err().to_string();
-    assert_eq!(
-        error,
-        "limits.acceleration = inf: accepted is 0.000000001 to 1000000000000 rad/s^2"
-    );
+    assert_eq!(error, "limits.acceleration = inf: must be 0.000000001 to 1000000000000 rad/s^2");
 }

@@ -238,6 +238,6 @@ fn nonsense_is_refused_with_field_value_and_range() {
     for (motion, beginning) in cases {
         let error = Plan::new(&motion, REST, &Limits::default(), 0.01).expect_err("nonsense");
         let text = error.to_string();
-        assert!(text.starts_with(beginning) && text.contains("accepted is"), "{text}");
+        assert!(text.starts_with(beginning) && text.contains("must be"), "{text}");
     }
 }

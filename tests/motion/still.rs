@@ -151,7 +151,7 @@ fn a_narrow_band_in_a_short_time_is_planned_for_two_arms() {
 fn a_move_that_no_arm_can_make_is_refused_in_words() {
     let planner = Still::<f32, 2>::new(&member_a(), TICK).expect("planner");
     let refused = planner.plan(0.0, 180.0, 1.7).expect_err("too far").to_string();
-    assert!(refused.contains("accepted is") && !refused.contains("NaN"), "{refused}");
+    assert!(refused.contains("use ") && !refused.contains("NaN"), "{refused}");
 }
 
 /// The shortest move keeps every limit at every tick, and a tick less would exceed one.

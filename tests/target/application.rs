@@ -62,8 +62,8 @@ fn the_firmware_and_the_host_agree_to_the_bit_through_the_whole_policy() {
         line.unwrap_or_else(|| panic!("{text} in {lines:#?}"))
     };
     let refused = [
-        ("move 0 cubic 0.5 0", "mode = Stopped: accepted after enable"),
-        ("move 0 cubic 0.1 3", "accepted is 0 to 5 rad/s"),
+        ("move 0 cubic 0.5 0", "mode = Stopped: enable the axis first"),
+        ("move 0 cubic 0.1 3", "must be 0 to 5 rad/s"),
     ];
     for (text, why) in refused {
         assert!(outcome(text).contains("refused") && outcome(text).contains(why), "{lines:#?}");
@@ -102,9 +102,9 @@ fn still_moves_are_planned_on_the_target_while_ticks_and_drives_go_on() {
     assert_eq!(accepted.count(), 4, "{lines:#?}");
     let outcome = |text: &str| lines.iter().find(|line| line.starts_with(text)).expect("a step");
     let short = outcome("still 0 0.5 0.1");
-    assert!(short.contains("refused: move.duration = 0.1 s: accepted is "), "{short}");
+    assert!(short.contains("refused: move.duration = 0.1 s: must be "), "{short}");
     let fast = outcome("still 0 -1.5 0.76");
-    assert!(fast.contains("refused: limits.") && fast.contains("accepted is 0 to "), "{fast}");
+    assert!(fast.contains("refused: limits.") && fast.contains("must be 0 to "), "{fast}");
     let rests = session.history(0).last().expect("ticks").setpoint;
     assert_near("angle", rests.angle.radians(), 1.2, 1e-6);
     assert_eq!(rests.rate, 0.0);
@@ -150,7 +150,7 @@ fn a_busy_planner_says_so() {
     let last = *posted.last().expect("four");
     // Two wait for the planner, which has not begun.
     let Ok(Answer::Refused(why)) = session.answer(last) else { panic!("there is no room") };
-    assert_eq!(why, "planner = busy: accepted once it has answered");
+    assert_eq!(why, "planner = busy: wait until it has answered");
 }
 
 /// The host runs its own axes through the same late and missed ticks; setpoints are compared to the
@@ -186,7 +186,7 @@ fn a_stall_beyond_what_can_be_granted_is_refused() {
     let mut session = begin();
     let step: Step = "stall 0.1".parse().expect("a step");
     let error = step.take(&mut session).expect_err("too long").to_string();
-    assert_eq!(error, "stall = 0.1 s: accepted is 0 to 0.065 s in QEMU");
+    assert_eq!(error, "stall = 0.1 s: must be 0 to 0.065 s in QEMU");
 }
 
 /// In virtual time nothing depends on how fast this machine is. An instruction is 1.6 counts of the
@@ -215,7 +215,7 @@ fn garbage_on_the_line_is_counted_and_changes_nothing() {
 #[test]
 fn an_axis_that_does_not_exist_is_refused() {
     let mut session = begin();
-    assert_eq!(take(&mut session, "enable 2"), "refused: axis: accepted is 0 to 1");
+    assert_eq!(take(&mut session, "enable 2"), "refused: axis: must be 0 to 1");
 }
 
 /// Named angles: the arm stands still while its angle gets another name.

@@ -57,9 +57,9 @@ pub enum Cause {
 /// Why a request is refused. Nothing has changed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Refused {
-    /// The axis is in that mode; accepted is another.
+    /// The axis must be in another mode.
     Mode(Mode),
-    /// The hub turns, or moves wait; accepted is a hub at rest.
+    /// The hub turns, or moves wait; it must be at rest.
     NotAtRest,
     /// The move cannot be planned.
     Move(Error),

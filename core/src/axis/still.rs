@@ -14,7 +14,7 @@ impl Departure {
     ///
     /// # Errors
     /// A hub that still turns there, a duration too short, a limit that is exceeded, each with its
-    /// value and what is accepted.
+    /// value and what it must be.
     pub fn plan_still<T: Scalar, const K: usize>(
         &self,
         planner: &Still<T, K>,

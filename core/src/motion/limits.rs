@@ -1,6 +1,7 @@
 //! What the drive may do, and what a move needs.
 
 use crate::Error;
+use crate::error::Remedy;
 
 /// Limits of the drive; `None` is unlimited.
 ///
@@ -75,7 +76,7 @@ fn within(
 ) -> Result<(), Error> {
     match limit {
         Some(limit) if needed.is_nan() || needed > limit * (1.0 + 1e-9) => {
-            Err(Error::LimitExceeded { parameter, limit, needed, unit })
+            Err(Error::LimitExceeded { parameter, limit, needed, unit, remedy: Remedy::Longer })
         }
         _ => Ok(()),
     }

@@ -27,7 +27,7 @@ impl CompareArgs {
             && !(0.0..=10.0).contains(&tolerance)
         {
             return Err(Error::new(format_args!(
-                "--tolerance = {tolerance}: accepted is 0 to 10, a fraction of L"
+                "--tolerance = {tolerance}: must be 0 to 10, a fraction of L"
             )));
         }
         let scene = scenes::open(&self.scene)?;

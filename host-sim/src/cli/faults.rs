@@ -24,11 +24,11 @@ impl FaultsArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let Self { count, seed, .. } = self;
         if !(1..=100_000_000).contains(&count) {
-            return Err(Error::new(format_args!("--count = {count}: accepted is 1 to 100000000")));
+            return Err(Error::new(format_args!("--count = {count}: must be 1 to 100000000")));
         }
         let text = self.text.as_ref().map(|path| {
             let text = std::fs::read_to_string(path)
-                .map_err(|cause| Error::file(path, format_args!("{cause}; accepted is a text")))?;
+                .map_err(|cause| Error::file(path, format_args!("{cause}; must be a text")))?;
             // A text without the markers shows before the campaign runs.
             filled(&text, "").map_err(|error| error.within(path.display()))?;
             Ok::<_, Error>((path, text))

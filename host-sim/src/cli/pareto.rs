@@ -28,13 +28,13 @@ impl ParetoArgs {
         let known = picture::scenes(&rows);
         let scenes = match &self.scene {
             None if known.is_empty() => {
-                return Err(Error::file(&self.sweep, "no rows; accepted is a CSV of sweep"));
+                return Err(Error::file(&self.sweep, "no rows; must be a CSV of sweep"));
             }
             None => known,
             Some(name) if known.contains(&name.as_str()) => vec![name.as_str()],
             Some(name) => {
                 return Err(Error::new(format_args!(
-                    "--scene = \"{name}\": accepted is {}",
+                    "--scene = \"{name}\": must be {}",
                     known.join(", ")
                 )));
             }

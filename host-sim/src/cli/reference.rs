@@ -33,7 +33,7 @@ impl ReferenceArgs {
         let every = self.every.unwrap_or(tick);
         if !(1e-6..=trajectory.duration()).contains(&every) {
             return Err(Error::new(format_args!(
-                "--every = {every}: accepted is 0.000001 to {} s, the run's length",
+                "--every = {every}: must be 0.000001 to {} s, the run's length",
                 trajectory.duration()
             )));
         }

@@ -55,7 +55,7 @@ impl StabilityArgs {
             return Ok(ExitCode::SUCCESS);
         };
         let text = std::fs::read_to_string(path)
-            .map_err(|cause| Error::file(path, format_args!("{cause}; accepted is a text")))?;
+            .map_err(|cause| Error::file(path, format_args!("{cause}; must be a text")))?;
         let filled = |found: &[(String, String)]| {
             blocks::fill(&text, "stability", found).map_err(|error| error.within(path.display()))
         };

@@ -21,7 +21,7 @@ impl TablesArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let path = &self.text;
         let text = std::fs::read_to_string(path)
-            .map_err(|cause| Error::file(path, format_args!("{cause}; accepted is a text")))?;
+            .map_err(|cause| Error::file(path, format_args!("{cause}; must be a text")))?;
         // Faults in the text show before the sweep runs.
         tables::fill(&text, &[]).map_err(|error| error.within(path.display()))?;
         let rows = tables::rows(!self.check)?;

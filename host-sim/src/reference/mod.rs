@@ -53,8 +53,8 @@ pub enum ReferenceError {
     Options {
         /// Field and value.
         given: String,
-        /// What is accepted.
-        accepted: &'static str,
+        /// What it must be.
+        wanted: &'static str,
     },
     /// No stable equilibrium under gravity at the first angle: the link buckles.
     NoEquilibrium {
@@ -76,14 +76,14 @@ impl fmt::Display for ReferenceError {
             Self::Scene(error) => error.fmt(f),
             Self::Time { time, duration } => write!(
                 f,
-                "times: {time} s; accepted are ascending times from 0 to {duration} s, the run's \
+                "times: {time} s; must be ascending times from 0 to {duration} s, the run's \
                  length"
             ),
-            Self::Options { given, accepted } => write!(f, "{given}: accepted is {accepted}"),
+            Self::Options { given, wanted } => write!(f, "{given}: must be {wanted}"),
             Self::NoEquilibrium { angle } => write!(
                 f,
                 "move.from = {angle} rad: the link has no stable equilibrium under gravity there; \
-                 accepted is less gravity, a stiffer link or a lighter payload"
+                 use less gravity, a stiffer link or a lighter payload"
             ),
             Self::Integration { time, reason } => {
                 write!(f, "the reference solver stopped at t = {time} s: {reason}")

@@ -64,20 +64,20 @@ impl MoveTable {
         if let (Some(from), true) = (self.from, index > 0)
             && *at != Some(from)
         {
-            let accepted = at.map_or("no from, behind a turning hub".to_owned(), |angle| {
-                format!("{angle}, where the move before ends, or no from")
+            let wanted = at.map_or("absent, behind a turning hub".to_owned(), |angle| {
+                format!("{angle}, where the move before ends, or absent")
             });
-            return Err(Error::new(format_args!("from = {from}: accepted is {accepted}")));
+            return Err(Error::new(format_args!("from = {from}: must be {wanted}")));
         }
         if !(0.0..=1e6).contains(&self.settle) {
             return Err(Error::new(format_args!(
-                "move.settle = {}: accepted is 0 to 1000000 s",
+                "move.settle = {}: must be 0 to 1000000 s",
                 self.settle
             )));
         }
         let refuse = |key: &str, value: Option<f64>| match value {
             Some(value) => Err(Error::new(format_args!(
-                "move.{key} = {value}: accepted is none with profile \"{}\"",
+                "move.{key} = {value}: must be absent with profile \"{}\"",
                 self.profile
             ))),
             None => Ok(()),
@@ -85,7 +85,7 @@ impl MoveTable {
         let need = |key: &str, unit: &str, value: Option<f64>| {
             value.ok_or_else(|| {
                 Error::new(format_args!(
-                    "move.{key}: missing; accepted is a number in {unit} with profile \"{}\"",
+                    "move.{key}: missing; must be a number in {unit} with profile \"{}\"",
                     self.profile
                 ))
             })
@@ -96,7 +96,7 @@ impl MoveTable {
             let from = at.replace(to);
             let from = from.ok_or_else(|| {
                 Error::new(
-                    "move.profile = \"still\" behind a turning hub; accepted is a spin-up to rate = \
+                    "move.profile = \"still\" behind a turning hub; put a spin-up to rate = \
                      0 and a move to an angle before it",
                 )
             })?;
@@ -121,7 +121,7 @@ impl MoveTable {
                 let profile = Profile::named(name).ok_or_else(|| {
                     let known = Profile::ALL.map(Profile::name).join(", ");
                     Error::new(format_args!(
-                        "move.profile = \"{name}\": accepted is {known}, still, spin-up, dwell"
+                        "move.profile = \"{name}\": must be {known}, still, spin-up, dwell"
                     ))
                 })?;
                 refuse("rate", self.rate)?;

@@ -32,7 +32,7 @@ impl ShaperTable {
                         .find_map(|(key, value)| Some((key, value?)))
                 {
                     return Err(Error::new(format_args!(
-                        "shaper.{key} = {value}: accepted with shaper.kind; pulses say all \
+                        "shaper.{key} = {value}: must be absent without shaper.kind; pulses say all \
                          themselves"
                     )));
                 }
@@ -40,7 +40,7 @@ impl ShaperTable {
                     pulses.iter().map(|&[amplitude, delay]| Pulse { amplitude, delay }).collect();
                 Ok(Shaper::custom(&pulses)?)
             }
-            _ => Err(Error::new("shaper: accepted is either shaper.kind or shaper.pulses")),
+            _ => Err(Error::new("shaper: must be either shaper.kind or shaper.pulses")),
         }
     }
 
@@ -48,7 +48,7 @@ impl ShaperTable {
         let kind =
             ShaperKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| {
                 let names = ShaperKind::ALL.map(ShaperKind::name).join(", ");
-                Error::new(format_args!("shaper.kind = {name}: accepted is one of {names}"))
+                Error::new(format_args!("shaper.kind = {name}: must be one of {names}"))
             })?;
         let frequency = match self.frequency {
             Some(frequency) => frequency,

@@ -109,16 +109,16 @@ impl Watch {
 
 fn read(path: &Path, seed: u64) -> Result<Summary, Error> {
     let text = std::fs::read_to_string(path).map_err(|cause| {
-        Error::file(path, format_args!("{cause}; accepted is what a campaign has left"))
+        Error::file(path, format_args!("{cause}; must be what a campaign has left"))
     })?;
     let summary: Summary = toml::from_str(&text).map_err(|cause| {
-        Error::file(path, format_args!("{cause}; accepted is what a campaign has left"))
+        Error::file(path, format_args!("{cause}; must be what a campaign has left"))
     })?;
     if summary.seed != seed {
         let left = summary.seed;
         return Err(Error::file(
             path,
-            format_args!("seed = {left}: accepted is {seed}, as asked for, or no such file"),
+            format_args!("seed = {left}: must be {seed}, as asked for, or no such file"),
         ));
     }
     Ok(summary)

@@ -190,8 +190,8 @@ mod tests {
 
     #[test]
     fn reasons_hold_no_numbers() {
-        let given = "link.mass = 1e-9: accepted is 0.0000001 to 100000 kg, not -3.5.";
-        assert_eq!(reason(given), "link.mass = …: accepted is … to … kg, not ….");
+        let given = "link.mass = 1e-9: must be 0.0000001 to 100000 kg, not -3.5.";
+        assert_eq!(reason(given), "link.mass = …: must be … to … kg, not ….");
         assert_eq!(reason("N m^2 and rad/s^2"), "N m^… and rad/s^…");
     }
 }

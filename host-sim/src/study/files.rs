@@ -30,7 +30,7 @@ impl Study {
     pub fn check_folder(folder: &Path) -> Result<(), Error> {
         match folder.ancestors().find(|path| path.is_file()) {
             Some(path) => Err(Error::new(format_args!(
-                "--out = {}: {} is a file; accepted is a folder, made if it does not exist",
+                "--out = {}: {} is a file; must be a folder, made if it does not exist",
                 folder.display(),
                 path.display()
             ))),

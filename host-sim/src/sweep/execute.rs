@@ -30,7 +30,7 @@ pub struct Done {
 /// With `resume` the rows in these files, and in `out` itself, are taken over.
 pub fn execute(plan: &Plan, shard: Shard, out: &Path, resume: bool) -> Result<Done, Error> {
     if out.is_dir() || out.file_name().is_none() {
-        return Err(Error::file(out, "is a folder; accepted is a file's path"));
+        return Err(Error::file(out, "is a folder; must be a file's path"));
     }
     let cases = plan.shard(shard);
     let earlier = resume && out.exists();
@@ -64,7 +64,7 @@ pub fn execute(plan: &Plan, shard: Shard, out: &Path, resume: bool) -> Result<Do
     let done = whole.has().len();
     if whole.has() != &cases[..done] {
         let path = Part::path_of(out, ".part");
-        return Err(Error::file(&path, "accepted are the cases of this shard in order"));
+        return Err(Error::file(&path, "must be the cases of this shard in order"));
     }
     let mut known = Earlier::open(plan, earlier.then_some(out))?;
     let mut rows = Rows::open(&errors_path)?.skip(done);
@@ -154,7 +154,7 @@ impl<'a> Earlier<'a> {
             if indices.last().is_some_and(|&last| last >= index) {
                 return Err(Error::file(
                     path,
-                    format_args!("case {}: accepted are rising numbers", index + 1),
+                    format_args!("case {}: must be rising numbers", index + 1),
                 ));
             }
             indices.push(index);

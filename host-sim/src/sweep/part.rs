@@ -46,7 +46,7 @@ impl Part {
             if whole_lines > header().join(",").len() as u64 + 1 {
                 return Err(Error::file(
                     path,
-                    "left by an interrupted sweep; accepted is --resume, or no such file",
+                    "left by an interrupted sweep; use --resume, or remove it",
                 ));
             }
             whole_lines = 0;
@@ -141,7 +141,7 @@ impl Part {
 }
 
 fn strange(path: &Path, index: usize) -> Error {
-    Error::file(path, format_args!("case {}: accepted is each case of this shard once", index + 1))
+    Error::file(path, format_args!("case {}: must be each case of this shard once", index + 1))
 }
 
 /// What there is of the sweep stays where it is.

@@ -65,7 +65,7 @@ impl Plan {
             if plan.scenes[..scene].iter().any(|other| other.name == plan.scenes[scene].name) {
                 let name = &plan.scenes[scene].name;
                 return Err(Error::new(format_args!(
-                    "scenes: \"{name}\" twice; accepted is each scene once"
+                    "scenes: \"{name}\" twice; must be each scene once"
                 )));
             }
             for keys in &solvers {
@@ -154,7 +154,7 @@ impl Plan {
             return Ok(index);
         }
         Err(Error::new(format_args!(
-            "sweep = {}, case {} of {}: accepted are rows of this sweep, {} with {} cases; its \
+            "sweep = {}, case {} of {}: must be rows of this sweep, {} with {} cases; its \
              spec, a scene or the program has changed",
             row.id.sweep,
             row.id.case,
@@ -211,7 +211,7 @@ impl std::str::FromStr for Shard {
             (1..=shard.count).contains(&shard.index).then_some(shard)
         });
         parsed.ok_or_else(|| {
-            Error::new(format_args!("--shard = {text}: accepted is i/n with 1 <= i <= n"))
+            Error::new(format_args!("--shard = {text}: must be i/n with 1 <= i <= n"))
         })
     }
 }

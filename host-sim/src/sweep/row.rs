@@ -125,7 +125,7 @@ impl Row {
         let errors = [Some(e.tip_max), Some(e.tip_rms), e.residual, Some(e.torque)];
         for (name, value) in ERRORS.iter().zip(errors) {
             if let Some(value) = value.filter(|value| value.is_nan() || *value < 0.0) {
-                return Some(format!("{name} = {value}: accepted is 0 or more"));
+                return Some(format!("{name} = {value}: must be 0 or more"));
             }
         }
         let cost = self.cost?;
@@ -133,7 +133,7 @@ impl Row {
         times
             .iter()
             .find(|(_, value)| !(0.0..f64::INFINITY).contains(value))
-            .map(|(name, value)| format!("{name} = {value}: accepted is 0 or more"))
+            .map(|(name, value)| format!("{name} = {value}: must be 0 or more"))
     }
 }
 
@@ -147,13 +147,13 @@ pub struct Rows {
 impl Rows {
     /// Opens a file; refuses one with another header.
     pub fn open(path: &Path) -> Result<Self, Error> {
-        let accepted = "accepted is a CSV of sweep or merge";
-        let refuse = |error: csv::Error| Error::file(path, format_args!("{error}; {accepted}"));
+        let wanted = "must be a CSV of sweep or merge";
+        let refuse = |error: csv::Error| Error::file(path, format_args!("{error}; {wanted}"));
         let mut csv = csv::Reader::from_path(path).map_err(refuse)?;
         let found = csv.headers().map_err(refuse)?;
         if found != header() {
             let found = found.iter().take(4).collect::<Vec<_>>().join(",");
-            return Err(Error::file(path, format_args!("header = \"{found}…\": {accepted}")));
+            return Err(Error::file(path, format_args!("header = \"{found}…\": {wanted}")));
         }
         Ok(Self { path: path.to_owned(), csv, record: csv::StringRecord::new() })
     }
@@ -170,7 +170,7 @@ impl Rows {
 
     fn read(&mut self) -> Result<Option<Row>, Error> {
         if !self.csv.read_record(&mut self.record).map_err(|error| {
-            Error::file(&self.path, format_args!("{error}; accepted is a CSV of sweep or merge"))
+            Error::file(&self.path, format_args!("{error}; must be a CSV of sweep or merge"))
         })? {
             return Ok(None);
         }
@@ -193,9 +193,9 @@ impl Rows {
         let value = field.and_then(|field| self.record.get(field));
         match (name, value) {
             (Some(name), Some(value)) => {
-                format!("{name} = \"{value}\": {}; accepted is what sweep writes", err.kind())
+                format!("{name} = \"{value}\": {}; must be what sweep writes", err.kind())
             }
-            _ => format!("{}; accepted is what sweep writes", err.kind()),
+            _ => format!("{}; must be what sweep writes", err.kind()),
         }
     }
 }

@@ -52,7 +52,7 @@ impl Spec {
     /// Reads a spec from a file.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path).map_err(|cause| {
-            Error::file(path, format_args!("{cause}; accepted is a sweep's TOML file"))
+            Error::file(path, format_args!("{cause}; must be a sweep's TOML file"))
         })?;
         Self::parse(&text).map_err(|error| error.within(path.display()))
     }
@@ -61,7 +61,7 @@ impl Spec {
     pub fn parse(text: &str) -> Result<Self, Error> {
         let spec: Self = from_toml(text)?;
         if spec.scenes.is_empty() || spec.grid.is_empty() {
-            return Err(Error::new("scenes, grid: accepted is at least one of each"));
+            return Err(Error::new("scenes, grid: must be at least one of each"));
         }
         Ok(spec)
     }

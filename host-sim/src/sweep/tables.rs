@@ -91,15 +91,15 @@ fn places(text: &str) -> Result<Vec<(&'static Table, Range<usize>)>, Error> {
         let known = TABLES.map(|table| table.name).join(", ");
         let table = TABLES.iter().find(|table| table.name == name).ok_or_else(|| {
             let name = name.chars().take(20).collect::<String>();
-            Error::new(format_args!("table:{name}: accepted is {known}"))
+            Error::new(format_args!("table:{name}: must be {known}"))
         })?;
         let inside = begin + name.len() + " -->".len();
         let length = text[inside..].find(END).ok_or_else(|| {
-            Error::new(format_args!("table:{name}: no end; accepted is {END} after it"))
+            Error::new(format_args!("table:{name}: no end; must be {END} after it"))
         })?;
         if text[inside..inside + length].contains(START) {
             return Err(Error::new(format_args!(
-                "table:{name}: another table begins in it; accepted is {END} before that"
+                "table:{name}: another table begins in it; must be {END} before that"
             )));
         }
         places.push((table, inside..inside + length));
@@ -107,7 +107,7 @@ fn places(text: &str) -> Result<Vec<(&'static Table, Range<usize>)>, Error> {
     }
     if places.is_empty() {
         return Err(Error::new(format_args!(
-            "no table; accepted is a text with <!-- table:{} --> and {END}",
+            "no table; must be a text with <!-- table:{} --> and {END}",
             TABLES[0].name
         )));
     }

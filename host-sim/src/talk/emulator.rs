@@ -30,7 +30,7 @@ impl Emulator {
             Error::file(
                 image,
                 format_args!(
-                    "{cause}; accepted is the application's image: cargo build -p \
+                    "{cause}; must be the application's image: cargo build -p \
                      stillbeam-firmware --bin application --features mps2 --profile application \
                      --target thumbv7em-none-eabihf"
                 ),

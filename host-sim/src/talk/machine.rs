@@ -49,7 +49,7 @@ impl Machine {
     pub fn open(port: &str, baud: u32) -> Result<Self, Error> {
         let line = serialport::new(port, baud).timeout(POLL).open().map_err(|error| {
             Error::new(format_args!(
-                "serial = \"{port}\": {error}; accepted is a serial port, e.g. /dev/ttyACM0"
+                "serial = \"{port}\": {error}; must be a serial port, e.g. /dev/ttyACM0"
             ))
         })?;
         Ok(Self::new(Box::new(line), None))

@@ -40,7 +40,7 @@ impl Replica {
         if description.method != METHOD {
             let method = description.method;
             return Err(Error::new(format_args!(
-                "method = \"{method}\" in the firmware: accepted is \"{METHOD}\""
+                "method = \"{method}\" in the firmware: must be \"{METHOD}\""
             )));
         }
         let Description { scene, tick, policy, joint, direction, zero, node, .. } = *description;

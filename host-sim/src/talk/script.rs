@@ -116,7 +116,7 @@ impl FromStr for Step {
             }
         };
         step.filter(|_| words.next().is_none())
-            .ok_or_else(|| Error::new(format_args!("step = \"{text}\": accepted is {ACCEPTED}")))
+            .ok_or_else(|| Error::new(format_args!("step = \"{text}\": must be {ACCEPTED}")))
     }
 }
 
@@ -224,7 +224,7 @@ fn ticks(seconds: f64, session: &Session) -> Result<u32, Error> {
     if (0.0..=3600.0).contains(&seconds) {
         Ok((seconds / session.tick()).round() as u32)
     } else {
-        Err(Error::new(format_args!("wait = {seconds} s: accepted is 0 to 3600 s")))
+        Err(Error::new(format_args!("wait = {seconds} s: must be 0 to 3600 s")))
     }
 }
 

@@ -163,7 +163,7 @@ impl Session {
     /// As [`Session::ask`]; a board, or a time beyond 0 to 65 ms.
     pub fn stall(&mut self, seconds: f64) -> Result<(), Error> {
         let refused = |why| {
-            Error::new(format_args!("stall = {seconds} s: accepted is 0 to 0.065 s in QEMU{why}"))
+            Error::new(format_args!("stall = {seconds} s: must be 0 to 0.065 s in QEMU{why}"))
         };
         if !self.machine.is_emulated() {
             return Err(refused(", not on a board"));
@@ -189,7 +189,7 @@ impl Session {
             }
             self.wait(1)?;
         }
-        Err(Error::new("rest: an axis still turns after 6000 ticks; accepted is a spin to rate 0"))
+        Err(Error::new("rest: an axis still turns after 6000 ticks; spin to rate 0 first"))
     }
 
     /// Sends anything at all to the firmware, as a bad line would.

@@ -69,11 +69,11 @@ impl Default for Options {
 
 impl Options {
     fn validate(&self) -> Result<(), ReferenceError> {
-        let check = |name: &str, value: f64, min: f64, max: f64, accepted| {
+        let check = |name: &str, value: f64, min: f64, max: f64, wanted| {
             if (min..=max).contains(&value) {
                 Ok(())
             } else {
-                Err(ReferenceError::Options { given: format!("{name} = {value}"), accepted })
+                Err(ReferenceError::Options { given: format!("{name} = {value}"), wanted })
             }
         };
         check("elements", self.elements as f64, 1.0, 1000.0, "1 to 1000")?;

@@ -114,7 +114,7 @@ impl March {
                 self.next.a[i] -= change.acceleration * delta;
             }
         }
-        let reason = "no equilibrium within the tolerance; accepted is a smaller step".to_owned();
+        let reason = "no equilibrium within the tolerance; use a smaller step".to_owned();
         Err(ReferenceError::Integration { time, reason })
     }
 

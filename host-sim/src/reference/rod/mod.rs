@@ -70,7 +70,7 @@ pub fn solve_with(
     let scene = scene.validate()?;
     if !(1e-12..=1e-4).contains(&options.tolerance) {
         let given = format!("tolerance = {}", options.tolerance);
-        return Err(ReferenceError::Options { given, accepted: "1e-12 to 1e-4" });
+        return Err(ReferenceError::Options { given, wanted: "1e-12 to 1e-4" });
     }
     let schedule = Schedule::new(trajectory, times)?;
     match options.order {
@@ -80,7 +80,7 @@ pub fn solve_with(
         8 => march::run(&Rod::<8>::new(&scene), &schedule, options, progress),
         order => Err(ReferenceError::Options {
             given: format!("order = {order}"),
-            accepted: "5 to 8 polynomials",
+            wanted: "5 to 8 polynomials",
         }),
     }
 }
