@@ -24,8 +24,10 @@ fn main() {
     fs::write(folder.join("board.x"), memory).expect("the build folder is writable");
     // The report's level, read where its macros are expanded.
     println!("cargo:rustc-env=DEFMT_LOG=info");
-    if chosen.is_some() {
+    if let Some(board) = &chosen {
         println!("cargo:rustc-link-arg-bin=application=-Tdefmt.x");
+        // The image names its board, so that none is taken for another's: a symbol, no byte.
+        println!("cargo:rustc-link-arg-bin=application=--defsym=_board_{board}=0");
     }
     if board == "mps2" {
         // cortex-m-rt's script takes in the names of the board's handlers from here, or where there
@@ -33,12 +35,9 @@ fn main() {
         fs::write(folder.join("device.x"), "").expect("the build folder is writable");
     }
     if chosen.as_deref() == Some("mps2") {
-        // The stack's top, so that the application has 16 KiB for everything, and 32 with the
-        // planner of still moves: what is more than that runs into the statics and does not pass
-        // the tests.
-        let still = env::var_os("CARGO_FEATURE_STILL").is_some();
-        let top = if still { "0x20008000" } else { "0x20004000" };
-        println!("cargo:rustc-link-arg-bin=application=--defsym=_stack_start={top}");
+        // The stack's top: 64 KiB for statics and stack, room for every method's set-up. What the
+        // application may take of them is a test's to say.
+        println!("cargo:rustc-link-arg-bin=application=--defsym=_stack_start=0x20010000");
     }
 }
 

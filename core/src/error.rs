@@ -171,7 +171,10 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::OutOfRange { parameter, value, min, max, unit } => {
-                write!(f, "{parameter} = {value}: must be {min} to {max}")?;
+                write!(f, "{parameter} = {value}: must be {min}")?;
+                if min != max {
+                    write!(f, " to {max}")?;
+                }
                 if unit.is_empty() { Ok(()) } else { write!(f, " {unit}") }
             }
             Self::LimitExceeded { parameter, limit, needed, unit, remedy } => write!(

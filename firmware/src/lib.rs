@@ -3,9 +3,9 @@
 //! own.
 
 pub mod counter;
-#[cfg(not(feature = "nucleo-g474re"))]
+#[cfg(not(feature = "_no-host"))]
 pub mod exit;
-#[cfg(not(feature = "nucleo-g474re"))]
+#[cfg(not(feature = "_no-host"))]
 pub mod output;
 pub mod stack;
 mod vectors;

@@ -98,7 +98,7 @@ pub enum Report<'a> {
 pub struct Description<'a> {
     /// Number of axes.
     pub axes: u8,
-    /// The stepper, as in the list of methods, e.g. `newmark-1`.
+    /// The method by its name in `stillbeam-methods`, e.g. `Newmark1Nodal`.
     pub method: &'a str,
     /// h, s.
     pub tick: f64,
@@ -135,6 +135,8 @@ pub struct Status {
     pub late: u32,
     /// Ticks that did not take place.
     pub missed: u32,
+    /// Ticks that came before they were due, and were not made.
+    pub early: u32,
     /// Ticks that were not over when the next was due.
     pub overruns: u32,
     /// Setpoints that the drive or the host was too slow for.

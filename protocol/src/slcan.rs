@@ -3,7 +3,7 @@
 //! with eight digits for extended identifiers, `r` and `R` for remote frames.
 
 use embedded_can::{ExtendedId, Frame, Id, StandardId};
-use stillbeam::drive::ClassicFrame;
+use stillbeam::drive::{ClassicFrame, Sequence};
 
 /// Longest line: `T`, 8 + 1 + 16 + 4 digits, carriage return.
 pub const MAX: usize = 31;
@@ -55,6 +55,12 @@ pub fn encode(frame: &ClassicFrame, stamp: u16) -> Line {
     line.hex(stamp.into(), 4);
     line.push(b'\r');
     line
+}
+
+/// The stamp of a tick's frames: the tick's time in whole ms, modulo a minute, where a tick lasts
+/// `tick` µs.
+pub fn stamp(sequence: Sequence, tick: u32) -> u16 {
+    (u64::from(sequence.0) * u64::from(tick) / 1_000 % 60_000) as u16
 }
 
 /// The frame and stamp of a line, with or without its carriage return. `None` if it is none.

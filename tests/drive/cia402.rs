@@ -2,7 +2,7 @@
 
 use embedded_can::{Frame, Id, StandardId};
 use proptest::prelude::*;
-use stillbeam::drive::cia402::{Drive, sync};
+use stillbeam::drive::cia402::{Drive, InterpolationPeriod, sync};
 use stillbeam::drive::{ClassicFrame, Saturated, Sequence};
 
 use crate::common::{demand, demands, not_finite};
@@ -37,10 +37,43 @@ fn over_classic_can_it_is_two_rpdos() {
 /// 10 × 10⁻³ s: sub-index 1 = 10, sub-index 2 = −3 = 0xFD; expedited download of one byte.
 #[test]
 fn the_interpolation_period_is_ten_milliseconds() {
-    let [value, index] = drive().interpolation_period::<ClassicFrame>(10).unwrap();
+    let period = InterpolationPeriod::new(0.010).unwrap();
+    let [value, index] = drive().interpolation_period::<ClassicFrame>(period).unwrap();
     assert_eq!((id(&value), id(&index)), (0x603, 0x603));
     assert_eq!(value.data(), [0x2f, 0xc2, 0x60, 0x01, 0x0a, 0, 0, 0]);
     assert_eq!(index.data(), [0x2f, 0xc2, 0x60, 0x02, 0xfd, 0, 0, 0]);
+}
+
+/// Sub-index 1 × 10^(sub-index 2) s is the tick, in milliseconds where these are whole.
+#[test]
+fn every_tick_that_a_drive_can_take_is_told_exactly() {
+    let told = [
+        (0.001, 1, -3),
+        (0.255, 255, -3),
+        (0.0025, 25, -4),
+        (0.000_125, 125, -6),
+        (0.000_25, 25, -5),
+        (0.3, 30, -2),
+        (2.0, 200, -2),
+        (200.0, 200, 0),
+    ];
+    for (tick, value, index) in told {
+        let period = InterpolationPeriod::new(tick).unwrap();
+        let frames = drive().interpolation_period::<ClassicFrame>(period).unwrap();
+        let [first, second] = [frames[0].data()[4], frames[1].data()[4]];
+        assert_eq!((first, second as i8), (value, index), "{tick} s");
+    }
+}
+
+#[test]
+fn a_tick_that_no_drive_can_take_is_refused() {
+    let error = |tick| InterpolationPeriod::new(tick).unwrap_err().to_string();
+    assert_eq!(
+        error(1.0 / 3000.0),
+        "drive.interpolation_period = 0.0003333333333333333: must be 0.00033 s"
+    );
+    assert_eq!(error(0.0), "drive.interpolation_period = 0: must be 0.000001 to 255 s");
+    assert!(error(f64::NAN).starts_with("drive.interpolation_period = NaN"));
 }
 
 #[test]

@@ -18,5 +18,6 @@ fn setpoints_stay_continuous_and_within_limits_whatever_happens() {
     assert!(of(Fault::Garbled).dropped > 1000);
     assert!(of(Fault::Cut).stops[1] > of(Fault::None).stops[1]);
     assert!(of(Fault::MissedTicks).stops[2] > 100);
+    assert!(of(Fault::Bursts).stops[2] > 100);
     assert!(of(Fault::Overfull).refused["queue full"] > of(Fault::None).refused["queue full"]);
 }

@@ -10,16 +10,21 @@ pub const TICK: f64 = 0.010;
 pub const LIMITS: Limits =
     Limits { rate: Some(6.0), acceleration: Some(40.0), jerk: None, torque: None, moment: None };
 
-pub const POLICY: Policy = Policy { limits: LIMITS, patience: 20, missed: 2 };
+pub const POLICY: Policy = Policy { limits: LIMITS, patience: 0.2, missed: 2 };
 
 pub type Arm = Axis<Newmark<f32, 2, 2, false>, 8>;
 
 pub fn stepper(payload: f64) -> Newmark<f32, 2, 2, false> {
+    stepper_at(TICK, payload)
+}
+
+/// The stepper at another tick, s.
+pub fn stepper_at(tick: f64, payload: f64) -> Newmark<f32, 2, 2, false> {
     let link = Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 };
     let mut scene = Scene::new(link);
     scene.payload.mass = payload;
     scene.gravity = 1.0;
-    Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>()).unwrap(), TICK).unwrap()
+    Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>()).unwrap(), tick).unwrap()
 }
 
 /// The hub's angle, rad.

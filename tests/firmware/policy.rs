@@ -1,12 +1,13 @@
 //! The policy's table, row by row.
 
 use proptest::prelude::*;
-use stillbeam::axis::{Cause, Mode, Policy, Refused};
+use stillbeam::axis::{Axis, Cause, Mode, Pace, Policy, Refused};
 use stillbeam::{Move, Profile, Rejected};
 use stillbeam_tests::assert_near;
 
 use crate::common::{
-    LIMITS, POLICY, ask, assert_continuous, disabled, enabled, radians, run, stepper, to, turns,
+    Arm, LIMITS, POLICY, TICK, ask, assert_continuous, disabled, enabled, radians, run, stepper,
+    stepper_at, to, turns,
 };
 
 #[test]
@@ -136,11 +137,110 @@ fn a_lost_link_stops_the_axis_after_the_patience() {
 
 #[test]
 fn a_patience_of_zero_waits_for_ever() {
-    let mut axis = enabled(Policy { patience: 0, ..POLICY });
+    let mut axis = enabled(Policy { patience: 0.0, ..POLICY });
     for _ in 0..100_000 {
         axis.tick();
     }
     assert_eq!(axis.mode(), Mode::Enabled);
+}
+
+/// Ticks without a word until an axis with this tick and patience, s, stops.
+fn patience(tick: f64, patience: f64) -> u32 {
+    let policy = Policy { patience, ..POLICY };
+    let mut axis: Arm = Axis::new(stepper_at(tick, 0.03), turns(0.2), policy).unwrap();
+    axis.enable(turns(0.2)).unwrap();
+    let enabled = (0..10_000).take_while(|_| axis.tick().mode == Mode::Enabled).count();
+    assert_eq!(axis.cause(), Some(Cause::LinkLost));
+    enabled as u32
+}
+
+/// Half a second of silence is half a second at every tick.
+#[test]
+fn the_patience_is_a_time_whatever_the_tick() {
+    assert_eq!(patience(0.010, 0.5), 50);
+    assert_eq!(patience(0.001, 0.5), 500);
+    assert_eq!(patience(0.0025, 0.5), 200);
+    // To the nearest tick; what is less than one does not mean for ever.
+    assert_eq!(patience(0.010, 0.0749), 7);
+    assert_eq!(patience(0.010, 1e-9), 1);
+}
+
+#[test]
+fn a_patience_that_is_no_time_is_refused() {
+    let refused = |patience| {
+        let policy = Policy { patience, ..POLICY };
+        let Err(error) = Axis::<_, 8>::new(stepper(0.03), turns(0.2), policy) else {
+            panic!("{patience} s")
+        };
+        error.to_string()
+    };
+    assert_eq!(refused(-0.5), "policy.patience = -0.5: must be 0 to 42949672.95 s");
+    assert!(refused(f64::NAN).starts_with("policy.patience = NaN: must be 0 to "));
+    assert!(refused(f64::INFINITY).starts_with("policy.patience = inf: must be 0 to "));
+    assert!(refused(1e9).starts_with("policy.patience = 1000000000: must be 0 to "));
+}
+
+/// Time goes on through missed ticks: silence is not lengthened by them.
+#[test]
+fn silence_lasts_through_missed_ticks() {
+    let mut axis = enabled(Policy { patience: 0.6, ..POLICY });
+    for tick in 1..=30 {
+        axis.missed(2);
+        let mode = axis.tick().mode;
+        assert_eq!(mode == Mode::Enabled, 3 * tick <= 60, "after {} periods", 3 * tick);
+    }
+    axis.missed(0);
+    axis.tick();
+    assert_eq!(axis.cause(), Some(Cause::LinkLost));
+}
+
+/// At 1 ms a tick that is missed for 1 ms is found, by the counts that follow from the tick.
+#[test]
+fn a_missed_millisecond_is_found() {
+    let tick = 0.001;
+    let mut axis: Arm = Axis::new(stepper_at(tick, 0.03), turns(0.2), POLICY).unwrap();
+    axis.enable(turns(0.2)).unwrap();
+    let period = Pace::period(tick, 170_000_000).unwrap();
+    let mut pace = Pace::new(period);
+    let mut now = 0u32;
+    for periods in [1, 1, 2, 1, 3] {
+        now += periods * period;
+        let timing = pace.arrive(now);
+        // The first tick has none before it.
+        let missed = if now == period { 0 } else { periods - 1 };
+        assert_eq!(timing.missed, missed);
+        axis.heard();
+        axis.tick_if_due(&timing).unwrap();
+        assert_eq!(axis.mode(), Mode::Enabled, "two missed ticks are waited for");
+    }
+    now += 4 * period;
+    axis.tick_if_due(&pace.arrive(now)).unwrap();
+    assert_eq!(axis.cause(), Some(Cause::MissedTicks), "three are not");
+}
+
+/// A burst after a freeze does not run the path ahead of time: no tick is made, nothing changes.
+#[test]
+fn a_tick_that_is_not_due_is_not_made() {
+    let (mut axis, mut other) = (enabled(POLICY), enabled(POLICY));
+    for axis in [&mut axis, &mut other] {
+        ask(axis, &to(Profile::Quintic, 0.6, 2.0)).unwrap();
+    }
+    let period = Pace::period(TICK, 1_000_000).unwrap();
+    let mut pace = Pace::new(period);
+    let (mut all, mut now) = (Vec::new(), 0u32);
+    for k in 0..80 {
+        // Two ticks are missed now and then, and come in a burst.
+        let (freeze, burst) = if k % 20 == 7 { (3, 2) } else { (1, 0) };
+        now += freeze * period;
+        axis.heard();
+        all.extend(axis.tick_if_due(&pace.arrive(now)));
+        for _ in 0..burst {
+            now += 20;
+            assert_eq!(axis.tick_if_due(&pace.arrive(now)), None);
+        }
+        now -= 20 * burst;
+    }
+    assert_eq!(all, run(&mut other, 80), "the same path, none left out, none twice");
 }
 
 /// The path waits for a tick that was missed; too many in a row are a stop.

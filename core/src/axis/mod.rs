@@ -1,5 +1,6 @@
 //! One axis under a policy: what happens when it is switched on and off, stopped, or left alone.
-//! No clock and no bus: firmware calls [`Axis::tick`] in its interrupt and the requests from below.
+//! No clock and no bus: firmware calls [`Axis::tick_if_due`] in its interrupt, or [`Axis::tick`]
+//! where ticks cannot come at the wrong time, and the requests from below.
 //!
 //! | event | what the setpoints do |
 //! |---|---|
@@ -10,6 +11,7 @@
 //! | link silent for the patience | as stop |
 //! | late tick | nothing: setpoints count ticks, not seconds |
 //! | missed ticks | the path waits: the next setpoint is the next on the path; beyond the allowed number, as stop |
+//! | tick not due (a burst after a freeze) | no tick is made and nothing is sent; the path does not run ahead of time |
 //! | new arm (payload) | at rest only; the angle stays, the torque is the new arm's |
 
 mod pace;
@@ -73,9 +75,12 @@ pub enum Refused {
 pub struct Policy {
     /// Moves beyond are refused; stops keep within. The acceleration must be limited.
     pub limits: Limits,
-    /// Ticks without a word from the host until the axis stops; 0 waits for ever.
-    pub patience: u32,
-    /// Ticks missed in a row that are made up for by waiting.
+    /// Time without a word from the host after which the axis stops, s, rounded to whole ticks, one
+    /// at least. 0 waits for ever.
+    pub patience: f64,
+    /// Ticks in a row that may be missed before the axis stops; the path waits for them. This is a
+    /// number, not a time: each is a setpoint that the drive has to do without, and what a drive can
+    /// bridge it counts in setpoints, whatever their interval.
     pub missed: u32,
 }
 
@@ -103,6 +108,8 @@ impl<T> Tick<T> {
 pub struct Axis<S: Stepper, const QUEUE: usize = 8> {
     generator: Generator<S, QUEUE>,
     policy: Policy,
+    /// The policy's patience in ticks; 0 waits for ever.
+    patience: u32,
     braking: Braking<S::Scalar>,
     mode: Mode,
     cause: Option<Cause>,
@@ -110,7 +117,7 @@ pub struct Axis<S: Stepper, const QUEUE: usize = 8> {
     then_off: bool,
     /// Ticks made: the number of the next.
     clock: u32,
-    /// Ticks since the host was heard.
+    /// Ticks since the host was heard, missed ones included.
     silence: u32,
     moves: Deque<Accepted, QUEUE>,
 }
@@ -127,7 +134,11 @@ struct Accepted {
 
 impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// A disabled axis that stands at `angle`.
+    ///
+    /// # Errors
+    /// `policy.patience` is not within 0 to 2³² ticks; the limits lack what a stop needs.
     pub fn new(stepper: S, angle: Angle<S::Scalar>, policy: Policy) -> Result<Self, Error> {
+        let patience = ticks("policy.patience", policy.patience, stepper.tick())?;
         let braking = Braking::new(&policy.limits, stepper.tick())?;
         let mut generator = Generator::new(stepper, 0.0)?;
         generator.limit(policy.limits)?;
@@ -135,6 +146,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         Ok(Self {
             generator,
             policy,
+            patience,
             braking,
             mode: Mode::Disabled,
             cause: None,
@@ -148,9 +160,9 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// The next setpoint. The tick path: no allocation, no panic, no `Result`.
     #[inline(always)]
     pub fn tick(&mut self) -> Tick<S::Scalar> {
-        if self.mode == Mode::Enabled && self.policy.patience > 0 {
+        if self.mode == Mode::Enabled && self.patience > 0 {
             self.silence = self.silence.saturating_add(1);
-            if self.silence > self.policy.patience {
+            if self.silence > self.patience {
                 self.stop(Cause::LinkLost);
             }
         }
@@ -166,9 +178,23 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         Tick { number, mode: self.mode, setpoint }
     }
 
-    /// So many ticks did not take place before the coming one.
+    /// The next setpoint if the tick that came is due: the same path as [`Axis::tick`], with the
+    /// policy for ticks that come at the wrong time. `None` for one that is not due: nothing has
+    /// changed, nothing is to be sent, and the drive keeps the setpoint that it has.
+    #[inline(always)]
+    pub fn tick_if_due(&mut self, timing: &Timing) -> Option<Tick<S::Scalar>> {
+        if !timing.due {
+            return None;
+        }
+        self.missed(timing.missed);
+        Some(self.tick())
+    }
+
+    /// Notes that `ticks` ticks did not take place before the coming one. The time without a word
+    /// from the host goes on through them.
     #[inline(always)]
     pub fn missed(&mut self, ticks: u32) {
+        self.silence = self.silence.saturating_add(ticks);
         if ticks > self.policy.missed {
             self.stop(Cause::MissedTicks);
         }
@@ -289,7 +315,14 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     }
 }
 
-/// Whether tick number `a` comes before `b`; numbers wrap after 497 days at 10 ms.
+/// A time in ticks, to the nearest; a time that is not 0 is one tick at least.
+fn ticks(parameter: &'static str, time: f64, tick: f64) -> Result<u32, Error> {
+    Error::check(parameter, time, 0.0, f64::from(u32::MAX) * tick, "s")?;
+    let ticks = (time / tick + 0.5) as u32;
+    Ok(if time > 0.0 { ticks.max(1) } else { 0 })
+}
+
+/// True if tick number `a` comes before `b`. Numbers wrap after 2³² ticks, 497 days at 10 ms.
 fn before(a: u32, b: u32) -> bool {
     b.wrapping_sub(a) as i32 > 0
 }

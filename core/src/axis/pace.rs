@@ -1,6 +1,11 @@
-//! Whether ticks come when they should, from any free-running counter.
+//! Tells ticks that come in time from late, missed and early ones, by any free-running counter.
 
-/// The ticks' due times.
+/// The due times of the ticks: one every period, in a fixed phase.
+///
+/// The tick that is due next may come from half a period before its time to a period after it. What
+/// comes earlier is an extra tick, such as those of a burst after a freeze: it is not due, and no
+/// setpoint may be made for it. What comes later has missed its time, and stands for a later tick.
+/// However ticks come, no more than `n + 1` of those within `n` periods (`n` to the nearest) are due.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
     period: u32,
@@ -11,27 +16,56 @@ pub struct Pace {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Timing {
+    /// True if a tick is to be made. False for one that came more than half a period early.
+    pub due: bool,
+    /// Counts before its due time.
+    pub early: u32,
     /// Counts after its due time.
     pub late: u32,
     /// Whole ticks that did not take place before it.
     pub missed: u32,
 }
 
+/// Longest period, a quarter of the counter's range: early and late ticks can be told apart.
+const LONGEST: u32 = 1 << 30;
+
 impl Pace {
-    /// A tick every `period` counts, at least one; the first one is never late.
+    /// A tick every `period` counts, 1 to 2³⁰; what lies outside is brought to the nearer end. The
+    /// first tick is always due. [`Pace::period`] gives the counts of a tick in seconds.
     pub fn new(period: u32) -> Self {
-        Self { period: period.max(1), due: None }
+        Self { period: period.clamp(1, LONGEST), due: None }
     }
 
-    /// A tick at counter reading `now`; readings wrap. Missed ticks are not made up for: the next
-    /// one is due a period after the one that came in place of them was.
+    /// Counts of a clock in a tick of `tick` s: `tick × per_second`. `None` unless that is a whole
+    /// number from 1 to 2³⁰, to 1e-9 of itself; with a fraction the ticks would drift in phase.
+    pub const fn period(tick: f64, per_second: u32) -> Option<u32> {
+        let exact = tick * per_second as f64;
+        if !(exact >= 0.5 && exact <= LONGEST as f64) {
+            return None;
+        }
+        let whole = (exact + 0.5) as u32;
+        if (exact - whole as f64).abs() <= 1e-9 * exact { Some(whole) } else { None }
+    }
+
+    /// Judges a tick at counter reading `now`; readings wrap. Missed ticks are not made up for, and
+    /// neither lateness nor earliness shifts the due times of later ticks.
+    ///
+    /// A freeze is told from a shorter one up to the counter's range less one and a half periods.
     #[inline(always)]
     pub fn arrive(&mut self, now: u32) -> Timing {
-        let since = self.due.map_or(0, |due| now.wrapping_sub(due));
-        // A tick before its time reads as far beyond the half of the range.
-        let since = if since > u32::MAX / 2 { 0 } else { since };
+        let due = self.due.unwrap_or(now);
+        let half = self.period / 2;
+        // No tick comes more than that before the next due time: a tick that is half a period early
+        // moves it a period ahead.
+        let ahead = due.wrapping_sub(now);
+        let early = if ahead <= self.period + half { ahead } else { 0 };
+        if early > half {
+            return Timing { due: false, early, late: 0, missed: 0 };
+        }
+        let since = now.wrapping_add(early).wrapping_sub(due);
         let (missed, late) = (since / self.period, since % self.period);
-        self.due = Some(now.wrapping_sub(late).wrapping_add(self.period));
-        Timing { late, missed }
+        let slot = now.wrapping_add(early).wrapping_sub(late);
+        self.due = Some(slot.wrapping_add(self.period));
+        Timing { due: true, early, late, missed }
     }
 }

@@ -92,11 +92,11 @@ impl Drive {
         Some([first, F::new(standard(0x300 + node), &payload[8..])?])
     }
 
-    /// SDO downloads that set 0x60C2 to `milliseconds` × 10⁻³ s, to be sent before operation is
-    /// enabled. The drive answers each.
-    pub fn interpolation_period<F: Frame>(&self, milliseconds: u8) -> Option<[F; 2]> {
-        let index = (-3i8).to_le_bytes()[0];
-        Some([self.download(0x60c2, 1, milliseconds)?, self.download(0x60c2, 2, index)?])
+    /// SDO downloads that set 0x60C2 to the tick, to be sent before operation is enabled. The drive
+    /// answers each.
+    pub fn interpolation_period<F: Frame>(&self, period: InterpolationPeriod) -> Option<[F; 2]> {
+        let [index] = period.index.to_le_bytes();
+        Some([self.download(0x60c2, 1, period.value)?, self.download(0x60c2, 2, index)?])
     }
 
     /// SDO download that sets 0x6060, modes of operation, to 8, cyclic synchronous position.
@@ -109,6 +109,39 @@ impl Drive {
         let [low, high] = index.to_le_bytes();
         let id = standard(0x600 + u16::from(self.node));
         F::new(id, &[0x2f, low, high, sub, value, 0, 0, 0])
+    }
+}
+
+/// 0x60C2, the time between two setpoints: `value × 10^index` s.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InterpolationPeriod {
+    value: u8,
+    index: i8,
+}
+
+impl InterpolationPeriod {
+    /// The period of a tick of `tick` s, exact to 1e-9 of it. In milliseconds where that can be, the
+    /// unit that every drive takes; else in the coarsest unit from 10⁻⁴ to 10⁻⁶ s, then 10⁻² to 1 s.
+    ///
+    /// # Errors
+    /// The tick is not 1 to 255 of any of these units. What it must be is the nearest that is.
+    pub fn new(tick: f64) -> Result<Self, Error> {
+        Error::check("drive.interpolation_period", tick, 1e-6, 255.0, "s")?;
+        let mut nearest = f64::INFINITY;
+        for (index, per_second) in
+            [(-3, 1e3), (-4, 1e4), (-5, 1e5), (-6, 1e6), (-2, 1e2), (-1, 1e1), (0, 1.0)]
+        {
+            let value = ((tick * per_second + 0.5) as u8).max(1);
+            let period = f64::from(value) / per_second;
+            if (period - tick).abs() <= 1e-9 * tick {
+                return Ok(Self { value, index });
+            }
+            if (period - tick).abs() < (nearest - tick).abs() {
+                nearest = period;
+            }
+        }
+        let (parameter, unit) = ("drive.interpolation_period", "s");
+        Err(Error::OutOfRange { parameter, value: tick, min: nearest, max: nearest, unit })
     }
 }
 

@@ -7,17 +7,14 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::output;
 use stillbeam_sim::talk::{self, DEMONSTRATION, Machine, Session, Step};
 
-/// Where cargo puts the application's image.
-const IMAGE: &str = "target/thumbv7em-none-eabihf/application/application";
-
 #[derive(clap::Args)]
 pub struct TalkArgs {
     /// Steps, each in quotes, e.g. "enable 0" "move 0 quintic 0.8 1.57" rest; a demonstration
     /// without any
     steps: Vec<String>,
-    /// The application's image, to be run in QEMU
-    #[arg(long, value_name = "FILE", default_value = IMAGE, conflicts_with = "serial")]
-    image: PathBuf,
+    /// The application's image, to be run in QEMU [default: where cargo builds it]
+    #[arg(long, value_name = "FILE", conflicts_with = "serial")]
+    image: Option<PathBuf>,
     /// A board's serial port, instead of QEMU
     #[arg(long, value_name = "PORT")]
     serial: Option<String>,
@@ -41,7 +38,7 @@ impl TalkArgs {
         }
         let machine = match &self.serial {
             Some(port) => Machine::open(port, self.baud)?,
-            None => Machine::emulate(&self.image)?,
+            None => Machine::emulate(&self.image.unwrap_or_else(talk::default_image))?,
         };
         let mut session = Session::begin(machine)?;
         talk::converse(&mut session, &steps, &mut |line| println!("{line}"))?;

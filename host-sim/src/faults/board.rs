@@ -16,8 +16,8 @@ use stillbeam_protocol::{Command, Refusal, Request};
 use super::machine::{Configuration, TICK};
 use crate::error::Error;
 
-/// Counts of the board's clock a tick.
-pub const PERIOD: u32 = 10_000;
+/// Counts of the board's clock, in µs, a tick.
+pub const PERIOD: u32 = Pace::period(TICK, 1_000_000).expect("TICK is a whole number of µs");
 
 /// Jobs that wait for the planner, as in the application; one more is refused.
 const JOBS: usize = 2;
@@ -47,6 +47,8 @@ pub struct Board {
     pub garbled: u64,
     /// Ticks that did not take place.
     pub missed: u64,
+    /// Ticks that came before they were due, and were not made.
+    pub early: u64,
     /// The axis was switched on since the last tick, where the drive stands.
     begins: bool,
 }
@@ -109,6 +111,7 @@ impl Board {
             answers: Vec::new(),
             garbled: 0,
             missed: 0,
+            early: 0,
             begins: false,
         })
     }
@@ -137,21 +140,21 @@ impl Board {
         }
     }
 
-    /// A tick at that reading of the clock.
-    pub fn tick(&mut self, now: u32) -> Step {
+    /// A tick at that reading of the clock; `None` if it is not due, for then there is none.
+    pub fn tick(&mut self, now: u32) -> Option<Step> {
         let timing = self.pace.arrive(now);
-        if timing.missed > 0 {
-            self.missed += u64::from(timing.missed);
-            self.axis.missed(timing.missed);
-        }
-        let tick = self.axis.tick();
+        let Some(tick) = self.axis.tick_if_due(&timing) else {
+            self.early += 1;
+            return None;
+        };
+        self.missed += u64::from(timing.missed);
         let begins = std::mem::take(&mut self.begins);
         let step = Step { tick, demand: self.train.demand(&tick.setpoint), begins };
         if let Some(job) = &mut self.under_way {
             job.left = job.left.saturating_sub(1);
         }
         self.work();
-        step
+        Some(step)
     }
 
     /// The axis.

@@ -11,16 +11,15 @@ use stillbeam_protocol::{Command, Request};
 
 use super::board::PERIOD;
 use super::line::Line;
-use super::machine::{CONFIGURATIONS, Configuration, TICK};
+use super::machine::{CONFIGURATIONS, Configuration, SILENCE, TICK, ticks};
 use super::{Board, Drive, Fault, Outcome, Watch, host, stops};
 use crate::error::Error;
 
-/// Ticks of a run before the host falls silent.
-const TICKS: u32 = 800;
+/// Ticks of a run before the host falls silent: 8 s.
+const TICKS: u32 = ticks(8.0);
 
-/// Ticks in which a silent axis must have come to rest: its patience, and a stop from the greatest
-/// rate.
-const SILENCE: u32 = 50 + 250;
+/// Counts between two ticks of a burst, 20 µs.
+const BURST: u32 = 20;
 
 /// Every kind of fault `count` times, and every stop there is, in the order of the table.
 pub fn all(
@@ -77,6 +76,11 @@ struct Run<'a> {
     line: Line,
     drive: Drive,
     now: u32,
+    /// Ticks of a burst that are still to come.
+    burst: u32,
+    /// Counts of the clock since the first tick, and ticks made.
+    elapsed: Option<u64>,
+    made: u64,
     /// Mode at the last tick.
     last: Option<Mode>,
     injected: u64,
@@ -99,6 +103,9 @@ impl<'a> Run<'a> {
             line: Line::new(fault),
             drive: Drive::at(rng.random_range(-3.0..3.0)),
             now: rng.random(),
+            burst: 0,
+            elapsed: None,
+            made: 0,
             last: None,
             injected: 0,
             stops: [0; 3],
@@ -122,8 +129,8 @@ impl<'a> Run<'a> {
             let bytes = self.line.deliver(k);
             self.board.receive(&bytes);
             self.report(k, rng);
-            self.now = self.now.wrapping_add(self.interval(rng));
-            self.tick();
+            let counts = self.interval(rng);
+            self.tick(counts);
         }
     }
 
@@ -146,6 +153,15 @@ impl<'a> Run<'a> {
 
     /// Counts of the clock to the next tick.
     fn interval(&mut self, rng: &mut StdRng) -> u32 {
+        if self.burst > 0 {
+            self.burst -= 1;
+            self.injected += 1;
+            return BURST;
+        }
+        if self.fault == Fault::Bursts && rng.random_bool(0.03) {
+            self.burst = rng.random_range(1..11);
+            return PERIOD * self.burst + rng.random_range(0..PERIOD);
+        }
         let (counts, chance) = match self.fault {
             Fault::LateTicks => (PERIOD + rng.random_range(0..PERIOD), 0.3),
             Fault::MissedTicks => (PERIOD * rng.random_range(2..11), 0.03),
@@ -158,10 +174,20 @@ impl<'a> Run<'a> {
         PERIOD
     }
 
-    fn tick(&mut self) {
+    /// A tick comes, `counts` of the clock after the one before.
+    fn tick(&mut self, counts: u32) {
         let stopped = |mode| matches!(mode, Mode::Stopping | Mode::Stopped);
         let before = self.last;
-        let step = self.board.tick(self.now);
+        self.now = self.now.wrapping_add(counts);
+        let elapsed = self.elapsed.map_or(0, |elapsed| elapsed + u64::from(counts));
+        self.elapsed = Some(elapsed);
+        let Some(step) = self.board.tick(self.now) else { return };
+        self.made += 1;
+        // The path never runs ahead of time: one tick at the beginning, one a period, to the nearest.
+        let period = u64::from(PERIOD);
+        if self.made > 1 + (elapsed + period / 2) / period {
+            self.broken.push(format!("{} ticks made in {elapsed} µs", self.made));
+        }
         self.watch.see(&step);
         self.drive.follow(&step);
         if stopped(step.tick.mode) && !before.is_some_and(stopped) {
@@ -178,8 +204,7 @@ impl<'a> Run<'a> {
     /// The host is silent: the axis must come to rest.
     fn in_silence(&mut self) {
         for _ in 0..SILENCE {
-            self.now = self.now.wrapping_add(PERIOD);
-            self.tick();
+            self.tick(PERIOD);
         }
         if !self.board.axis().rests() || self.board.axis().mode() == Mode::Stopping {
             let mode = self.board.axis().mode();
@@ -207,8 +232,7 @@ impl<'a> Run<'a> {
         self.send(Command::Move(Move::To { profile: Profile::Quintic, duration: 1.5, to }));
         for _ in 0..160 {
             self.send(Command::Heartbeat);
-            self.now = self.now.wrapping_add(PERIOD);
-            self.tick();
+            self.tick(PERIOD);
         }
         let angle = self.board.axis().generator().hub().angle.radians();
         let mode = self.board.axis().mode();

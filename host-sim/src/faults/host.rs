@@ -7,9 +7,10 @@ use stillbeam::{Limits, Move, Payload, Profile};
 use stillbeam_protocol::Command;
 
 use super::Fault;
+use super::machine::ticks;
 
-/// Ticks between two heartbeats; the patience is five of them.
-const HEARTBEAT: u32 = 10;
+/// Ticks between two heartbeats, 0.1 s; the patience is five of them.
+const HEARTBEAT: u32 = ticks(0.1);
 
 /// The commands of tick `k`, and how many of them are the fault itself.
 pub fn say(fault: Fault, limits: &Limits, k: u32, rng: &mut StdRng) -> (Vec<Command>, u64) {

@@ -28,11 +28,13 @@ pub enum Fault {
     PowerUp,
     /// The frames between board and drive are altered.
     Drive,
+    /// After a freeze of up to ten periods the ticks that were missed come all at once.
+    Bursts,
 }
 
 impl Fault {
     /// Every kind, in the order of the table.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::None,
         Self::Cut,
         Self::Garbled,
@@ -45,6 +47,7 @@ impl Fault {
         Self::Payload,
         Self::PowerUp,
         Self::Drive,
+        Self::Bursts,
     ];
 
     /// In the table.
@@ -62,6 +65,7 @@ impl Fault {
             Self::Payload => "payload changed any time",
             Self::PowerUp => "garbage at power-up",
             Self::Drive => "drive's frames altered",
+            Self::Bursts => "ticks in bursts",
         }
     }
 }

@@ -1,11 +1,27 @@
-//! The two axes of the firmware's application, as it is configured.
+//! The two axes of the campaign: those of the firmware's application as it is delivered. They are
+//! kept here, and not taken from there, because the campaign's figures are theirs.
 
 use stillbeam::axis::Policy;
 use stillbeam::motor::{Direction, Joint, Ratio};
 use stillbeam::{Damping, Hub, Limits, Link, Payload, Scene};
 
-/// h, s.
+/// The control period h, s.
 pub const TICK: f64 = 0.010;
+
+/// Time without a word from the host after which an axis stops, s.
+const PATIENCE: f64 = 0.5;
+
+/// Time in which a stop from the greatest rate is over, s: several times what the slowest takes,
+/// 2.12 · 5/15 = 0.7.
+const STOP: f64 = 2.5;
+
+/// Ticks after which a silent axis must be at rest: its patience, and a stop.
+pub const SILENCE: u32 = ticks(PATIENCE + STOP);
+
+/// A time in ticks, to the nearest.
+pub const fn ticks(seconds: f64) -> u32 {
+    (seconds / TICK + 0.5) as u32
+}
 
 /// One axis' constants.
 #[derive(Clone, Copy, Debug)]
@@ -77,5 +93,5 @@ const fn policy(rate: f64, acceleration: f64) -> Policy {
         torque: None,
         moment: None,
     };
-    Policy { limits, patience: 50, missed: 2 }
+    Policy { limits, patience: PATIENCE, missed: 2 }
 }

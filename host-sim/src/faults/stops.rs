@@ -6,12 +6,12 @@ use stillbeam::{Move, Profile};
 use stillbeam_protocol::Command;
 
 use super::board::PERIOD;
-use super::machine::{CONFIGURATIONS, Configuration, TICK};
+use super::machine::{CONFIGURATIONS, Configuration, TICK, ticks};
 use super::{Board, Drive, Outcome, Watch};
 use crate::error::Error;
 
-/// Ticks of the moves, and a few after.
-const TICKS: u32 = 130;
+/// Ticks of the moves, 1.2 s, and a few after.
+const TICKS: u32 = ticks(1.3);
 
 /// Every profile, a spin-up and its end, and where it can be planned a still move; each with another
 /// move waiting behind it.
@@ -46,7 +46,7 @@ fn one(
 ) -> Result<Outcome, Error> {
     let mut configuration = *configuration;
     if cause == Cause::LinkLost {
-        configuration.policy.patience = at;
+        configuration.policy.patience = f64::from(at) * TICK;
     }
     let mut board = Board::new(&configuration, 0)?;
     let mut watch = Watch::new(&configuration.policy.limits, configuration.joint.ratio, TICK);
@@ -65,7 +65,8 @@ fn one(
         if cause != Cause::LinkLost {
             board.ask(Command::Heartbeat);
         }
-        let step = board.tick(now);
+        // Every tick comes in time here.
+        let Some(step) = board.tick(now) else { continue };
         watch.see(&step);
         drive.follow(&step);
     }

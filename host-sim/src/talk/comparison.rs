@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use stillbeam::Angle;
 use stillbeam::axis::{Cause, Mode, Tick};
-use stillbeam::drive::{ClassicFrame, Sequence};
+use stillbeam::drive::ClassicFrame;
 use stillbeam_protocol::{Command, Report, frame, slcan};
 
 use super::drive::Drive;
@@ -198,7 +198,8 @@ impl Comparison {
         let node = self.axes[number].replica.node();
         let position = demand.and_then(|demand| node.set_input_pos::<ClassicFrame>(&demand));
         let switch = switched.and_then(|on| node.set_axis_state::<ClassicFrame>(on));
-        let stamp = (u32::from(Sequence(tick.number as u16).0) * 10 % 60_000) as u16;
+        let microseconds = (1e6 * self.axes[number].replica.tick()).round() as u32;
+        let stamp = slcan::stamp(tick.sequence(), microseconds);
         for ours in position.map(|encoded| encoded.payload).into_iter().chain(switch) {
             let theirs = self.next_frame(machine)?;
             if theirs != (ours, stamp) {

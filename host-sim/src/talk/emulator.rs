@@ -8,6 +8,7 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use super::image;
 use super::log::Log;
 use super::machine::POLL;
 use crate::error::Error;
@@ -25,17 +26,18 @@ pub struct Emulator {
 
 impl Emulator {
     /// Starts an image and returns it with its link.
-    pub(super) fn start(image: &Path) -> Result<(Self, TcpStream), Error> {
-        let elf = std::fs::read(image).map_err(|cause| {
+    pub(super) fn start(path: &Path) -> Result<(Self, TcpStream), Error> {
+        let elf = std::fs::read(path).map_err(|cause| {
             Error::file(
-                image,
+                path,
                 format_args!(
-                    "{cause}; must be the application's image: cargo build -p \
-                     stillbeam-firmware --bin application --features mps2 --profile application \
-                     --target thumbv7em-none-eabihf"
+                    "{cause}; must be the application's image: {}; --image FILE if it was built \
+                     with --target-dir",
+                    image::BUILD
                 ),
             )
         })?;
+        image::check(path, &elf)?;
         let temporary = |error| Error::new(format_args!("temporary file: {error}"));
         let output = tempfile::NamedTempFile::new().map_err(temporary)?;
         // Opened twice, because the two read and write at places of their own.
@@ -48,7 +50,7 @@ impl Emulator {
             .args(["-semihosting-config", "enable=on,target=native"])
             // 64 ns an instruction: the board's file says why.
             .args(["-icount", "shift=6,sleep=off", "-kernel"])
-            .arg(image)
+            .arg(path)
             .stdin(Stdio::piped())
             .stdout(output.into_file())
             .stderr(Stdio::piped())

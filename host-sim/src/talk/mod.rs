@@ -4,9 +4,11 @@
 //! beside it ([`Replica`]) and compares each setpoint and drive frame, bit for bit, as it comes.
 //! [`Step`]s are what a user asks for, [`page()`] draws what came back.
 
+mod arm;
 mod comparison;
 mod drive;
 mod emulator;
+mod image;
 mod log;
 mod machine;
 mod page;
@@ -15,6 +17,7 @@ mod script;
 mod session;
 
 pub use emulator::Emulator;
+pub use image::default_image;
 pub use machine::Machine;
 pub use page::page;
 pub use replica::Replica;

@@ -1,25 +1,19 @@
 //! An axis on the host, from what the firmware says it is.
 
-use stillbeam::axis::{Axis, Cause, Mode, Policy, Tick};
-use stillbeam::beam::OneElement;
+use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::drive::odrive::Node;
 use stillbeam::motion::Still;
 use stillbeam::motor::{Demand, Drivetrain};
-use stillbeam::stepper::Newmark;
 use stillbeam::{Angle, Move, Payload, Scene};
 use stillbeam_protocol::{Command, Description};
 
+use super::arm::{self, Arm, apart};
 use crate::error::Error;
 
-type Stepper = Newmark<f32, 2, 2, false>;
-
-/// The method that this host can run along.
-const METHOD: &str = "newmark-1-nodal";
-
-/// The same axis with the same code, on this machine. Its queue is longer, so that what the firmware
-/// accepted is never refused here.
+/// The same axis with the same code and method, on this machine. Its queue is longer, so that what the
+/// firmware accepted is never refused here.
 pub struct Replica {
-    axis: Axis<Stepper, 64>,
+    axis: Box<dyn Arm>,
     train: Drivetrain<f32>,
     scene: Scene,
     tick: f64,
@@ -35,17 +29,12 @@ impl Replica {
     /// its word for a lost link.
     ///
     /// # Errors
-    /// The firmware runs another method, or says what no axis can be.
+    /// The firmware runs a method that is not in the list, or says what no axis can be.
     pub fn new(description: &Description<'_>, patient: bool) -> Result<Self, Error> {
-        if description.method != METHOD {
-            let method = description.method;
-            return Err(Error::new(format_args!(
-                "method = \"{method}\" in the firmware: must be \"{METHOD}\""
-            )));
-        }
-        let Description { scene, tick, policy, joint, direction, zero, node, .. } = *description;
-        let policy = if patient { Policy { patience: 0, ..policy } } else { policy };
-        let axis = Axis::new(stepper(&scene, tick)?, Angle { turns: 0, part: 0.0 }, policy)?;
+        let Description { method, scene, tick, policy, joint, direction, zero, node, .. } =
+            *description;
+        let policy = if patient { Policy { patience: 0.0, ..policy } } else { policy };
+        let axis = arm::build(method, &scene, tick, policy)?;
         let mut train = Drivetrain::new(&joint, direction, 0.0)?;
         // To the bit, which the zero in turns need not be.
         train.home(zero, Angle { turns: 0, part: 0.0 });
@@ -98,7 +87,7 @@ impl Replica {
     fn reload(&mut self, payload: Payload) -> Result<(), Error> {
         self.planner = None;
         self.scene.payload = payload;
-        self.axis.replace(stepper(&self.scene, self.tick)?).map_err(apart)
+        self.axis.reload(&self.scene, self.tick)
     }
 
     /// A word from the host was heard.
@@ -106,7 +95,7 @@ impl Replica {
         self.axis.heard();
     }
 
-    /// So many ticks did not take place before the coming one.
+    /// Notes that `ticks` ticks did not take place before the coming one.
     pub fn missed(&mut self, ticks: u32) {
         self.axis.missed(ticks);
     }
@@ -154,12 +143,4 @@ impl Replica {
     pub fn train(&self) -> &Drivetrain<f32> {
         &self.train
     }
-}
-
-fn stepper(scene: &Scene, tick: f64) -> Result<Stepper, Error> {
-    Ok(Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>())?, tick)?)
-}
-
-fn apart(refused: stillbeam::axis::Refused) -> Error {
-    Error::new(format_args!("the firmware accepts what the host's axis refuses: {refused:?}"))
 }

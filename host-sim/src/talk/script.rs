@@ -234,12 +234,13 @@ fn said(answer: &Answer) -> String {
         Answer::Refused(why) => format!("refused: {why}"),
         Answer::Status(status) => format!(
             "{:?}; a tick costs {} instructions, {} at worst; {} us late at most, {} missed, {} \
-             overruns, {} dropped, {} garbled; stack {} bytes",
+             early, {} overruns, {} dropped, {} garbled; stack {} bytes",
             status.mode,
             status.cost,
             status.worst,
             status.late,
             status.missed,
+            status.early,
             status.overruns,
             status.dropped,
             status.garbled,

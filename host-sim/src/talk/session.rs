@@ -10,11 +10,14 @@ use super::comparison::Comparison;
 use super::{Machine, Replica};
 use crate::error::Error;
 
-/// Ticks between two heartbeats.
-const HEARTBEAT: u32 = 10;
+/// Time between two heartbeats, s.
+const HEARTBEAT: f64 = 0.1;
 
-/// Ticks within which every request is answered: the longest search for a still move, many times.
-const LONGEST: u32 = 100_000;
+/// Time within which every request is answered, s: the longest search for a still move, many times.
+const LONGEST: f64 = 1_000.0;
+
+/// Time within which axes that are not told to turn on come to rest, s.
+const REST: f64 = 60.0;
 
 /// The firmware's answer to a request.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,13 +112,14 @@ impl Session {
     /// As [`Session::ask`].
     pub fn answer(&mut self, posted: Posted) -> Result<Answer, Error> {
         let Posted { sequence, axis, command } = posted;
+        let longest = self.ticks(LONGEST);
         let mut waited = 0;
         while self.open.contains(&sequence) {
             self.beat()?;
             self.exchange()?;
             waited += 1;
-            if waited > LONGEST {
-                return Err(Error::new(format_args!("firmware: no answer for {LONGEST} ticks")));
+            if waited > longest {
+                return Err(Error::new(format_args!("firmware: no answer for {LONGEST} s")));
             }
         }
         let place = self.answers.iter().position(|(of, _)| *of == sequence);
@@ -183,13 +187,15 @@ impl Session {
     /// # Errors
     /// As [`Session::ask`], or no rest within a minute.
     pub fn rest(&mut self) -> Result<(), Error> {
-        for _ in 0..6000 {
+        for _ in 0..self.ticks(REST) {
             if self.comparison.axes().iter().all(|axis| axis.replica.rests()) {
                 return Ok(());
             }
             self.wait(1)?;
         }
-        Err(Error::new("rest: an axis still turns after 6000 ticks; spin to rate 0 first"))
+        Err(Error::new(format_args!(
+            "rest: an axis still turns after {REST} s; spin to rate 0 first"
+        )))
     }
 
     /// Sends anything at all to the firmware, as a bad line would.
@@ -235,6 +241,11 @@ impl Session {
         self.comparison.axes().first().map_or(0.0, |axis| axis.replica.tick())
     }
 
+    /// A time in ticks, to the nearest, one at least.
+    fn ticks(&self, seconds: f64) -> u32 {
+        (seconds / self.tick()).round().max(1.0) as u32
+    }
+
     /// Lines that the firmware logged before the latest tick and since it was last asked, each with
     /// the number of ticks made until then. What it logs after a tick's setpoints shows with the
     /// next.
@@ -254,10 +265,10 @@ impl Session {
         Ok(self.sequence)
     }
 
-    /// Every so many ticks a word, unless silence is asked for.
+    /// A word to the firmware every [`HEARTBEAT`], unless silence is asked for.
     fn beat(&mut self) -> Result<(), Error> {
         let latest = self.comparison.latest();
-        if !self.silent && latest.wrapping_sub(self.beaten) >= HEARTBEAT {
+        if !self.silent && latest.wrapping_sub(self.beaten) >= self.ticks(HEARTBEAT) {
             self.beaten = latest;
             self.send(0, Command::Heartbeat)?;
         }

@@ -8,17 +8,13 @@ use stillbeam::motion::{BULGE, Peaks};
 use stillbeam::{Move, Payload, Profile};
 use stillbeam_protocol::frame::{MAX, encode};
 use stillbeam_protocol::{Command, Request};
-use stillbeam_sim::faults::machine::{CONFIGURATIONS, TICK};
+use stillbeam_sim::faults::machine::{CONFIGURATIONS, SILENCE, TICK, ticks};
 use stillbeam_sim::faults::{Board, Drive, PERIOD, Watch};
 
 use crate::values::double;
 
 /// Ticks an input may last: 20 s.
-const TICKS: u32 = 2_000;
-
-/// Ticks in which a silent axis must have come to rest: its patience, and a stop from the greatest
-/// rate.
-const SILENCE: u32 = 50 + 250;
+const TICKS: u32 = ticks(20.0);
 
 /// Setpoints keep what [`Watch`] promises, and the axis rests once its host is silent.
 pub fn axis(bytes: &[u8]) {
@@ -92,10 +88,10 @@ impl Bench {
 
     fn tick(&mut self, counts: u32) {
         self.now = self.now.wrapping_add(counts);
-        let step = self.board.tick(self.now);
+        self.ticks += 1;
+        let Some(step) = self.board.tick(self.now) else { return };
         self.watch.see(&step);
         self.drive.follow(&step);
-        self.ticks += 1;
         assert_eq!(self.watch.broken, None);
     }
 

@@ -1,21 +1,23 @@
 //! What hangs on this machine: arms, gears, drives. To be edited for another one.
 
 use stillbeam::axis::{self, Policy};
-use stillbeam::beam::OneElement;
 use stillbeam::motor::{Direction, Joint, Ratio};
-use stillbeam::stepper::Newmark;
 use stillbeam::{Damping, Error, Hub, Limits, Link, Payload, Scene};
+use stillbeam_methods::Method as _;
 
 /// Number of axes in one tick.
 pub const AXES: usize = 2;
 
-/// h, s.
+/// The control period h, s. A whole number of µs and of the board's counts; the timer's period, the
+/// board's counts and the policy's times are derived from it.
 pub const TICK: f64 = 0.010;
 
-/// The stepper, the same for every axis, and its name on the wire.
-pub type Stepper = Newmark<f32, 2, 2, false>;
-/// See [`Stepper`].
-pub const METHOD: &str = "newmark-1-nodal";
+/// The method, the same for every axis: any of the list in `methods/`. The host is told its name and
+/// runs the same one.
+pub type Method = stillbeam_methods::Newmark1Nodal;
+
+/// The method's stepper.
+pub type Stepper = <Method as stillbeam_methods::Method>::Stepper;
 
 /// An axis with room for eight segments: one S-curve and a move more, or eight cubics.
 pub type Axis = axis::Axis<Stepper, 8>;
@@ -90,10 +92,10 @@ const fn policy(rate: f64, acceleration: f64) -> Policy {
         torque: None,
         moment: None,
     };
-    Policy { limits, patience: 50, missed: 2 }
+    Policy { limits, patience: 0.5, missed: 2 }
 }
 
-/// The stepper of an arm, set up in single precision: never in the tick.
+/// The stepper of an arm. Set-up: never in the tick.
 pub fn stepper(scene: &Scene) -> Result<Stepper, Error> {
-    Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>())?, TICK)
+    Method::stepper(scene, TICK)
 }

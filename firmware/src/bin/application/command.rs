@@ -6,14 +6,15 @@ use embedded_io_async::Read;
 use stillbeam::axis::{Cause, Mode};
 use stillbeam::{Angle, Error};
 use stillbeam_firmware::stack;
+use stillbeam_methods::Method as _;
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status};
 
 use crate::axes::{self, AXES, CONFIGURATIONS};
-use crate::board::{self, LinkReader};
-use crate::link;
+use crate::board::LinkReader;
 use crate::plan::{DONE, Done, JOBS, Job, Work};
 use crate::shared::{self, Outcome, on, scene};
+use crate::{link, tick};
 
 /// Takes requests one by one and answers each, at once or when it is planned.
 #[embassy_executor::task]
@@ -129,7 +130,7 @@ fn describe(axis: usize) -> Outcome<Description<'static>> {
     let zero = shared::with(|s| s.joints.get(axis).map(|joint| joint.train.mapping().zero()));
     Ok(Description {
         axes: AXES as u8,
-        method: axes::METHOD,
+        method: axes::Method::ID,
         tick: axes::TICK,
         scene: scene(axis)?,
         policy: configuration.policy,
@@ -151,8 +152,9 @@ fn status(axis: usize) -> Outcome<Status> {
             measured: joint.measured.unwrap_or_default(),
             cost: counters.cost,
             worst: counters.worst,
-            late: board::microseconds(counters.late),
+            late: tick::microseconds(counters.late),
             missed: counters.missed,
+            early: counters.early,
             overruns: counters.overruns,
             dropped: counters.dropped,
             garbled: counters.garbled,

@@ -4,7 +4,7 @@ use core::sync::atomic::Ordering;
 
 use embassy_time::{Duration, Ticker};
 
-use crate::tick::MADE;
+use crate::tick::{self, MADE};
 use crate::{board, shared};
 
 // The log is kept in ticks, as everything else.
@@ -18,12 +18,13 @@ pub async fn run() {
         ticker.next().await;
         let counters = shared::with(|s| s.counters);
         defmt::info!(
-            "tick: {} {=str} last, {} worst; {} us late at most, {} missed, {} overruns, {} dropped",
+            "tick: {} {=str} last, {} worst; {} us late at most, {} missed, {} early, {} overruns, {} dropped",
             counters.cost,
             board::UNIT,
             counters.worst,
-            board::microseconds(counters.late),
+            tick::microseconds(counters.late),
             counters.missed,
+            counters.early,
             counters.overruns,
             counters.dropped
         );

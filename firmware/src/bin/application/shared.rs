@@ -37,6 +37,8 @@ pub struct Counters {
     pub late: u32,
     /// Ticks that did not take place.
     pub missed: u32,
+    /// Ticks that came before they were due, and were not made.
+    pub early: u32,
     /// Ticks that were not over when the next was due.
     pub overruns: u32,
     /// Setpoints that found a queue full.
@@ -67,6 +69,7 @@ impl Counters {
         worst: 0,
         late: 0,
         missed: 0,
+        early: 0,
         overruns: 0,
         dropped: 0,
         garbled: 0,

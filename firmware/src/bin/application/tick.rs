@@ -1,4 +1,4 @@
-//! The hard tick: 10 ms, above everything but the alarm that starts it.
+//! The hard tick, above everything but the alarm that starts it.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -9,6 +9,14 @@ use stillbeam::axis::{Cause, Pace, Tick};
 
 use crate::axes::{AXES, TICK};
 use crate::{board, shared};
+
+/// The tick in µs, the timer's unit.
+pub const MICROSECONDS: u32 =
+    Pace::period(TICK, 1_000_000).expect("axes.rs: TICK must be a whole number of µs");
+
+/// The tick in counts of the board.
+pub const PERIOD: u32 = Pace::period(TICK, board::COUNTS_PER_SECOND)
+    .expect("axes.rs: TICK must be a whole number of the board's counts");
 
 /// A setpoint on its way.
 #[derive(Clone, Copy)]
@@ -35,9 +43,9 @@ pub static TO_HOST: Outlet = Channel::new();
 /// Deadline: over before the next tick is due. Only steps the axes and hands their setpoints on.
 #[embassy_executor::task]
 pub async fn run() {
-    let period = Duration::from_micros((TICK * 1e6) as u64);
+    let period = Duration::from_micros(MICROSECONDS.into());
     let mut due = Instant::now();
-    let mut pace = Pace::new(board::PERIOD);
+    let mut pace = Pace::new(PERIOD);
     loop {
         due += period;
         Timer::at(due).await;
@@ -46,12 +54,14 @@ pub async fn run() {
         // No burst to catch up: the path waits. The phase is kept, which a ticker that is reset to
         // now would not do.
         due += period * timing.missed;
+        if !timing.due {
+            // Nothing is made or sent. The timer goes on in its phase, so that the next one is due.
+            shared::with(|shared| shared.counters.early += 1);
+            continue;
+        }
         shared::with(|shared| {
             for (i, joint) in shared.joints.iter_mut().enumerate() {
-                if timing.missed > 0 {
-                    joint.axis.missed(timing.missed);
-                }
-                let tick = joint.axis.tick();
+                let Some(tick) = joint.axis.tick_if_due(&timing) else { continue };
                 let setpoint = Setpoint { axis: i as u8, tick, cause: joint.axis.cause() };
                 for outlet in [&TO_DRIVE, &TO_HOST] {
                     shared.counters.dropped += u32::from(!hand_on(outlet, setpoint));
@@ -64,13 +74,19 @@ pub async fn run() {
             counters.worst = counters.worst.max(counters.cost);
             counters.late = counters.late.max(timing.late);
             counters.missed += timing.missed;
-            counters.overruns += u32::from(timing.late.saturating_add(took) > board::PERIOD);
+            counters.overruns += u32::from(timing.late.saturating_add(took) > PERIOD);
         });
         board::ticked();
     }
 }
 
-/// Puts a setpoint behind the others, in place of the oldest if there is no room. Whether there was.
+/// Counts of the board as µs.
+pub fn microseconds(counts: u32) -> u32 {
+    (u64::from(counts) * 1_000_000 / u64::from(board::COUNTS_PER_SECOND)) as u32
+}
+
+/// Puts a setpoint behind the others, in place of the oldest if there is no room. Returns whether
+/// there was room.
 fn hand_on(outlet: &Outlet, setpoint: Setpoint) -> bool {
     let room = outlet.try_send(setpoint).is_ok();
     if !room {

@@ -7,8 +7,8 @@
 //! UART 0 is the host, UART 1 the bus: CAN frames as slcan lines, both ways.
 //!
 //! To be run with `-icount shift=6`: 64 ns an instruction, 1.6 cycles of 25 MHz, about what a
-//! Cortex-M4F takes on average; a tick of 10 ms has 156,250 instructions. (The bench's shift of 10
-//! counts more exactly and leaves a tick only 9,765.)
+//! Cortex-M4F takes on average; 10 ms have 156,250 instructions. (The bench's shift of 10 counts
+//! more exactly and leaves 10 ms only 9,765.)
 //!
 //! **Lock-step.** If there is a host on QEMU's standard input, it grants every tick with four bytes:
 //! how many bytes of UART 0 and of UART 1 have to be in before time goes on, and for how many µs the
@@ -35,8 +35,8 @@ use time::time;
 
 /// What [`cost`] counts.
 pub const UNIT: &str = "instructions";
-/// Counts a tick: 10 ms at 25 MHz.
-pub const PERIOD: u32 = 250_000;
+/// Rate of [`counts`].
+pub const COUNTS_PER_SECOND: u32 = 25_000_000;
 
 /// The devices that the application uses.
 pub struct Devices {
@@ -96,11 +96,6 @@ pub fn counts() -> u32 {
 /// Counts as instructions: 1.6 each.
 pub fn cost(counts: u32) -> u32 {
     counts * 5 / 8
-}
-
-/// Counts as µs.
-pub fn microseconds(counts: u32) -> u32 {
-    counts / 25
 }
 
 #[panic_handler]

@@ -28,10 +28,12 @@ use embassy_sync::blocking_mutex::CriticalSectionMutex;
 use embedded_can::Frame;
 use stillbeam::drive::{ClassicFrame, Sequence};
 
+use crate::tick::MICROSECONDS;
+
 /// What [`cost`] counts.
 pub const UNIT: &str = "cycles";
-/// Counts a tick: 10 ms at 170 MHz.
-pub const PERIOD: u32 = 1_700_000;
+/// Rate of [`counts`]: the core's clock.
+pub const COUNTS_PER_SECOND: u32 = 170_000_000;
 
 const BAUD: u32 = 921_600;
 /// 24 MHz make 6 × 16 quanta a bit at 250 kbit/s, 3 × 16 at 500, 3 × 8 at 1 Mbit/s, sampled at 87.5 %.
@@ -40,6 +42,7 @@ const CAN_BITRATE: u32 = 250_000;
 /// Without a tick for this long the board begins anew, drives off. The oscillator that it counts by
 /// is off by up to 10 %.
 const WATCHDOG_MICROSECONDS: u32 = 100_000;
+const _: () = assert!(2 * MICROSECONDS <= WATCHDOG_MICROSECONDS, "the watchdog outlasts two ticks");
 
 static WATCHDOG: CriticalSectionMutex<RefCell<Option<IndependentWatchdog<'static, IWDG>>>> =
     CriticalSectionMutex::new(RefCell::new(None));
@@ -170,11 +173,6 @@ pub fn counts() -> u32 {
 /// Counts as cycles.
 pub fn cost(counts: u32) -> u32 {
     counts
-}
-
-/// Counts as µs.
-pub fn microseconds(counts: u32) -> u32 {
-    counts / 170
 }
 
 /// A tick has been made: the one thing that keeps the watchdog quiet.

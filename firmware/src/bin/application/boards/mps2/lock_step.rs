@@ -7,7 +7,7 @@ use semihosting::fs::File;
 use semihosting::io::Read;
 
 use super::serial::UARTS;
-use super::time::time;
+use super::time::{PER_MICROSECOND, time};
 use crate::link::LINK;
 use crate::tick::{TO_DRIVE, TO_HOST};
 
@@ -60,7 +60,8 @@ fn stall(microseconds: u16) {
     if microseconds > 0 {
         cortex_m::interrupt::free(|_| {
             let begin = time().reading();
-            while time().reading().wrapping_sub(begin) < 25 * u32::from(microseconds) {}
+            while time().reading().wrapping_sub(begin) < PER_MICROSECOND * u32::from(microseconds) {
+            }
         });
     }
 }

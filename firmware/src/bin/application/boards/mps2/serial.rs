@@ -8,6 +8,8 @@ use embassy_sync::pipe::Pipe;
 use stillbeam::drive::{ClassicFrame, Sequence};
 use stillbeam_protocol::slcan;
 
+use crate::tick::MICROSECONDS;
+
 /// A CMSDK UART: registers DATA, STATE (full: bit 0 transmit, bit 1 receive), CTRL, INTCLEAR,
 /// BAUDDIV.
 pub struct Uart {
@@ -104,8 +106,8 @@ pub struct BusWriter;
 impl BusWriter {
     /// Sends a frame, stamped with its tick's time.
     pub async fn send(&mut self, frame: &ClassicFrame, sequence: Sequence) {
-        let milliseconds = u32::from(sequence.0) * 10 % 60_000;
-        UARTS[1].send(slcan::encode(frame, milliseconds as u16).bytes()).await;
+        let stamp = slcan::stamp(sequence, MICROSECONDS);
+        UARTS[1].send(slcan::encode(frame, stamp).bytes()).await;
     }
 }
 

@@ -60,7 +60,7 @@ struct State {
 }
 
 /// Counts a µs, the unit of embassy-time here.
-const PER_MICROSECOND: u64 = 25;
+pub const PER_MICROSECOND: u32 = super::COUNTS_PER_SECOND / 1_000_000;
 /// Longest alarm, half of what the counter can tell; whoever asked for a later one is asked again.
 const LONGEST: u64 = 1 << 31;
 
@@ -99,8 +99,9 @@ impl Time {
     /// Wakes who is due and sets the alarm for who is next.
     fn set(&self, state: &mut State) {
         let now = self.counts(state);
-        let next = state.queue.next_expiration(now / PER_MICROSECOND);
-        let wait = next.saturating_mul(PER_MICROSECOND).saturating_sub(now).clamp(1, LONGEST);
+        let next = state.queue.next_expiration(now / u64::from(PER_MICROSECOND));
+        let wait =
+            next.saturating_mul(PER_MICROSECOND.into()).saturating_sub(now).clamp(1, LONGEST);
         self.alarm.run(wait as u32, 0b1001);
     }
 
@@ -128,7 +129,7 @@ impl Time {
 
 impl Driver for Time {
     fn now(&self) -> u64 {
-        self.state.lock(|state| self.counts(&mut state.borrow_mut())) / PER_MICROSECOND
+        self.state.lock(|state| self.counts(&mut state.borrow_mut())) / u64::from(PER_MICROSECOND)
     }
 
     fn schedule_wake(&self, at: u64, waker: &Waker) {

@@ -1,12 +1,15 @@
-//! Every method, once.
+#![no_std]
+#![forbid(unsafe_code)]
+//! Every method, once, with its name: a firmware picks one by its type and names it on the wire, a
+//! host builds the one that it is told, and the tests run them all.
 
 use stillbeam::beam::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Scene, Stepper};
 
 /// A stepper with its name in the tables.
-pub trait Method {
-    /// The type's name, unique.
+pub trait Method: 'static {
+    /// The type's name, unique; the method's name on the wire.
     const ID: &'static str;
     /// Family: `rigid`, `newmark`, …
     const METHOD: &'static str;
