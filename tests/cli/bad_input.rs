@@ -202,3 +202,22 @@ fn files_that_are_not_there() {
     run(&["compare", "a.csv", "b.csv", "--scene", "d-fast", "--tolerance", "-1"]);
     assert_eq!(fs::read_dir(folder.path()).expect("folder").count(), 0);
 }
+
+/// The image is looked for where cargo would put it, not in a folder of a fixed name.
+#[test]
+fn the_image_is_looked_for_in_cargos_target_folder() {
+    let folder = tempfile::tempdir().expect("folder");
+    let target = folder.path().join("elsewhere");
+    let output = sim()
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+        .env("CARGO_TARGET_DIR", &target)
+        .args(["talk", "rest"])
+        .output()
+        .expect("program");
+    let error = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert_eq!(error.lines().count(), 1, "{error}");
+    let image = target.join("thumbv7em-none-eabihf/application/application");
+    assert!(error.contains(&image.display().to_string()), "{error}");
+    assert!(error.contains("--features mps2") && error.contains("--image"), "{error}");
+}

@@ -34,20 +34,43 @@ pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, Str
 /// # Errors
 /// As [`build`].
 pub fn application(features: &str) -> Result<PathBuf, String> {
-    require_target(TARGET)?;
     let _one = BUILDING.lock();
+    build_application(features, &format!("application-{}", features.replace(',', "-")))
+}
+
+/// Builds the application for a board after one change to `axes.rs`, as a user would make it; the
+/// file itself stays. The image's name ends with `name`.
+///
+/// # Errors
+/// As [`build`]; `from` does not stand in `axes.rs` exactly once.
+pub fn changed_application(
+    board: &str,
+    name: &str,
+    [from, to]: [&str; 2],
+) -> Result<PathBuf, String> {
+    let path = root().join("firmware/src/bin/application/axes.rs");
+    let axes = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    if axes.matches(from).count() != 1 {
+        return Err(format!("{}: \"{from}\" must stand in it once", path.display()));
+    }
+    let _one = BUILDING.lock();
+    let other = root().join("target/firmware/axes.rs");
+    fs::create_dir_all(root().join("target/firmware"))
+        .and_then(|()| fs::write(&other, axes.replace(from, to)))
+        .map_err(|error| format!("{}: {error}", other.display()))?;
+    build_application(&format!("{board},_other-axes"), &format!("application-{board}-{name}"))
+}
+
+/// Builds the application and keeps it under the name. One at a time.
+fn build_application(features: &str, name: &str) -> Result<PathBuf, String> {
+    require_target(TARGET)?;
     let folder = root().join("target/firmware");
     run(cargo()
         .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", "application"])
         .args(["--features", features, "--profile", "application", "--target", TARGET])
         .arg("--target-dir")
         .arg(&folder))?;
-    keep(
-        &folder,
-        "application",
-        "application",
-        &format!("application-{}", features.replace(',', "-")),
-    )
+    keep(&folder, "application", "application", name)
 }
 
 fn build_variant(bin: &str, variable: Option<(&str, &str)>) -> Result<PathBuf, String> {

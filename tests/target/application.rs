@@ -5,7 +5,7 @@ use std::path::Path;
 
 use stillbeam::axis::Mode;
 use stillbeam_protocol::{Command, Status};
-use stillbeam_sim::talk::{Answer, DEMONSTRATION, FAULTS, Machine, STILL, Session, Step};
+use stillbeam_sim::talk::{Answer, DEMONSTRATION, FAULTS, FIRST, Machine, STILL, Session, Step};
 use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 
 /// Whole application on the emulated board.
@@ -15,8 +15,8 @@ const RAM: u64 = 16 * 1024;
 const STILL_FLASH: u64 = 112 * 1024;
 const STILL_RAM: u64 = 32 * 1024;
 
-/// Instructions of a tick of 10 ms at 64 ns each.
-const TICK: u32 = 156_250;
+/// Time of an instruction of the emulated board, s.
+const INSTRUCTION: f64 = 64e-9;
 
 fn begin() -> Session {
     begin_with("mps2")
@@ -86,8 +86,8 @@ fn the_firmware_and_the_host_agree_to_the_bit_through_the_whole_policy() {
     let status = status(&mut session);
     let faults = [status.missed, status.overruns, status.dropped, status.garbled, status.saturated];
     assert_eq!(faults, [0; 5], "{status:?}");
-    // A stop out of the tick included, and still far from its 10 ms.
-    assert!(status.worst < TICK / 20, "{status:?}");
+    // A stop out of the tick included, and still far from the tick's time.
+    assert!(f64::from(status.worst) * INSTRUCTION < session.tick() / 20.0, "{status:?}");
     assert!(status.late < 100, "no planning holds a tick up: {status:?}");
 }
 
@@ -314,6 +314,63 @@ fn a_missing_image_is_named_with_how_to_build_it() {
     let Err(error) = Machine::emulate(Path::new("no-such-image")) else { panic!("it is missing") };
     let error = error.to_string();
     assert!(error.contains("no-such-image") && error.contains("--profile application"), "{error}");
+}
+
+/// The method stands in `axes.rs` and nowhere else: the host runs whichever the firmware names.
+#[test]
+fn another_method_is_one_line_in_axes() {
+    for method in ["Modal2", "Elastica2"] {
+        let change = ["stillbeam_methods::Newmark1Nodal", &format!("stillbeam_methods::{method}")];
+        let image = firmware::changed_application("mps2", method, change)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let mut session = Machine::emulate(&image)
+            .and_then(Session::begin)
+            .unwrap_or_else(|error| panic!("{method}: {error}"));
+        let lines = run(&mut session, &FIRST);
+        let [setpoints, frames] = session.compared();
+        assert!(setpoints > 100 && frames > 50, "{method}: {setpoints}, {frames}, {lines:#?}");
+        assert!(lines.iter().any(|line| line.contains("stopped")), "{method}: {lines:#?}");
+        let status = status(&mut session);
+        assert_eq!([status.missed, status.early, status.overruns], [0; 3], "{method}: {status:?}");
+    }
+}
+
+/// The tick stands in `axes.rs` and nowhere else: at another one a missed tick is found, and half a
+/// second of silence is half a second.
+#[test]
+fn another_tick_is_one_line_in_axes() {
+    let tick = 0.002;
+    let change = ["TICK: f64 = 0.010", "TICK: f64 = 0.002"];
+    let image = firmware::changed_application("mps2", "2ms", change)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let mut session =
+        Machine::emulate(&image).and_then(Session::begin).unwrap_or_else(|error| panic!("{error}"));
+    assert_near("tick", session.tick(), tick, 0.0);
+    take(&mut session, "enable 0");
+    take(&mut session, "move 0 quintic 1.7 1.57");
+    take(&mut session, "wait 0.3");
+    take(&mut session, "stall 0.005");
+    assert_eq!(status(&mut session).missed, 1);
+    take(&mut session, "rest");
+    let heard = session.now();
+    take(&mut session, "silence 0.6");
+    let lost =
+        session.history(0).iter().find(|tick| tick.mode != Mode::Enabled && tick.number > heard);
+    let silent = lost.expect("the link is lost").number - heard;
+    assert!(
+        (200..=300).contains(&silent),
+        "{silent} ticks of 2 ms, 0.5 s after the last heartbeat"
+    );
+}
+
+/// An image names its board: one of another board is no image to run in QEMU.
+#[test]
+fn an_image_of_another_board_is_refused() {
+    let image = firmware::application("nucleo-g474re").unwrap_or_else(|error| panic!("{error}"));
+    let Err(error) = Machine::emulate(&image) else { panic!("it is for another board") };
+    let error = error.to_string();
+    assert!(error.contains("board = nucleo-g474re: must be mps2"), "{error}");
+    assert!(error.contains("--features mps2"), "{error}");
 }
 
 /// The golden run has no report: it is not taken for the application.
