@@ -17,6 +17,7 @@
 mod axes;
 #[cfg_attr(feature = "mps2", path = "boards/mps2.rs")]
 #[cfg_attr(feature = "nucleo-g474re", path = "boards/nucleo_g474re.rs")]
+#[cfg_attr(feature = "nucleo-g491re", path = "boards/nucleo_g491re.rs")]
 mod board;
 mod command;
 mod drive;
