@@ -340,12 +340,12 @@ fn another_method_is_one_line_in_axes() {
 }
 
 /// The tick stands in `axes.rs` and nowhere else: at another one a missed tick is found, and half a
-/// second of silence is half a second.
+/// second of silence is half a second. In 2 ms the emulated board does not get its first setpoints out.
 #[test]
 fn another_tick_is_one_line_in_axes() {
-    let tick = 0.002;
-    let change = ["TICK: f64 = 0.010", "TICK: f64 = 0.002"];
-    let image = firmware::changed_application("mps2", "2ms", change)
+    let tick = 0.005;
+    let change = ["TICK: f64 = 0.010", "TICK: f64 = 0.005"];
+    let image = firmware::changed_application("mps2", "5ms", change)
         .unwrap_or_else(|error| panic!("{error}"));
     let mut session =
         Machine::emulate(&image).and_then(Session::begin).unwrap_or_else(|error| panic!("{error}"));
@@ -353,7 +353,7 @@ fn another_tick_is_one_line_in_axes() {
     take(&mut session, "enable 0");
     take(&mut session, "move 0 quintic 1.7 1.57");
     take(&mut session, "wait 0.3");
-    take(&mut session, "stall 0.005");
+    take(&mut session, "stall 0.012");
     assert_eq!(status(&mut session).missed, 1);
     take(&mut session, "rest");
     let heard = session.now();
@@ -361,10 +361,7 @@ fn another_tick_is_one_line_in_axes() {
     let lost =
         session.history(0).iter().find(|tick| tick.mode != Mode::Enabled && tick.number > heard);
     let silent = lost.expect("the link is lost").number - heard;
-    assert!(
-        (200..=300).contains(&silent),
-        "{silent} ticks of 2 ms, 0.5 s after the last heartbeat"
-    );
+    assert!((80..=120).contains(&silent), "{silent} ticks of 5 ms, 0.5 s after the last heartbeat");
 }
 
 /// An image names its board: one of another board is no image to run in QEMU.
@@ -377,10 +374,10 @@ fn an_image_of_another_board_is_refused() {
     assert!(error.contains("--features mps2"), "{error}");
 }
 
-/// The golden run has no report: it is not taken for the application.
+/// The golden run names no board: it is not taken for the application.
 #[test]
 fn another_image_is_refused() {
     let image = firmware::build("golden").unwrap_or_else(|error| panic!("{error}"));
     let Err(error) = Machine::emulate(&image) else { panic!("it is not the application") };
-    assert!(error.to_string().contains("no defmt strings"), "{error}");
+    assert!(error.to_string().contains("no board is named in it"), "{error}");
 }
