@@ -164,3 +164,47 @@ fn mangled_scenes_are_read_or_refused_in_a_line() {
     }
     assert!((500..2990).contains(&refused), "{refused}");
 }
+
+#[test]
+fn tables_and_sweeps_say_where_too() {
+    let folder = tempfile::tempdir().expect("folder");
+    let put = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("file");
+    let refuse = |args: &[&str]| {
+        let output = sim().current_dir(folder.path()).args(args).output().expect("program");
+        let text = String::from_utf8(output.stderr).expect("text");
+        assert_eq!((output.status.code(), text.lines().count()), (Some(2), 1), "{text}");
+        text
+    };
+    let header = "t_s,hub_angle_rad,hub_rate_rad_s,hub_accel_rad_s2,tip_x_m,tip_y_m,deflection_m,\
+                  torque_nm\n";
+    let row = "0.0,0,0,0,0.4,0,0,0\n";
+    put("good.csv", &format!("{header}{row}"));
+    for (rows, words) in [
+        ("0.01,0,fast,0,0.4,0,0,0\n", "bad.csv: line 3: hub_rate_rad_s: "),
+        ("0.01,0,0,0,0.4,0,0\n", "bad.csv: line 3: 7 columns; must be 8"),
+        ("0.0,0,0,0,0.4,0,0,0\n", "bad.csv: line 3: t_s = 0: must be later"),
+    ] {
+        put("bad.csv", &format!("{header}{row}{rows}"));
+        let text = refuse(&["compare", "good.csv", "bad.csv", "--scene", "d-fast"]);
+        assert!(text.contains(words), "{words} is not in: {text}");
+    }
+    for (spec, words) in [
+        (
+            "scenes = [\"d-fast\"]\n[[grid]]\nmethod = [\"modl\"]\n",
+            "spec.toml:3:11: grid[0].method[0] = \"modl\": must be one of ",
+        ),
+        ("scenes = [\"d-fast\"]\n[grid]\ntick = [0.01]\n", "spec.toml:2:1: grid: must be [[grid]]"),
+        (
+            "scenes = [\"d-fast\"]\n[[grid]]\nticks = [0.01]\n",
+            "spec.toml:3:1: grid[0].ticks: unknown key",
+        ),
+        (
+            "scenes = []\n[[grid]]\ntick = [0.01]\n",
+            "spec.toml:1:10: scenes = []: must be one or more",
+        ),
+    ] {
+        put("spec.toml", spec);
+        let text = refuse(&["sweep", "spec.toml", "--csv", "out.csv"]);
+        assert!(text.contains(words), "{words} is not in: {text}");
+    }
+}

@@ -96,7 +96,8 @@ impl<'a> Document<'a> {
         }
         // The key of the line, where the line has one.
         let (line, _) = self.position(at);
-        let key = keys.iter().filter(|key| self.position(key.span.start).0 == line).next_back();
+        let of_line = keys.iter().filter(|key| self.position(key.span.start).0 == line);
+        let key = of_line.filter(|key| key.span.start <= at).max_by_key(|key| key.span.start);
         let Some((key, (start, given))) = key.and_then(|key| Some((key, self.value_after(key)?)))
         else {
             let given = self.text.lines().nth(line - 1).unwrap_or("").trim();
