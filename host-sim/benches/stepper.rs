@@ -42,7 +42,7 @@ const SOLVERS: &str = r#"
 "#;
 
 fn solvers() -> Vec<(String, Solver)> {
-    let spec = Spec::parse(SOLVERS).expect("a spec of this file");
+    let spec = Spec::parse("solvers", SOLVERS).expect("a spec of this file");
     let keys = spec.solvers();
     keys.iter().map(|&keys| (describe(keys), keys.resolve().expect("a known solver"))).collect()
 }

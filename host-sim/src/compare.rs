@@ -32,7 +32,9 @@ pub fn compare(a: &[Row], b: &[Row], scene: &SceneFile) -> Result<Comparison, Er
     let trajectory = scene.trajectory(tick)?;
     let pairs = common(a, b);
     if pairs.is_empty() {
-        return Err(Error::new("no common times; must be two runs of the same scene"));
+        return Err(Error::new(
+            "no common times; the tables must be of two runs of the same scene",
+        ));
     }
     let length = scene.arm.link.length;
     let (mut tip_max, mut tip_max_at, mut squares) = (0.0, 0.0, 0.0);

@@ -18,6 +18,7 @@
 pub mod blocks;
 pub mod choice;
 pub mod compare;
+mod document;
 pub mod error;
 #[cfg(feature = "faults")]
 pub mod faults;

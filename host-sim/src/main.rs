@@ -29,7 +29,9 @@ fn say(words: std::fmt::Arguments<'_>) {
         // Somebody has read enough.
         std::process::exit(0);
     }
-    complain(format_args!("standard output: {error}; must be one that can be written"));
+    complain(format_args!(
+        "standard output cannot be written: {error}; it must be open and have room"
+    ));
     std::process::exit(Error::EXIT_CODE.into());
 }
 

@@ -1,6 +1,8 @@
 //! Runs the core on a scene: the same generator as on the target, in f32 or f64.
 
-use stillbeam::motion::Hub as HubState;
+use std::collections::HashSet;
+
+use stillbeam::motion::{Hub as HubState, Segment, Shaped, Shaper};
 use stillbeam::stepper::{Response, Stepper};
 use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
@@ -9,7 +11,6 @@ use crate::model_choice::{StepperVisitor, with_stepper};
 use crate::scene_file::SceneFile;
 use crate::solver::Solver;
 use crate::table::Row;
-use crate::trajectory::Side;
 
 /// Segments that can wait in the desktop's generator: two of the longest moves.
 pub const QUEUE: usize = 14;
@@ -38,8 +39,8 @@ impl StepperVisitor for Rows<'_> {
 
 /// Ticks a stepper through a scene: a row every tick.
 pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Error> {
-    if scene.shaper.is_some() {
-        return drive_shaped(&stepper, scene);
+    if let Some(shaper) = &scene.shaper {
+        return drive_shaped(&stepper, scene, shaper);
     }
     let tick = stepper.tick();
     let mut rows = Vec::new();
@@ -51,38 +52,33 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     Ok(rows)
 }
 
-/// [`drive`] along a motion that has passed a shaper, which no generator's queue holds: the stepper
-/// is given the hub itself.
-fn drive_shaped<S: Stepper>(stepper: &S, scene: &SceneFile) -> Result<Vec<Row>, Error> {
+/// [`drive`] along a motion that has passed a shaper, which no generator's queue holds.
+fn drive_shaped<S: Stepper>(
+    stepper: &S,
+    scene: &SceneFile,
+    shaper: &Shaper,
+) -> Result<Vec<Row>, Error> {
     let tick = stepper.tick();
     let trajectory = scene.trajectory(tick)?;
-    let ticks = (trajectory.duration() / tick).round() as u64;
-    let at = |k: u64, side| cast::<S::Scalar>(&trajectory.at(k as f64 * tick, side));
-    let mut state = stepper.equilibrium(&at(0, Side::Left));
+    // As on the target: what the tick evaluates is of its own precision.
+    let plans = trajectory.plans().iter();
+    let segments: Vec<_> =
+        plans.flat_map(|plan| plan.segments.iter().map(Segment::cast::<S::Scalar>)).collect();
+    let motion = Shaped::new(&segments, shaper, tick);
+    let ends: HashSet<u32> = trajectory.arrivals().map(|end| (end / tick).round() as u32).collect();
+    let mut state = stepper.equilibrium(&motion.hub(0));
     let mut rows = Vec::new();
-    for k in 0..=ticks {
-        let arrival = at(k, Side::Left);
+    for k in 0..=motion.ticks() {
         if k > 0 {
-            stepper.step(&mut state, &at(k - 1, Side::Right), &arrival);
+            motion.advance(stepper, &mut state, k - 1);
         }
-        let ends = trajectory.arrivals().any(|end| (end / tick).round() as u64 == k);
-        let hub = if ends { arrival } else { at(k, Side::Right) };
+        let hub = if ends.contains(&k) { motion.arrival(k) } else { motion.hub(k) };
         let Response { torque, tip } = stepper.response(&state, &hub);
         let HubState { angle, rate, acceleration, .. } = hub;
         let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
-        rows.push(row(k as f64 * tick, &setpoint));
+        rows.push(row(f64::from(k) * tick, &setpoint));
     }
     Ok(rows)
-}
-
-fn cast<T: Real>(hub: &HubState<f64>) -> HubState<T> {
-    HubState {
-        angle: hub.angle.cast(),
-        rate: T::from_f64(hub.rate),
-        acceleration: T::from_f64(hub.acceleration),
-        sin: T::from_f64(hub.sin),
-        cos: T::from_f64(hub.cos),
-    }
 }
 
 /// Feeds the moves to a generator as its queue takes them, and has `each` tick it through all of

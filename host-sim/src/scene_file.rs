@@ -1,19 +1,22 @@
 //! Scene files: TOML in SI units to a validated arm and its moves.
 
 mod moves;
+mod notes;
 mod shaper;
+mod units;
 
 use std::fmt::Display;
 use std::path::Path;
 
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
 use stillbeam::material::{MATERIALS, Material, Strip};
 use stillbeam::motion::Shaper;
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Scene};
 
 use self::moves::{MoveTable, Planning};
 use self::shaper::ShaperTable;
+pub use self::units::angle as angle_remark;
+use crate::document::Document;
 use crate::error::Error;
 use crate::solver::SolverKeys;
 use crate::trajectory::Trajectory;
@@ -35,6 +38,8 @@ pub struct SceneFile {
     pub limits: Limits,
     /// The `[solver]` table.
     pub solver: SolverKeys,
+    /// Remarks on values that are probably in another unit, a line each.
+    pub remarks: Vec<String>,
 }
 
 /// One move and the rest after it.
@@ -122,15 +127,20 @@ impl SceneFile {
     /// Reads and validates a scene file.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path).map_err(|cause| {
-            Error::file(path, format_args!("{cause}; must be a scene file or a scene's name"))
+            Error::file(path, format_args!("{cause}; it must be a scene file or a scene's name"))
         })?;
-        let place = path.display().to_string();
-        Self::parse(&place, &text).map_err(|error| error.within(&place))
+        Self::parse(&path.display().to_string(), &text)
     }
 
-    /// Parses and validates the text of a scene file.
+    /// Parses and validates the text of a scene file. Errors begin with `name`, and the line and
+    /// column of the key.
     pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
-        let file: File = from_toml(text)?;
+        let document = Document::parse(name, text)?;
+        let file = document.read()?;
+        Self::build(name, file).map_err(|error| document.locate(&error))
+    }
+
+    fn build(name: &str, mut file: File) -> Result<Self, Error> {
         let gravity = file.gravity.acceleration;
         let arm = Scene {
             link: file.link.build()?,
@@ -148,12 +158,18 @@ impl SceneFile {
             moment: file.limits.moment,
         }
         .validate()?;
-        let (tables, many) = match (file.motion, file.moves) {
+        let (tables, many) = match (file.motion.take(), file.moves.take()) {
             (Some(one), None) => (vec![one], false),
             (None, Some(many)) if !many.is_empty() => (many, true),
             _ => {
                 return Err(Error::new("move: must be either [move] or one or more [[moves]]"));
             }
+        };
+        let remarks = units::remarks(&file, &arm, &tables);
+        // A move that is refused may have been meant in another unit.
+        let remarked = |error: Error| match remarks.first() {
+            Some(remark) => Error::new(format_args!("{error}; {remark}")),
+            None => error,
         };
         let from = tables[0].from.unwrap_or(0.0);
         let mut at = Some(from);
@@ -161,13 +177,14 @@ impl SceneFile {
         let mut moves = Vec::new();
         for (index, table) in tables.iter().enumerate() {
             let step = table.build(index, &mut at, &planning);
-            moves.push(if many { step.map_err(|e| e.within(place_of(index)))? } else { step? });
+            let step = if many { step.map_err(|e| e.within(place_of(index))) } else { step };
+            moves.push(step.map_err(remarked)?);
         }
-        let shaper = file.shaper.map(|table| table.build(&arm)).transpose()?;
-        let name = name.to_owned();
-        let scene = Self { name, arm, from, moves, shaper, limits, solver: file.solver };
-        scene.trajectory(planning.tick)?;
-        Ok(scene)
+        let shaper = file.shaper.as_ref().map(|table| table.build(&arm)).transpose()?;
+        let (name, solver) = (name.to_owned(), file.solver);
+        let scene = Self { name, arm, from, moves, shaper, limits, solver, remarks: Vec::new() };
+        scene.trajectory(planning.tick).map_err(remarked)?;
+        Ok(Self { remarks, ..scene })
     }
 
     /// The commanded motion with every duration rounded to whole ticks, its shaper passed.
@@ -177,7 +194,7 @@ impl SceneFile {
         let rate = trajectory.plans().last().map_or(0.0, |plan| plan.outline.end.rate);
         if rate != 0.0 {
             return Err(Error::new(format_args!(
-                "shaper: the hub turns on with {rate} rad/s after the moves; must be moves that end at rest"
+                "shaper: the hub turns on with {rate} rad/s after the last move; the motion must be at rest at its end"
             )));
         }
         Ok(trajectory.shaped(shaper.clone()))
@@ -191,40 +208,6 @@ impl SceneFile {
         };
         self.moves.iter().flat_map(with_dwell).collect()
     }
-
-    /// What rounding to whole ticks changed, and what a shaper adds, a line each.
-    pub fn roundings(&self, tick: f64) -> Result<Vec<String>, Error> {
-        let trajectory = self.trajectory(tick)?;
-        let motions = self.motions();
-        let report = motions.iter().zip(trajectory.plans()).filter_map(|(motion, plan)| {
-            let asked = motion.duration();
-            // Not worth a word: what a decimal fraction of a second lacks in binary.
-            (plan.outline.rounded_by.abs() > 1e-9 * asked).then(|| {
-                let key = if matches!(motion, Move::Dwell { .. }) { "settle" } else { "duration" };
-                let rounded = f64::from(plan.outline.ticks) * tick;
-                format!(
-                    "move.{key} = {asked} s is no multiple of the tick ({tick} s): rounded to \
-                     {} s",
-                    (rounded * 1e9).round() / 1e9
-                )
-            })
-        });
-        let shaped = self.shaper.as_ref().map(|shaper| {
-            let (delay, pulses) = (shaper.delay(), shaper.pulses().len());
-            format!("the shaper\u{2019}s {pulses} pulses add {delay:.4} s to the motion")
-        });
-        Ok(report.chain(shaped).collect())
-    }
-}
-
-/// Reads a TOML text into a table; the error names the field.
-pub(crate) fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
-    let document = toml::Deserializer::parse(text).map_err(|error| Error::new(error.message()))?;
-    serde_path_to_error::deserialize(document).map_err(|error| {
-        let path = error.path().to_string();
-        let message = error.inner().message().to_owned();
-        if path == "." { Error::new(message) } else { Error::new(message).within(path) }
-    })
 }
 
 fn place_of(index: usize) -> String {
@@ -289,9 +272,13 @@ fn named_material(name: &str) -> Result<&'static Material, Error> {
 }
 
 fn missing(field: &str, other: &str, value: f64) -> Error {
-    Error::new(format_args!("{field}: missing beside {other} = {value}; must be both or neither"))
+    Error::new(format_args!(
+        "{field}: missing beside {other} = {value}; both must be given, or neither"
+    ))
 }
 
 fn clash(field: &str, other: &str, value: impl Display) -> Error {
-    Error::new(format_args!("{field}: given beside {other} = {value}; must be one of the two"))
+    Error::new(format_args!(
+        "{field}: given beside {other} = {value}; only one of the two must be given"
+    ))
 }

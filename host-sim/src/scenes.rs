@@ -33,7 +33,7 @@ pub fn named(name: &str) -> Option<Result<SceneFile, Error>> {
     EMBEDDED
         .iter()
         .find(|entry| entry.0 == name)
-        .map(|(name, _, text)| SceneFile::parse(name, text).map_err(|e| e.within(name)))
+        .map(|(name, _, text)| SceneFile::parse(name, text))
 }
 
 /// An embedded scene by name, or else a scene file by path.

@@ -70,12 +70,13 @@ pub fn add(files: &mut Files, path: &Path, rows: &[Row]) -> Result<(), Error> {
 /// Reads a table; refuses other columns, numbers that are not finite and times that do not rise.
 pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
     let mut csv = csv::Reader::from_path(path).map_err(|error| {
-        Error::file(path, format_args!("{error}; must be a CSV of run or reference"))
+        Error::file(path, format_args!("{error}; it must be a CSV of run or reference"))
     })?;
+    let header = csv.headers().cloned().unwrap_or_default();
     let mut rows: Vec<Row> = Vec::new();
     for (index, row) in csv.deserialize().enumerate() {
         let line = index + 2;
-        let row: Row = row.map_err(|error| Error::file(path, error))?;
+        let row: Row = row.map_err(|error| Error::file(path, explained(&error, &header)))?;
         let finite = [
             row.t_s,
             row.hub_angle_rad,
@@ -89,20 +90,38 @@ pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
         .iter()
         .all(|value| value.is_finite());
         if !finite {
-            return Err(Error::file(path, format_args!("line {line}: must be finite numbers")));
+            return Err(Error::file(path, format_args!("line {line}: all numbers must be finite")));
         }
         if rows.last().is_some_and(|last| last.t_s >= row.t_s) {
             return Err(Error::file(
                 path,
-                format_args!("line {line}: t_s = {}: must be a rising time", row.t_s),
+                format_args!("line {line}: t_s = {}: must be later than the row before", row.t_s),
             ));
         }
         rows.push(row);
     }
     if rows.is_empty() {
-        return Err(Error::file(path, "no rows; must be a CSV of run or reference"));
+        return Err(Error::file(path, "no rows; it must be a CSV of run or reference"));
     }
     Ok(rows)
+}
+
+/// What is wrong with a row: its line, its column and what it must be.
+fn explained(error: &csv::Error, header: &csv::StringRecord) -> String {
+    let line = error.position().map_or(0, csv::Position::line);
+    match error.kind() {
+        csv::ErrorKind::Deserialize { err, .. } => {
+            let field = err.field().and_then(|field| header.get(usize::try_from(field).ok()?));
+            match field {
+                Some(name) => format!("line {line}: {name}: {}; must be a number", err.kind()),
+                None => format!("line {line}: {}; must be a row of run or reference", err.kind()),
+            }
+        }
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            format!("line {line}: {len} columns; must be {expected_len}, as in the header")
+        }
+        _ => format!("{error}; it must be a CSV of run or reference"),
+    }
 }
 
 /// Adds columns of numbers under one header, for figures and studies.

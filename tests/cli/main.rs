@@ -3,6 +3,8 @@
 
 mod bad_input;
 mod commands;
+mod notes;
+mod syntax;
 
 use assert_cmd::Command;
 

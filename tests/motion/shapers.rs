@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use stillbeam::motion::{Limits, Plan, Pulse, Segment, Shaped, Shaper, ShaperKind, Start};
+use stillbeam::motion::{Hub, Limits, Plan, Pulse, Segment, Shaped, Shaper, ShaperKind, Start};
 use stillbeam::{Move, Profile};
 
 /// Vibration that a table leaves of an oscillator's, of that of one pulse.
@@ -91,4 +91,79 @@ fn a_shaped_motion_is_the_sum_of_its_delayed_copies() {
     }
     assert!((turned + 9.0).abs() < 1e-9);
     assert!(rate < 1.75 * 9.0 / 0.83);
+}
+
+/// `∫₀¹(1 − s)θ̈ ds` beyond the parabola's, from the angles and rates at both ends.
+fn moment(before: &Hub<f64>, after: &Hub<f64>, tick: f64) -> f64 {
+    let turned = TAU * after.angle.since(before.angle);
+    let mean = (after.rate - before.rate) / tick;
+    let parabola = 0.5 * mean + (before.acceleration - after.acceleration) / 12.0;
+    (turned - tick * before.rate) / (tick * tick) - parabola
+}
+
+/// Every tick of every profile behind every shaper, delays that are no whole ticks.
+#[test]
+fn kinks_have_the_moments_of_the_motion() {
+    let tick = 0.01;
+    let to = |profile| Move::To { profile, duration: 0.31, to: 1.0 };
+    for motion in Profile::ALL.map(to) {
+        let start = Start::at_rest(0.0).expect("start");
+        let plan = Plan::new(&motion, start, &Limits::default(), tick).expect("plan");
+        let peak = plan.outline.peaks.acceleration;
+        for kind in ShaperKind::ALL {
+            let shaper = Shaper::new(kind, 31.7, 0.01).expect("a table");
+            let shaped = Shaped::new(&plan.segments, &shaper, tick);
+            let mut kinks = 0;
+            for k in 0..shaped.ticks() {
+                let expected = moment(&shaped.hub(k), &shaped.arrival(k + 1), tick);
+                let kink = shaped.kink(k);
+                kinks += usize::from(!kink.is_none());
+                let error = (kink.moment() - expected).abs();
+                assert!(error < 1e-4 * peak, "{motion:?} {kind:?} {k}: {error} of {peak}");
+            }
+            assert!(kinks >= shaper.pulses().len(), "{motion:?} {kind:?}: {kinks}");
+        }
+    }
+}
+
+/// A shaper of one pulse leaves the motion as it is, and the planner's own moments with it.
+#[test]
+fn one_pulse_gives_the_moments_of_the_segments() {
+    let motion = Move::To { profile: Profile::Trapezoid, duration: 0.31, to: 1.0 };
+    let start = Start::at_rest(0.0).expect("start");
+    let plan = Plan::new(&motion, start, &Limits::default(), 0.01).expect("plan");
+    let shaper = Shaper::custom(&[Pulse { amplitude: 1.0, delay: 0.0 }]).expect("a table");
+    let shaped = Shaped::new(&plan.segments, &shaper, 0.01);
+    let (mut first, mut landing) = (0, 0.0);
+    for segment in &plan.segments {
+        if first > 0 {
+            // A generator's parabola ends at the border's left-hand value.
+            let beyond = (shaped.arrival(first).acceleration - landing) / 12.0;
+            let expected = segment.entry() + beyond;
+            let moment = shaped.kink(first - 1).moment();
+            assert!((moment - expected).abs() < 1e-9, "{moment} is not {expected}");
+            assert!(expected.abs() > 0.1);
+        }
+        first += segment.count();
+        landing = segment.landing();
+    }
+    assert!(shaped.kink(first - 1).is_none(), "the end is a tick");
+}
+
+/// Where a copy begins or ends on a tick, the two sides differ and nothing is left inside.
+#[test]
+fn jumps_on_a_tick_are_of_its_sides() {
+    let motion = Move::To { profile: Profile::Cubic, duration: 0.2, to: 1.0 };
+    let start = Start::at_rest(0.0).expect("start");
+    let plan = Plan::new(&motion, start, &Limits::default(), 0.01).expect("plan");
+    let pulses = [0.0, 0.07].map(|delay| Pulse { amplitude: 0.5, delay });
+    let shaper = Shaper::custom(&pulses).expect("a table");
+    let shaped = Shaped::new(&plan.segments, &shaper, 0.01);
+    let jump = 3.0 / (0.2 * 0.2);
+    for k in 0..=shaped.ticks() {
+        assert!(k == shaped.ticks() || shaped.kink(k).is_none(), "{k}");
+        let jumped = shaped.hub(k).acceleration - shaped.arrival(k).acceleration;
+        let expected = if [0, 7, 20, 27].contains(&k) { jump } else { 0.0 };
+        assert!((jumped - expected).abs() < 1e-9, "{k}: {jumped}");
+    }
 }

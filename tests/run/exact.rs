@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use stillbeam::beam::{EightElements, Rod};
-use stillbeam::motion::Hub;
+use stillbeam::motion::{Hub, Kink};
 use stillbeam::stepper::{Elastica, Modal, Quality as Work, Response, Stepper};
 use stillbeam::{Generator, Link, Move, Profile, Scalar as Real, Scene, Setpoint};
 use stillbeam_sim::compare::{Comparison, compare};
@@ -139,6 +139,10 @@ impl<S: Stepper> Stepper for Unguarded<S> {
 
     fn shift(&self, state: &mut S::State, moment: S::Scalar) {
         self.0.shift(state, moment);
+    }
+
+    fn kink(&self, state: &mut S::State, kink: &Kink<S::Scalar>) {
+        self.0.kink(state, kink);
     }
 
     fn response(&self, state: &S::State, hub: &Hub<S::Scalar>) -> Response<S::Scalar> {

@@ -5,5 +5,6 @@ mod convergence;
 mod energy;
 mod exact;
 mod scene_files;
+mod shaped;
 mod still;
 mod truth;

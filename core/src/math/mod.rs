@@ -14,7 +14,7 @@ pub use band::{Band, HalfForm, Ldl};
 pub(crate) use jacobi::generalized_eigen;
 pub(crate) use least_squares::LeastSquares;
 pub(crate) use principal::{principal_axes, root};
-pub(crate) use propagator::phi_functions;
+pub(crate) use propagator::{Matrix2, phi_functions, product};
 pub use scalar::Scalar;
 
 /// Square root, correctly rounded, the same bits everywhere. Set-up only.

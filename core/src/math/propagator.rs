@@ -50,7 +50,8 @@ fn series(z: &Matrix2, k: u32) -> Matrix2 {
     phi
 }
 
-fn product(a: &Matrix2, b: &Matrix2) -> Matrix2 {
+/// `a b`.
+pub(crate) fn product(a: &Matrix2, b: &Matrix2) -> Matrix2 {
     core::array::from_fn(|i| core::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
 }
 

@@ -17,5 +17,6 @@ pub(crate) use plan::lay;
 pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};
 pub use segment::{Braking, Hub, Segment};
-pub use shaper::{MAX_PULSES, Pulse, Shaped, Shaper, ShaperKind};
+pub(crate) use shaper::ORDERS;
+pub use shaper::{Kink, MAX_PULSES, Pulse, Shaped, Shaper, ShaperKind};
 pub use still::{Course, Manner, Origin, Still, StillMove, Survey};

@@ -1,5 +1,6 @@
 //! A piece of the commanded motion in the form that the tick evaluates.
 
+mod border;
 mod braking;
 mod setup;
 mod shape;

@@ -4,6 +4,7 @@
 
 mod auto;
 mod elastica;
+mod kicks;
 mod modal;
 mod newmark;
 mod oscillator;
@@ -19,7 +20,7 @@ pub use rigid::Rigid;
 
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::{Hub, Peaks};
+use crate::motion::{Hub, Kink, Peaks};
 
 /// The arm's answer at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,6 +117,11 @@ pub trait Stepper {
     /// with the mean and the ends that `step` is given, rad/s², `s` the fraction of the tick. Steppers that take the rates
     /// only have nothing to do.
     fn shift(&self, _state: &mut Self::State, _moment: Self::Scalar) {}
+
+    /// Takes in the jumps that a shaper's delays put inside the tick that the coming [`Self::step`]
+    /// advances by. [`Shaped::advance`](crate::motion::Shaped::advance) calls it before that step, in
+    /// ticks that hold a jump only.
+    fn kink(&self, state: &mut Self::State, kink: &Kink<Self::Scalar>);
 
     /// Whether the arm, its hub at rest, moves by less than [`SLEEP`] of its length from where it
     /// rests: it may then be left as it is, and goes on from there.

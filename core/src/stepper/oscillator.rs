@@ -202,15 +202,20 @@ pub(super) fn check_turns(
 pub(super) fn jolt<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> [T; 2] {
     let [e, _, p2, p3, p4] = phi_of(omega, alpha, beta, h);
     let end = [0, 1].map(|r| -60.0 * b * h * (p2[r][1] - 6.0 * p3[r][1] + 12.0 * p4[r][1]));
+    pulled_back(&e, end).map(T::from_f64)
+}
+
+/// The state before a step that ends with `end` by itself, `e` being the step. Zero for modes that the
+/// step damps out.
+pub(super) fn pulled_back(e: &[[f64; 2]; 2], end: [f64; 2]) -> [f64; 2] {
     let determinant = e[0][0] * e[1][1] - e[0][1] * e[1][0];
     if determinant < 1e-3 {
-        return [T::ZERO; 2];
+        return [0.0; 2];
     }
     [
         (e[1][1] * end[0] - e[0][1] * end[1]) / determinant,
         (e[0][0] * end[1] - e[1][0] * end[0]) / determinant,
     ]
-    .map(T::from_f64)
 }
 
 /// Where the determinant falls short of 1 by more than this it is not held down.

@@ -3,7 +3,7 @@
 use super::{Response, Stepper};
 use crate::Error;
 use crate::math::{Scalar, round};
-use crate::motion::Hub;
+use crate::motion::{Hub, Kink};
 use crate::scene::Scene;
 
 /// Rigid arm: `τ = (J_h + J_r)θ̈ + J_r αθ̇ + g cosθ S`, the tip at `(r + L, 0)`.
@@ -61,6 +61,9 @@ impl<T: Scalar> Stepper for Rigid<T> {
 
     #[inline(always)]
     fn step(&self, (): &mut (), _: &Hub<T>, _: &Hub<T>) {}
+
+    /// An arm that does not bend keeps nothing of it.
+    fn kink(&self, (): &mut (), _: &Kink<T>) {}
 
     #[inline(always)]
     fn is_settled(&self, (): &()) -> bool {

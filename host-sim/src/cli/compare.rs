@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use stillbeam_sim::compare::{Comparison, compare};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::{scenes, table};
+use stillbeam_sim::table;
 
 #[derive(clap::Args)]
 pub struct CompareArgs {
@@ -30,7 +30,7 @@ impl CompareArgs {
                 "--tolerance = {tolerance}: must be 0 to 10, a fraction of L"
             )));
         }
-        let scene = scenes::open(&self.scene)?;
+        let scene = super::open(&self.scene)?;
         let (a, b) = (table::read(&self.a)?, table::read(&self.b)?);
         let result = compare(&a, &b, &scene)?;
         print(&result);

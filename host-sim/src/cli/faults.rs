@@ -27,8 +27,9 @@ impl FaultsArgs {
             return Err(Error::new(format_args!("--count = {count}: must be 1 to 100000000")));
         }
         let text = self.text.as_ref().map(|path| {
-            let text = std::fs::read_to_string(path)
-                .map_err(|cause| Error::file(path, format_args!("{cause}; must be a text")))?;
+            let text = std::fs::read_to_string(path).map_err(|cause| {
+                Error::file(path, format_args!("{cause}; it must be a text file that can be read"))
+            })?;
             // A text without the markers shows before the campaign runs.
             filled(&text, "").map_err(|error| error.within(path.display()))?;
             Ok::<_, Error>((path, text))

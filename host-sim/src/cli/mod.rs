@@ -21,6 +21,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use stillbeam_sim::error::Error;
+use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::scenes;
 
 /// Feed-forward setpoints for flexible robot links, tried on the desktop.
@@ -98,4 +99,19 @@ impl Cli {
             }
         }
     }
+}
+
+/// Opens a scene and says on standard error what in it is probably in another unit.
+fn open(name_or_path: &str) -> Result<SceneFile, Error> {
+    let scene = scenes::open(name_or_path)?;
+    for line in &scene.remarks {
+        note(line);
+    }
+    Ok(scene)
+}
+
+/// A line on standard error that is no error. Where it cannot be written, nobody reads it.
+fn note(words: &str) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stderr(), "note: {words}");
 }

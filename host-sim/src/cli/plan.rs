@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use stillbeam::Limits;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::{Planned, Request, page};
-use stillbeam_sim::{progress, scenes};
+use stillbeam_sim::progress;
+use stillbeam_sim::scene_file::angle_remark;
 
 #[derive(clap::Args)]
 pub struct PlanArgs {
@@ -46,7 +47,12 @@ pub struct PlanArgs {
 
 impl PlanArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = scenes::open(&self.scene)?;
+        let scene = super::open(&self.scene)?;
+        for (key, value) in [("--from", self.from), ("--to", Some(self.to))] {
+            if let (Some(value), Some(text)) = (value, value.and_then(angle_remark)) {
+                super::note(&format!("{key} = {value}: {text}"));
+            }
+        }
         let limits = scene.limits;
         let request = Request {
             arm: scene.arm,

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
 use stillbeam_sim::truth::{self, Reference};
-use stillbeam_sim::{progress, scenes, table};
+use stillbeam_sim::{progress, table};
 
 #[derive(clap::Args)]
 pub struct ReferenceArgs {
@@ -24,10 +24,10 @@ pub struct ReferenceArgs {
 
 impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = scenes::open(&self.scene)?;
+        let scene = super::open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
         for line in scene.roundings(tick)? {
-            eprintln!("note: {line}");
+            super::note(&line);
         }
         let trajectory = scene.trajectory(tick)?;
         let every = self.every.unwrap_or(tick);

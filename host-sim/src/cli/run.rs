@@ -7,7 +7,7 @@ use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::solver::{Method, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{model_choice, run, scenes, table};
+use stillbeam_sim::{model_choice, run, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -25,7 +25,7 @@ pub struct RunArgs {
 
 impl RunArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = scenes::open(&self.scene)?;
+        let scene = super::open(&self.scene)?;
         let typed = SolverKeys { spin: self.no_spin.then_some(false), ..self.solver };
         let solver = typed.or(scene.solver).resolve()?;
         // What is typed is meant. A file may hold keys for another method than the one that is typed.
@@ -34,11 +34,11 @@ impl RunArgs {
         }
         if typed.method.is_none() {
             for line in scene.solver.unread(solver.method) {
-                eprintln!("note: {line}");
+                super::note(&line);
             }
         }
         for line in scene.roundings(solver.tick)? {
-            eprintln!("note: {line}");
+            super::note(&line);
         }
         let rows = run::run(&scene, &solver)?;
         table::write(&self.csv, &rows)?;

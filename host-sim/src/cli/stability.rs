@@ -54,8 +54,9 @@ impl StabilityArgs {
             }
             return Ok(ExitCode::SUCCESS);
         };
-        let text = std::fs::read_to_string(path)
-            .map_err(|cause| Error::file(path, format_args!("{cause}; must be a text")))?;
+        let text = std::fs::read_to_string(path).map_err(|cause| {
+            Error::file(path, format_args!("{cause}; it must be a text file that can be read"))
+        })?;
         let filled = |found: &[(String, String)]| {
             blocks::fill(&text, "stability", found).map_err(|error| error.within(path.display()))
         };

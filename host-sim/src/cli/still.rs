@@ -21,8 +21,9 @@ pub struct StillArgs {
 impl StillArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let path = &self.text;
-        let text = std::fs::read_to_string(path)
-            .map_err(|cause| Error::file(path, format_args!("{cause}; must be a text")))?;
+        let text = std::fs::read_to_string(path).map_err(|cause| {
+            Error::file(path, format_args!("{cause}; it must be a text file that can be read"))
+        })?;
         let bar = progress::bar("reference rod", document::STEPS);
         let found = document::blocks(&|| bar.inc(1));
         bar.finish_and_clear();

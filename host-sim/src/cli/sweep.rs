@@ -29,6 +29,9 @@ impl SweepArgs {
             Some(path) => Spec::read(path)?,
             None => Spec::embedded()?,
         };
+        for scene in &spec.scenes {
+            super::open(scene)?;
+        }
         let shard = self.shard.as_deref().map_or(Ok(Shard::WHOLE), str::parse)?;
         let plan = Plan::new(&spec)?;
         let done = execute(&plan, shard, &self.csv, self.resume)?;

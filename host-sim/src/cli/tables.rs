@@ -20,8 +20,9 @@ pub struct TablesArgs {
 impl TablesArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let path = &self.text;
-        let text = std::fs::read_to_string(path)
-            .map_err(|cause| Error::file(path, format_args!("{cause}; must be a text")))?;
+        let text = std::fs::read_to_string(path).map_err(|cause| {
+            Error::file(path, format_args!("{cause}; it must be a text file that can be read"))
+        })?;
         // Faults in the text show before the sweep runs.
         tables::fill(&text, &[]).map_err(|error| error.within(path.display()))?;
         let rows = tables::rows(!self.check)?;

@@ -11,10 +11,10 @@ use crate::error::Error;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MoveTable {
-    profile: String,
-    duration: Option<f64>,
+    pub(super) profile: String,
+    pub(super) duration: Option<f64>,
     pub(super) from: Option<f64>,
-    to: Option<f64>,
+    pub(super) to: Option<f64>,
     rate: Option<f64>,
     robust: Option<f64>,
     #[serde(default)]
@@ -64,8 +64,8 @@ impl MoveTable {
         if let (Some(from), true) = (self.from, index > 0)
             && *at != Some(from)
         {
-            let wanted = at.map_or("absent, behind a turning hub".to_owned(), |angle| {
-                format!("{angle}, where the move before ends, or absent")
+            let wanted = at.map_or("absent behind a turning hub".to_owned(), |angle| {
+                format!("{angle}, where the move before it ends, or absent")
             });
             return Err(Error::new(format_args!("from = {from}: must be {wanted}")));
         }
@@ -96,8 +96,8 @@ impl MoveTable {
             let from = at.replace(to);
             let from = from.ok_or_else(|| {
                 Error::new(
-                    "move.profile = \"still\" behind a turning hub; put a spin-up to rate = \
-                     0 and a move to an angle before it",
+                    "move.profile = \"still\": the hub must be at rest before it; put a spin-up to \
+                     rate = 0 and a move to an angle before it",
                 )
             })?;
             let motion = planning.still(from, to, self.duration, self.robust)?;
@@ -121,7 +121,7 @@ impl MoveTable {
                 let profile = Profile::named(name).ok_or_else(|| {
                     let known = Profile::ALL.map(Profile::name).join(", ");
                     Error::new(format_args!(
-                        "move.profile = \"{name}\": must be {known}, still, spin-up, dwell"
+                        "move.profile = \"{name}\": must be {known}, still, spin-up or dwell"
                     ))
                 })?;
                 refuse("rate", self.rate)?;

@@ -32,8 +32,8 @@ impl ShaperTable {
                         .find_map(|(key, value)| Some((key, value?)))
                 {
                     return Err(Error::new(format_args!(
-                        "shaper.{key} = {value}: must be absent without shaper.kind; pulses say all \
-                         themselves"
+                        "shaper.{key} = {value}: must be absent beside shaper.pulses, which need no \
+                         frequency and no damping"
                     )));
                 }
                 let pulses: Vec<Pulse> =
@@ -48,7 +48,7 @@ impl ShaperTable {
         let kind =
             ShaperKind::ALL.into_iter().find(|kind| kind.name() == name).ok_or_else(|| {
                 let names = ShaperKind::ALL.map(ShaperKind::name).join(", ");
-                Error::new(format_args!("shaper.kind = {name}: must be one of {names}"))
+                Error::new(format_args!("shaper.kind = \"{name}\": must be one of {names}"))
             })?;
         let frequency = match self.frequency {
             Some(frequency) => frequency,

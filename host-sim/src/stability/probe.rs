@@ -96,6 +96,7 @@ pub fn scene(arm: &Scene, omega: f64, tick: f64, task: Task, after: f64) -> Scen
         moves: vec![Step { motion, settle: after * tick }],
         limits: Limits::default(),
         solver: SolverKeys::default(),
+        remarks: Vec::new(),
     }
 }
 

@@ -109,10 +109,10 @@ impl Watch {
 
 fn read(path: &Path, seed: u64) -> Result<Summary, Error> {
     let text = std::fs::read_to_string(path).map_err(|cause| {
-        Error::file(path, format_args!("{cause}; must be what a campaign has left"))
+        Error::file(path, format_args!("{cause}; it must be a file that a campaign wrote"))
     })?;
     let summary: Summary = toml::from_str(&text).map_err(|cause| {
-        Error::file(path, format_args!("{cause}; must be what a campaign has left"))
+        Error::file(path, format_args!("{cause}; it must be a file that a campaign wrote"))
     })?;
     if summary.seed != seed {
         let left = summary.seed;

@@ -75,6 +75,7 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
         moves,
         limits: Limits::default(),
         solver: SolverKeys::default(),
+        remarks: Vec::new(),
     };
     Drawn { scene, solvers, omega }
 }

@@ -64,7 +64,7 @@ pub fn execute(plan: &Plan, shard: Shard, out: &Path, resume: bool) -> Result<Do
     let done = whole.has().len();
     if whole.has() != &cases[..done] {
         let path = Part::path_of(out, ".part");
-        return Err(Error::file(&path, "must be the cases of this shard in order"));
+        return Err(Error::file(&path, "its cases must be those of this shard, in order"));
     }
     let mut known = Earlier::open(plan, earlier.then_some(out))?;
     let mut rows = Rows::open(&errors_path)?.skip(done);
@@ -154,7 +154,7 @@ impl<'a> Earlier<'a> {
             if indices.last().is_some_and(|&last| last >= index) {
                 return Err(Error::file(
                     path,
-                    format_args!("case {}: must be rising numbers", index + 1),
+                    format_args!("case {}: cases must be in rising order", index + 1),
                 ));
             }
             indices.push(index);

@@ -63,7 +63,7 @@ impl Head {
             (Some(before), Some(now)) if now.case <= before.case => Err(Error::file(
                 self.rows.path(),
                 format_args!(
-                    "case {} after case {}: must be rising numbers",
+                    "case {} after case {}: cases must be in rising order",
                     now.case, before.case
                 ),
             )),
@@ -79,7 +79,7 @@ impl Head {
             return Err(Error::file(
                 path,
                 format_args!(
-                    "sweep = {} of {} cases: must be shards of one sweep, here {} of {}",
+                    "sweep = {} of {} cases: all shards must be of one sweep, the first is of {} with {} cases",
                     id.sweep, id.cases, first.sweep, first.cases
                 ),
             ));
@@ -87,7 +87,10 @@ impl Head {
         if id.case < next {
             return Err(Error::file(
                 path,
-                format_args!("case {}: another shard has it too; must be each once", id.case),
+                format_args!(
+                    "case {}: another shard has it too; each case must be in one shard only",
+                    id.case
+                ),
             ));
         }
         if id.case > next {
@@ -99,14 +102,14 @@ impl Head {
 
 fn missing(case: u64, cases: u64) -> Error {
     Error::new(format_args!(
-        "case {case} of {cases} is in no shard; must be all shards of the sweep"
+        "case {case} of {cases} is in no shard; all shards of the sweep must be named"
     ))
 }
 
 /// Whether the cases before `next` are all.
 fn complete(first: Option<&CaseId>, next: u64) -> Result<(), Error> {
     match first {
-        None => Err(Error::new("no rows; must be the shards of a sweep")),
+        None => Err(Error::new("no rows; the files must be shards of a sweep")),
         Some(first) if next <= first.cases => Err(missing(next, first.cases)),
         Some(_) => Ok(()),
     }

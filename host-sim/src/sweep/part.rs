@@ -141,7 +141,10 @@ impl Part {
 }
 
 fn strange(path: &Path, index: usize) -> Error {
-    Error::file(path, format_args!("case {}: must be each case of this shard once", index + 1))
+    Error::file(
+        path,
+        format_args!("case {}: each case of this shard must be there once", index + 1),
+    )
 }
 
 /// What there is of the sweep stays where it is.

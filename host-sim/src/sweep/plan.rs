@@ -65,7 +65,7 @@ impl Plan {
             if plan.scenes[..scene].iter().any(|other| other.name == plan.scenes[scene].name) {
                 let name = &plan.scenes[scene].name;
                 return Err(Error::new(format_args!(
-                    "scenes: \"{name}\" twice; must be each scene once"
+                    "scenes: \"{name}\" given twice; each scene must be named once"
                 )));
             }
             for keys in &solvers {

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use crate::document::Document;
 use crate::error::Error;
-use crate::scene_file::from_toml;
 use crate::solver::{Mass, Method, Quality, Scalar, SolverKeys};
 
 /// A sweep as its user writes it.
@@ -46,22 +46,26 @@ pub struct Grid {
 impl Spec {
     /// The sweep that comes with the program.
     pub fn embedded() -> Result<Self, Error> {
-        Self::parse(include_str!("../../sweeps/default.toml"))
+        Self::parse("default.toml", include_str!("../../sweeps/default.toml"))
     }
 
     /// Reads a spec from a file.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path).map_err(|cause| {
-            Error::file(path, format_args!("{cause}; must be a sweep's TOML file"))
+            Error::file(path, format_args!("{cause}; it must be a sweep's TOML file"))
         })?;
-        Self::parse(&text).map_err(|error| error.within(path.display()))
+        Self::parse(&path.display().to_string(), &text)
     }
 
-    /// Parses a spec.
-    pub fn parse(text: &str) -> Result<Self, Error> {
-        let spec: Self = from_toml(text)?;
-        if spec.scenes.is_empty() || spec.grid.is_empty() {
-            return Err(Error::new("scenes, grid: must be at least one of each"));
+    /// Parses a spec. Errors begin with `name`, and the line and column of the key.
+    pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
+        let document = Document::parse(name, text)?;
+        let spec: Self = document.read()?;
+        for (key, count) in [("scenes", spec.scenes.len()), ("grid", spec.grid.len())] {
+            if count == 0 {
+                let error = Error::new(format_args!("{key} = []: must be one or more"));
+                return Err(document.locate(&error));
+            }
         }
         Ok(spec)
     }
@@ -116,7 +120,7 @@ mod tests {
     fn only_what_a_method_reads_is_crossed() {
         let text = "scenes = [\"d-fast\"]\n[[grid]]\nmethod = [\"rigid\", \"newmark\"]\nelements = \
                     [1, 2]\nspin = [true, false]\n[[grid]]\nelements = [2]";
-        let solvers = Spec::parse(text).unwrap().solvers();
+        let solvers = Spec::parse("test", text).unwrap().solvers();
         assert_eq!(solvers.len(), 1 + 4, "{solvers:?}");
     }
 

@@ -31,7 +31,7 @@ const TIME: &str = "ns a tick";
 /// The rows of the embedded set, in the order of its plan; with costs if asked for, which takes
 /// the machine for itself.
 pub fn rows(costs: bool) -> Result<Vec<Row>, Error> {
-    let spec = Spec::parse(include_str!("../../sweeps/readme.toml"))?;
+    let spec = Spec::parse("readme.toml", include_str!("../../sweeps/readme.toml"))?;
     let plan = Plan::new(&spec)?;
     let rows = execute::rows(&plan)?;
     if !costs {
@@ -95,11 +95,11 @@ fn places(text: &str) -> Result<Vec<(&'static Table, Range<usize>)>, Error> {
         })?;
         let inside = begin + name.len() + " -->".len();
         let length = text[inside..].find(END).ok_or_else(|| {
-            Error::new(format_args!("table:{name}: no end; must be {END} after it"))
+            Error::new(format_args!("table:{name}: no end; there must be {END} after it"))
         })?;
         if text[inside..inside + length].contains(START) {
             return Err(Error::new(format_args!(
-                "table:{name}: another table begins in it; must be {END} before that"
+                "table:{name}: another table begins in it; there must be {END} before that"
             )));
         }
         places.push((table, inside..inside + length));
@@ -107,7 +107,7 @@ fn places(text: &str) -> Result<Vec<(&'static Table, Range<usize>)>, Error> {
     }
     if places.is_empty() {
         return Err(Error::new(format_args!(
-            "no table; must be a text with <!-- table:{} --> and {END}",
+            "no table; it must be a text with <!-- table:{} --> and {END} after it",
             TABLES[0].name
         )));
     }

@@ -24,7 +24,9 @@ impl Log {
     pub fn new(elf: &[u8], file: File) -> Result<Self, Error> {
         let table = Table::parse(elf)
             .map_err(|error| Error::new(format_args!("image: {error}")))?
-            .ok_or_else(|| Error::new("image: no defmt strings; must be the application's"))?;
+            .ok_or_else(|| {
+                Error::new("image: no defmt strings; it must be the application's image")
+            })?;
         Ok(Self { table, file, bytes: Vec::new(), given: 0 })
     }
 

@@ -8,8 +8,11 @@
 //! Sources: Singer and Seering 1990 (ZV, ZVD), Singhose, Seering and Singer 1994 (EI, two-hump EI),
 //! Rappole, Singer and Seering 1993 (three pulses within three quarters of a period: MZV).
 
+mod kink;
 mod shaped;
 
+pub use kink::Kink;
+pub(crate) use kink::ORDERS;
 pub use shaped::Shaped;
 
 use core::f64::consts::{PI, SQRT_2};

@@ -1,8 +1,9 @@
 //! A motion that has passed a shaper.
 
-use super::{MAX_PULSES, Shaper};
+use super::{Kink, MAX_PULSES, Shaper};
 use crate::math::Scalar;
 use crate::motion::{Hub, Segment};
+use crate::stepper::Stepper;
 
 /// Segments end to end, summed with their delayed copies: before its beginning a motion stays where
 /// it begins, after its end where it ends.
@@ -10,9 +11,14 @@ use crate::motion::{Hub, Segment};
 /// No history is kept: a delay may be any number of ticks and a fraction, 0.1 Hz costs what 10 Hz
 /// do. A tick evaluates one segment a pulse.
 ///
+/// A delay moves the borders of segments into ticks, and there θ̈ jumps or kinks. [`Self::advance`]
+/// takes a stepper through a tick with all that is in it.
+///
 /// ```
+/// use stillbeam::beam::EightElements;
 /// use stillbeam::motion::{Limits, Plan, Shaped, Shaper, ShaperKind, Start};
-/// use stillbeam::{Move, Profile};
+/// use stillbeam::stepper::{Modal, Stepper};
+/// use stillbeam::{Link, Move, Profile, Scene};
 ///
 /// let motion = Move::To { profile: Profile::Quintic, duration: 1.0, to: 1.57 };
 /// let plan = Plan::new(&motion, Start::at_rest(0.0)?, &Limits::default(), 0.010)?;
@@ -21,27 +27,64 @@ use crate::motion::{Hub, Segment};
 /// let shaped = Shaped::new(&segments, &shaper, 0.010);
 /// assert_eq!(shaped.ticks(), 177); // 77 of them added: 1/1.3 s
 /// assert!((shaped.hub(177).angle.radians() - 1.57).abs() < 1e-6);
+///
+/// let scene = Scene::new(Link { length: 1.0, mass: 0.5, bending_stiffness: 6.9 });
+/// let stepper = Modal::<f32, 2>::new(&EightElements::consistent(&scene)?, 0.010)?;
+/// let mut state = stepper.equilibrium(&shaped.hub(0));
+/// for k in 0..shaped.ticks() {
+///     shaped.advance(&stepper, &mut state, k);
+///     let setpoint = stepper.response(&state, &shaped.hub(k + 1));
+///     assert!(setpoint.torque.abs() < 3.0);
+/// }
 /// # Ok::<(), stillbeam::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Shaped<'a, T> {
     segments: &'a [Segment<T>],
-    /// Share, and delay in ticks.
-    pulses: [(T, T); MAX_PULSES],
+    copies: [Delayed<T>; MAX_PULSES],
     count: usize,
     ticks: u32,
+}
+
+/// A copy of the motion: its share, and its delay in whole ticks and a part of one. Apart, so that f32
+/// resolves the part however long the delay and the motion are.
+#[derive(Clone, Copy, Debug)]
+struct Delayed<T> {
+    share: T,
+    whole: u32,
+    part: T,
+}
+
+/// Where a segment begins or the motion ends: `part` ticks, 0 to 1, after tick `tick`.
+#[derive(Clone, Copy)]
+struct Border<T> {
+    tick: u32,
+    part: T,
+}
+
+/// From which side the hub is looked at where it jumps.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Left,
+    Right,
 }
 
 impl<'a, T: Scalar> Shaped<'a, T> {
     /// Segments of rest-to-rest moves, at least one, with setpoints every `tick` s.
     pub fn new(segments: &'a [Segment<T>], shaper: &Shaper, tick: f64) -> Self {
-        let mut pulses = [(T::ZERO, T::ZERO); MAX_PULSES];
-        for (slot, pulse) in pulses.iter_mut().zip(shaper.pulses()) {
-            *slot = (T::from_f64(pulse.amplitude), T::from_f64(pulse.delay / tick));
+        let mut copies = [Delayed { share: T::ZERO, whole: 0, part: T::ZERO }; MAX_PULSES];
+        for (copy, pulse) in copies.iter_mut().zip(shaper.pulses()) {
+            let delay = pulse.delay / tick;
+            let whole = libm::floor(delay + CLOSE);
+            *copy = Delayed {
+                share: T::from_f64(pulse.amplitude),
+                whole: whole as u32,
+                part: T::from_f64((delay - whole).max(0.0)),
+            };
         }
         let base: u32 = segments.iter().map(Segment::count).sum();
-        let added = libm::ceil(shaper.delay() / tick - 1e-9) as u32;
-        Self { segments, pulses, count: shaper.pulses().len(), ticks: base + added }
+        let added = libm::ceil(shaper.delay() / tick - CLOSE) as u32;
+        Self { segments, copies, count: shaper.pulses().len(), ticks: base.saturating_add(added) }
     }
 
     /// Whole ticks it takes, the shaper's delay included.
@@ -49,39 +92,139 @@ impl<'a, T: Scalar> Shaped<'a, T> {
         self.ticks
     }
 
-    /// The hub at tick `k` from the beginning.
+    /// The hub at tick `k` from the beginning; where it jumps, just after.
     pub fn hub(&self, k: u32) -> Hub<T> {
+        self.at(k, Side::Right)
+    }
+
+    /// The hub at tick `k` from the beginning; where it jumps, just before.
+    pub fn arrival(&self, k: u32) -> Hub<T> {
+        self.at(k, Side::Left)
+    }
+
+    /// Advances an arm from tick `k` to tick `k + 1`, with what jumps at its ends and within.
+    pub fn advance<S: Stepper<Scalar = T>>(&self, stepper: &S, state: &mut S::State, k: u32) {
+        let kink = self.kink(k);
+        if !kink.is_none() {
+            stepper.kink(state, &kink);
+        }
+        stepper.step(state, &self.hub(k), &self.arrival(k + 1));
+    }
+
+    /// What jumps inside the tick from `k` to `k + 1`.
+    pub fn kink(&self, k: u32) -> Kink<T> {
+        let rest = [[T::ZERO; 3]; 2];
+        let mut kink = Kink::NONE;
+        for copy in &self.copies[..self.count] {
+            let (mut first, mut last) = (0, None);
+            let mut meet = |first, before, last: Option<&Segment<T>>, next: Option<&Segment<T>>| {
+                let border = copy.border(first, before);
+                if border.is_within(k) {
+                    let [_, from] = last.map_or(rest, Segment::courses);
+                    let [to, _] = next.map_or(rest, Segment::courses);
+                    kink.add(T::ONE - border.part, copy.jumps(from, to));
+                }
+                border.tick > k
+            };
+            let behind = self.segments.iter().any(|segment| {
+                let behind = meet(first, segment.ticks_before(), last, Some(segment));
+                first += segment.count();
+                last = Some(segment);
+                behind
+            });
+            if !behind {
+                meet(first, T::ZERO, last, None);
+            }
+        }
+        kink
+    }
+
+    /// Ticks of the motion before it passed the shaper.
+    fn base(&self) -> u32 {
+        self.segments.iter().map(Segment::count).sum()
+    }
+
+    fn at(&self, k: u32, side: Side) -> Hub<T> {
         let mut sum = Hub::ZERO;
         let Some(first) = self.segments.first() else { return sum };
         let start = first.hub_at(-first.ticks_before()).angle;
-        let (mut turned, k) = (T::ZERO, T::from_u32(k));
-        for &(share, delay) in &self.pulses[..self.count] {
-            let hub = self.unshaped(k - delay);
-            turned += share * hub.angle.since(start);
-            sum.rate += share * hub.rate;
-            sum.acceleration += share * hub.acceleration;
+        let mut turned = T::ZERO;
+        for copy in &self.copies[..self.count] {
+            let hub = self.delayed(copy, k, side);
+            turned += copy.share * hub.angle.since(start);
+            sum.rate += copy.share * hub.rate;
+            sum.acceleration += copy.share * hub.acceleration;
         }
         sum.angle = start.plus(turned);
         (sum.sin, sum.cos) = sum.angle.sin_cos();
         sum
     }
 
-    /// The motion itself, any number of ticks after its beginning.
-    fn unshaped(&self, ticks: T) -> Hub<T> {
+    /// A copy of the motion at tick `k`.
+    fn delayed(&self, copy: &Delayed<T>, k: u32, side: Side) -> Hub<T> {
         let still = |hub: Hub<T>| Hub { rate: T::ZERO, acceleration: T::ZERO, ..hub };
-        let first = &self.segments[0];
-        if ticks < T::ZERO {
-            return still(first.hub_at(-first.ticks_before()));
-        }
-        let (mut segment, mut left) = (first, ticks);
-        for next in &self.segments[1..] {
-            let length = T::from_u32(segment.count());
-            if left < length - next.ticks_before() {
+        let (mut segment, mut first, mut next) = (&self.segments[0], 0, 0);
+        let mut begun = false;
+        for candidate in self.segments {
+            if !copy.border(next, candidate.ticks_before()).is_passed(k, side) {
                 break;
             }
-            (segment, left) = (next, left - length);
+            (segment, first, begun) = (candidate, next, true);
+            next += candidate.count();
         }
-        let length = T::from_u32(segment.count());
-        if left >= length { still(segment.hub_at(length)) } else { segment.hub_at(left) }
+        if !begun {
+            return still(segment.hub_at(-segment.ticks_before()));
+        }
+        if next == self.base() && copy.border(next, T::ZERO).is_passed(k, side) {
+            return still(segment.hub_at(T::from_u32(segment.count())));
+        }
+        // The first tick of a segment may lie a part of a tick after its beginning.
+        let since = i64::from(k) - i64::from(copy.whole) - i64::from(first);
+        let whole = T::from_u32(since.unsigned_abs() as u32);
+        segment.hub_at((if since < 0 { -whole } else { whole }) - copy.part)
     }
 }
+
+impl<T: Scalar> Delayed<T> {
+    /// Where the copy passes a border that lies `before` ticks before the motion's tick `first`.
+    fn border(&self, first: u32, before: T) -> Border<T> {
+        let close = T::from_f64(f64::max(CLOSE, 16.0 * T::EPSILON.to_f64()));
+        let (tick, part) = (first.saturating_add(self.whole), self.part - before);
+        if part < -close {
+            Border { tick: tick.saturating_sub(1), part: part + T::ONE }.snapped(close)
+        } else {
+            Border { tick, part }.snapped(close)
+        }
+    }
+
+    /// The copy's share of the jumps from one course to another.
+    fn jumps(&self, from: [T; 3], to: [T; 3]) -> [T; 3] {
+        core::array::from_fn(|n| self.share * (to[n] - from[n]))
+    }
+}
+
+impl<T: Scalar> Border<T> {
+    /// The same on a tick if it is as close to one as rounding.
+    fn snapped(self, close: T) -> Self {
+        if self.part < close {
+            Self { part: T::ZERO, ..self }
+        } else if self.part > T::ONE - close {
+            Self { tick: self.tick.saturating_add(1), part: T::ZERO }
+        } else {
+            self
+        }
+    }
+
+    /// True if it lies between the ticks `k` and `k + 1`.
+    fn is_within(&self, k: u32) -> bool {
+        self.tick == k && self.part > T::ZERO
+    }
+
+    /// True if tick `k`, seen from that side, lies behind it.
+    fn is_passed(&self, k: u32, side: Side) -> bool {
+        self.tick < k || self.tick == k && self.part == T::ZERO && side == Side::Right
+    }
+}
+
+/// Ticks closer than this are one.
+const CLOSE: f64 = 1e-9;

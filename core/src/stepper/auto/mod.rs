@@ -9,7 +9,7 @@ pub use ladder::{Choice, Rung};
 use super::{Elastica, ElasticaState, Modal, ModalState, Response, Rigid, Stepper, check_tick};
 use crate::beam::{EightElements, Rod};
 use crate::math::Scalar;
-use crate::motion::{Hub, Limits, Move, Peaks, Plan, Start};
+use crate::motion::{Hub, Kink, Limits, Move, Peaks, Plan, Start};
 use crate::{Error, Scene};
 use trial::Trial;
 
@@ -193,6 +193,10 @@ impl<T: Scalar> Stepper for Auto<T> {
 
     fn shift(&self, state: &mut AutoState<T>, moment: T) {
         each_with_state!(self, state, (s, own) => s.shift(own, moment), ());
+    }
+
+    fn kink(&self, state: &mut AutoState<T>, kink: &Kink<T>) {
+        each_with_state!(self, state, (s, own) => s.kink(own, kink), ());
     }
 
     #[inline(always)]

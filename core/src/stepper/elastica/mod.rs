@@ -29,12 +29,13 @@ use remainder::{Remainder, Value};
 
 use mode::Mode;
 
+use super::kicks::Kicks;
 use super::oscillator::{check_turns, jolt};
 use super::{Drive, Response, Stepper};
 use crate::Error;
 use crate::beam::{Expansion, Rod};
 use crate::math::Scalar;
-use crate::motion::{Hub, Peaks};
+use crate::motion::{Hub, Kink, Peaks};
 
 /// How much work a tick does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +77,7 @@ pub struct Elastica<T, const K: usize> {
     sag: f64,
     flexibility: f64,
     calm: Calm<T, K>,
+    kicks: [Kicks<T>; K],
 }
 
 /// The arm's state; [`Elastica::flex`] says what it means.
@@ -173,6 +175,10 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
                 let [a, p] = jolt::<f64>(omega, damping.alpha, damping.beta, b, tick);
                 [omega * a, p].map(T::from_f64)
+            }),
+            kicks: core::array::from_fn(|k| {
+                let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
+                Kicks::new(omega, damping.alpha, damping.beta, b, tick)
             }),
             remainder: Remainder::new(rod, &expansion, &range),
             calm: Calm::new(rod, step, &range),
@@ -363,6 +369,15 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         for k in 0..K {
             for r in 0..2 {
                 state.y[k][r] += self.jolt[k][r] * moment;
+            }
+        }
+    }
+
+    fn kink(&self, state: &mut ElasticaState<T, K>, kink: &Kink<T>) {
+        for k in 0..K {
+            let kick = self.kicks[k].of(kink);
+            for r in 0..2 {
+                state.y[k][r] += kick[r];
             }
         }
     }

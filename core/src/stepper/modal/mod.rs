@@ -5,12 +5,13 @@ mod implied;
 mod respond;
 mod setup;
 
+use super::kicks::Kicks;
 use super::oscillator::{Drive, Oscillator};
 use super::terms::Terms;
 use super::{Response, Stepper};
 use crate::Error;
 use crate::math::{Band, HalfForm, Scalar, dot};
-use crate::motion::{Hub, Peaks};
+use crate::motion::{Hub, Kink, Peaks};
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
 ///
@@ -61,6 +62,7 @@ pub struct Modal<T, const K: usize> {
     most: T,
     /// Rate up to which the spin terms may be taken at a predicted state, as within plain cubics, rad/s.
     fastest: T,
+    kicks: [Kicks<T>; K],
 }
 
 /// Modal coordinates and their rates, times the frequencies.
@@ -171,6 +173,14 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         for k in 0..K {
             state.coordinate[k] += self.jolt[k][0] * moment;
             state.rate[k] += self.jolt[k][1] * moment;
+        }
+    }
+
+    fn kink(&self, state: &mut ModalState<T, K>, kink: &Kink<T>) {
+        for k in 0..K {
+            let [a, v] = self.kicks[k].of(kink);
+            state.coordinate[k] += a;
+            state.rate[k] += v;
         }
     }
 

@@ -4,6 +4,7 @@ use super::Modal;
 use crate::Error;
 use crate::beam::{Model, Modes};
 use crate::math::{Band, Scalar, cast, dot};
+use crate::stepper::kicks::Kicks;
 use crate::stepper::oscillator::{Oscillator, check_turns, jolt};
 use crate::stepper::terms::Terms;
 use crate::stepper::{MOST, check_tick, sleep_floor};
@@ -50,6 +51,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             terms: Terms::of(scene),
             per_tick: T::from_f64(1.0 / tick),
             jolt: core::array::from_fn(|k| jolt(omega[k], alpha, beta, support[k], tick)),
+            kicks: core::array::from_fn(|k| {
+                Kicks::new(omega[k], alpha, beta, coupling[k], tick).rates_by(omega[k])
+            }),
             alpha: T::from_f64(alpha),
             drag: T::from_f64(alpha * residual),
             loss: cast(&support.map(|b| beta * b)),

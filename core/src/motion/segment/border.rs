@@ -1,0 +1,62 @@
+//! How a segment's acceleration begins and ends, for what joins segments inside a tick.
+
+use core::f64::consts::PI;
+
+use super::{Rest, Segment};
+use crate::math::Scalar;
+
+/// θ̈, rad/s², and its first and second derivatives by the tick.
+pub(crate) type Course<T> = [T; 3];
+
+impl<T: Scalar> Segment<T> {
+    /// θ̈ and its derivatives at the segment's true beginning and at its true end, from within.
+    pub(crate) fn courses(&self) -> [Course<T>; 2] {
+        [-T::ONE, T::ONE].map(|u| {
+            let scale = T::HALF * self.acceleration_scale;
+            let per_tick = self.advance;
+            let [second, third, fourth] = self.curvature_at(u);
+            [scale * second, scale * per_tick * third, scale * per_tick * per_tick * fourth]
+        })
+    }
+
+    /// Second to fourth derivative of the curve at `u = ±1`, turns.
+    fn curvature_at(&self, u: T) -> [T; 3] {
+        let n = T::from_f64;
+        let [_, c2, c3] = self.low;
+        let cubic = [T::TWO * c2 + n(6.0) * c3 * u, n(6.0) * c3, T::ZERO];
+        match self.rest {
+            Rest::Cubic { .. } => cubic,
+            Rest::Quintic(high) => plus(cubic, quintic(high, u)),
+            Rest::Harmonic([a, b]) => {
+                plus(cubic, [n(PI * PI) * b, n(PI * PI * PI) * a, -(n(PI * PI * PI * PI) * b)])
+            }
+            Rest::Bulged { high, d } => plus(plus(cubic, quintic(high, u)), bulge(&d, u)),
+            Rest::Cruise { .. } => [T::ZERO; 3],
+        }
+    }
+}
+
+fn plus<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    core::array::from_fn(|i| a[i] + b[i])
+}
+
+/// Of `c₄u⁴ + c₅u⁵`.
+fn quintic<T: Scalar>([c4, c5]: [T; 2], u: T) -> [T; 3] {
+    let n = T::from_f64;
+    [
+        n(12.0) * c4 + n(20.0) * c5 * u,
+        n(24.0) * c4 * u + n(60.0) * c5,
+        n(24.0) * c4 + n(120.0) * c5 * u,
+    ]
+}
+
+/// Of `(1 − u²)³Q(u)`: `(1 − u²)³ = ∓(8x³ ± 12x⁴ + …)` at `u = ±1 + x`.
+fn bulge<T: Scalar>(d: &[T], u: T) -> [T; 3] {
+    let (mut q, mut slope) = (T::ZERO, T::ZERO);
+    for &d in d.iter().rev() {
+        slope = slope * u + q;
+        q = q * u + d;
+    }
+    let n = T::from_f64;
+    [T::ZERO, -(n(48.0) * u * q), -(n(288.0) * q + n(192.0) * u * slope)]
+}

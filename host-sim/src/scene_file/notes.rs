@@ -1,0 +1,111 @@
+//! What is worth a line before a run: durations that are no whole ticks, and what a shaper adds.
+
+use super::SceneFile;
+use crate::error::Error;
+
+/// Lines of one kind that are printed; the rest is counted.
+const MOST: usize = 4;
+
+impl SceneFile {
+    /// What rounding to whole ticks changed, and what a shaper adds. Moves that are rounded alike share
+    /// a line.
+    pub fn roundings(&self, tick: f64) -> Result<Vec<String>, Error> {
+        let trajectory = self.trajectory(tick)?;
+        let mut plans = trajectory.plans().iter();
+        let mut rounded = Groups::default();
+        for (index, step) in self.moves.iter().enumerate() {
+            let settle = (step.settle > 0.0).then_some(("settle", step.settle));
+            for (key, asked) in [("duration", step.motion.duration())].into_iter().chain(settle) {
+                let Some(plan) = plans.next() else { break };
+                // Not worth a word: what a decimal fraction of a second lacks in binary.
+                if plan.outline.rounded_by.abs() > 1e-9 * asked {
+                    let whole = f64::from(plan.outline.ticks) * tick;
+                    let whole = (whole * 1e9).round() / 1e9;
+                    rounded.add(
+                        index,
+                        format!(
+                            "{key} = {asked} s is no multiple of the tick ({tick} s): rounded to \
+                             {whole} s"
+                        ),
+                    );
+                }
+            }
+        }
+        let shaped = self.shaper.as_ref().map(|shaper| {
+            let (delay, pulses) = (shaper.delay(), shaper.pulses().len());
+            format!("the shaper\u{2019}s {pulses} pulses add {delay:.4} s to the motion")
+        });
+        Ok(rounded.lines(self.moves.len()).into_iter().chain(shaped).collect())
+    }
+}
+
+/// Notes on moves, those that say the same together.
+#[derive(Default)]
+pub(super) struct Groups(Vec<(String, Vec<usize>)>);
+
+impl Groups {
+    /// Adds what there is to say of the move of that index.
+    pub fn add(&mut self, index: usize, text: String) {
+        match self.0.iter_mut().find(|(known, _)| *known == text) {
+            Some((_, moves)) => moves.push(index),
+            None => self.0.push((text, vec![index])),
+        }
+    }
+
+    /// A line each, which names the moves, of `count` in all; at most [`MOST`] and one that counts.
+    pub fn lines(&self, count: usize) -> Vec<String> {
+        let mut lines: Vec<String> = self
+            .0
+            .iter()
+            .take(MOST)
+            .map(|(text, moves)| {
+                if count == 1 {
+                    format!("move.{text}")
+                } else {
+                    format!("{}: {text}", names(moves))
+                }
+            })
+            .collect();
+        let rest: usize = self.0.iter().skip(MOST).map(|(_, moves)| moves.len()).sum();
+        if rest > 0 {
+            lines.push(format!("{rest} more like these, from {}", names(&self.0[MOST].1[..1])));
+        }
+        lines
+    }
+}
+
+/// `moves[3], moves[7] and 38 more`.
+fn names(moves: &[usize]) -> String {
+    let name = |index: &usize| super::place_of(*index);
+    match moves {
+        [] => String::new(),
+        [one] => name(one),
+        [first, second] => format!("{} and {}", name(first), name(second)),
+        [first, second, rest @ ..] => {
+            format!("{}, {} and {} more", name(first), name(second), rest.len())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn alike_notes_share_a_line() {
+        let mut groups = Groups::default();
+        for index in 0..40 {
+            groups.add(index, "duration = 0.333 s".to_owned());
+        }
+        groups.add(7, "settle = 0.001 s".to_owned());
+        let lines = groups.lines(40);
+        assert_eq!(lines[0], "moves[0], moves[1] and 38 more: duration = 0.333 s");
+        assert_eq!(lines[1], "moves[7]: settle = 0.001 s");
+        for index in 0..40 {
+            groups.add(index, format!("duration = {index} s"));
+        }
+        let lines = groups.lines(40);
+        assert_eq!(lines.len(), MOST + 1);
+        assert_eq!(lines[MOST], "38 more like these, from moves[2]");
+    }
+}
