@@ -10,6 +10,9 @@ use crate::root;
 /// The target that the images are built for.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
+/// A processor without floating-point unit, for the bench.
+pub const SOFT_TARGET: &str = "thumbv7m-none-eabi";
+
 /// Images with the same file name are built one after the other.
 static BUILDING: Mutex<()> = Mutex::new(());
 
@@ -18,7 +21,15 @@ static BUILDING: Mutex<()> = Mutex::new(());
 /// # Errors
 /// What cargo said, or which target to install.
 pub fn build(bin: &str) -> Result<PathBuf, String> {
-    build_variant(bin, None)
+    build_variant(TARGET, bin, None)
+}
+
+/// Builds the program `bin` for a processor without floating-point unit.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_soft(bin: &str) -> Result<PathBuf, String> {
+    build_variant(SOFT_TARGET, bin, None)
 }
 
 /// Builds `bin` with one environment variable, on which the program's source depends.
@@ -26,7 +37,7 @@ pub fn build(bin: &str) -> Result<PathBuf, String> {
 /// # Errors
 /// As [`build`].
 pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, String> {
-    build_variant(bin, Some((variable, value)))
+    build_variant(TARGET, bin, Some((variable, value)))
 }
 
 /// Builds the application for a board, by the board's feature and others behind it.
@@ -34,41 +45,67 @@ pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, Str
 /// # Errors
 /// As [`build`].
 pub fn application(features: &str) -> Result<PathBuf, String> {
+    let name = format!("application-{}", features.replace(',', "-"));
+    as_application("application", features, None, &name)
+}
+
+/// Builds two axes with one method, by its name in the list of methods, as the application is built.
+///
+/// # Errors
+/// As [`build`].
+pub fn fit(method: &str) -> Result<PathBuf, String> {
+    as_application("fit", "mps2", Some(("STILLBEAM_METHOD", method)), &format!("fit-{method}"))
+}
+
+fn as_application(
+    bin: &str,
+    features: &str,
+    variable: Option<(&str, &str)>,
+    name: &str,
+) -> Result<PathBuf, String> {
     require_target(TARGET)?;
     let _one = BUILDING.lock();
     let folder = root().join("target/firmware");
     run(cargo()
-        .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", "application"])
+        .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", bin])
         .args(["--features", features, "--profile", "application", "--target", TARGET])
         .arg("--target-dir")
-        .arg(&folder))?;
-    keep(
-        &folder,
-        "application",
-        "application",
-        &format!("application-{}", features.replace(',', "-")),
-    )
+        .arg(&folder)
+        .env_remove("STILLBEAM_METHOD")
+        .envs(variable))?;
+    keep(&folder, TARGET, "application", bin, name)
 }
 
-fn build_variant(bin: &str, variable: Option<(&str, &str)>) -> Result<PathBuf, String> {
-    require_target(TARGET)?;
+fn build_variant(
+    target: &str,
+    bin: &str,
+    variable: Option<(&str, &str)>,
+) -> Result<PathBuf, String> {
+    require_target(target)?;
     let _one = BUILDING.lock();
     // A folder of its own: the cargo that runs the tests may hold the lock of the usual one.
     let folder = root().join("target/firmware");
     run(cargo()
         .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", bin])
-        .args(["--profile", "firmware", "--target", TARGET, "--target-dir"])
+        .args(["--profile", "firmware", "--target", target, "--target-dir"])
         .arg(&folder)
         .env_remove("STILLBEAM_METHOD")
         .env_remove("STILLBEAM_FAULT")
         .envs(variable))?;
-    let name = variable.map_or(bin.to_owned(), |(_, value)| format!("{bin}-{value}"));
-    keep(&folder, "firmware", bin, &name)
+    let variant = variable.map(|(_, value)| value).or((target != TARGET).then_some(target));
+    let name = variant.map_or(bin.to_owned(), |variant| format!("{bin}-{variant}"));
+    keep(&folder, target, "firmware", bin, &name)
 }
 
 /// Variants share a file name: each is kept under one of its own.
-fn keep(folder: &Path, profile: &str, bin: &str, name: &str) -> Result<PathBuf, String> {
-    let built = folder.join(TARGET).join(profile).join(bin);
+fn keep(
+    folder: &Path,
+    target: &str,
+    profile: &str,
+    bin: &str,
+    name: &str,
+) -> Result<PathBuf, String> {
+    let built = folder.join(target).join(profile).join(bin);
     let kept = folder.join("images").join(name);
     fs::create_dir_all(folder.join("images"))
         .and_then(|()| fs::copy(&built, &kept))
