@@ -34,7 +34,10 @@ fn every_published_crate_holds_the_texts_of_its_licences() {
         let listed = run(cargo().args(["package", "--list", "--allow-dirty", "--package", &name]));
         let listed = listed.unwrap_or_else(|error| panic!("{error}"));
         for license in LICENSES {
-            assert!(listed.lines().any(|file| file == license), "{name} has no {license}:\n{listed}");
+            assert!(
+                listed.lines().any(|file| file == license),
+                "{name} has no {license}:\n{listed}"
+            );
             let [own, of_all] = [root().join(&folder).join(license), root().join(license)]
                 .map(|path| fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())));
             assert!(own == of_all, "{folder}/{license} is not the root's");
