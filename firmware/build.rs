@@ -24,6 +24,11 @@ fn main() {
     fs::write(folder.join("board.x"), memory).expect("the build folder is writable");
     // The report's level, read where its macros are expanded.
     println!("cargo:rustc-env=DEFMT_LOG=info");
+    // The one method of the program `fit`.
+    println!("cargo:rerun-if-env-changed=STILLBEAM_METHOD");
+    let method = env::var("STILLBEAM_METHOD").unwrap_or_else(|_| "Newmark1Nodal".into());
+    let method = format!("pub use stillbeam_golden::methods::{method} as Chosen;\n");
+    fs::write(folder.join("method.rs"), method).expect("the build folder is writable");
     if let Some(board) = &chosen {
         println!("cargo:rustc-link-arg-bin=application=-Tdefmt.x");
         // The image names its board, so that none is taken for another's: a symbol, no byte.

@@ -113,13 +113,13 @@ methods! {
     Lumped8Tip: "newmark", 8, "lumped", "", Some(true), Lumped<9>,
         |s, h| Newmark::new(&Model::lumped::<16>(s)?, h);
     Modal1: "modal", 1, "", "", None, Modal<f32, 1>,
-        |s, h| Modal::new(&FourElements::consistent(s)?, h);
+        |s, h| Modal::new(&EightElements::consistent(s)?, h);
     Modal2: "modal", 2, "", "", None, Modal<f32, 2>,
-        |s, h| Modal::new(&FourElements::consistent(s)?, h);
+        |s, h| Modal::new(&EightElements::consistent(s)?, h);
     Modal3: "modal", 3, "", "", None, Modal<f32, 3>,
-        |s, h| Modal::new(&FourElements::consistent(s)?, h);
+        |s, h| Modal::new(&EightElements::consistent(s)?, h);
     Modal2NoSpin: "modal", 2, "", "no-spin", None, Modal<f32, 2>,
-        |s, h| Ok(Modal::new(&FourElements::consistent(s)?, h)?.without_spin());
+        |s, h| Ok(Modal::new(&EightElements::consistent(s)?, h)?.without_spin());
     Elastica1: "elastica", 1, "fast", "", None, Elastica<f32, 1>,
         |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fast, BEND);
     Elastica2: "elastica", 2, "fast", "", None, Elastica<f32, 2>,

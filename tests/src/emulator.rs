@@ -17,16 +17,42 @@ pub enum Clock {
     Instructions,
 }
 
+/// A board that QEMU emulates; their maps of memory and devices are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Board {
+    /// Cortex-M4F, with an FPU for single precision.
+    An386,
+    /// Cortex-M3, without one.
+    An385,
+}
+
 /// Time limit of a run. The longest takes a few seconds on an idle machine.
 pub const LIMIT: Duration = Duration::from_secs(120);
 
-/// Runs `image` and returns what it printed.
+/// Runs `image` on the Cortex-M4F and returns what it printed.
 ///
 /// # Errors
 /// QEMU is missing, the image fails (with its exit code and messages), or the time is over.
 pub fn run(image: &Path, clock: Clock, limit: Duration) -> Result<Vec<u8>, String> {
+    run_on(Board::An386, image, clock, limit)
+}
+
+/// Runs `image` on a board and returns what it printed.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_on(
+    board: Board,
+    image: &Path,
+    clock: Clock,
+    limit: Duration,
+) -> Result<Vec<u8>, String> {
+    let machine = match board {
+        Board::An386 => "mps2-an386",
+        Board::An385 => "mps2-an385",
+    };
     let mut qemu = Command::new("qemu-system-arm");
-    qemu.args(["-M", "mps2-an386", "-nographic", "-monitor", "none", "-serial", "none"])
+    qemu.args(["-M", machine, "-nographic", "-monitor", "none", "-serial", "none"])
         .args(["-semihosting-config", "enable=on,target=native"])
         .args(match clock {
             Clock::Host => &[][..],

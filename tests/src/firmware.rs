@@ -10,6 +10,9 @@ use crate::root;
 /// The target that the images are built for.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
+/// A processor without floating-point unit, for the bench.
+pub const SOFT_TARGET: &str = "thumbv7m-none-eabi";
+
 /// Images with the same file name are built one after the other.
 static BUILDING: Mutex<()> = Mutex::new(());
 
@@ -18,7 +21,15 @@ static BUILDING: Mutex<()> = Mutex::new(());
 /// # Errors
 /// What cargo said, or which target to install.
 pub fn build(bin: &str) -> Result<PathBuf, String> {
-    build_variant(bin, None)
+    build_variant(TARGET, bin, None)
+}
+
+/// Builds the program `bin` for a processor without floating-point unit.
+///
+/// # Errors
+/// As [`build`].
+pub fn build_soft(bin: &str) -> Result<PathBuf, String> {
+    build_variant(SOFT_TARGET, bin, None)
 }
 
 /// Builds `bin` with one environment variable, on which the program's source depends.
@@ -26,7 +37,7 @@ pub fn build(bin: &str) -> Result<PathBuf, String> {
 /// # Errors
 /// As [`build`].
 pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, String> {
-    build_variant(bin, Some((variable, value)))
+    build_variant(TARGET, bin, Some((variable, value)))
 }
 
 /// Builds the application for a board, by the board's feature and others behind it.
@@ -35,7 +46,16 @@ pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, Str
 /// As [`build`].
 pub fn application(features: &str) -> Result<PathBuf, String> {
     let _one = BUILDING.lock();
-    build_application(features, &format!("application-{}", features.replace(',', "-")))
+    as_application("application", features, None, &application_name(features))
+}
+
+/// Builds two axes with one method, by its name in the list of methods, as the application is built.
+///
+/// # Errors
+/// As [`build`].
+pub fn fit(method: &str) -> Result<PathBuf, String> {
+    let _one = BUILDING.lock();
+    as_application("fit", "mps2", Some(("STILLBEAM_METHOD", method)), &format!("fit-{method}"))
 }
 
 /// Builds the application for a board after one change to `axes.rs`, as a user would make it; the
@@ -54,44 +74,68 @@ pub fn changed_application(
         return Err(format!("{}: \"{from}\" must stand in it once", path.display()));
     }
     let _one = BUILDING.lock();
-    let other = root().join("target/firmware/axes.rs");
-    fs::create_dir_all(root().join("target/firmware"))
+    let folder = root().join("target/firmware");
+    let other = folder.join("axes.rs");
+    fs::create_dir_all(&folder)
         .and_then(|()| fs::write(&other, axes.replace(from, to)))
         .map_err(|error| format!("{}: {error}", other.display()))?;
-    build_application(&format!("{board},_other-axes"), &format!("application-{board}-{name}"))
+    let name = format!("{}-{name}", application_name(board));
+    as_application("application", &format!("{board},_other-axes"), None, &name)
 }
 
-/// Builds the application and keeps it under the name. One at a time.
-fn build_application(features: &str, name: &str) -> Result<PathBuf, String> {
+fn application_name(features: &str) -> String {
+    format!("application-{}", features.replace(',', "-"))
+}
+
+/// Builds a program with the application's profile and keeps it under the name. For one caller at a time.
+fn as_application(
+    bin: &str,
+    features: &str,
+    variable: Option<(&str, &str)>,
+    name: &str,
+) -> Result<PathBuf, String> {
     require_target(TARGET)?;
     let folder = root().join("target/firmware");
     run(cargo()
-        .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", "application"])
+        .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", bin])
         .args(["--features", features, "--profile", "application", "--target", TARGET])
         .arg("--target-dir")
-        .arg(&folder))?;
-    keep(&folder, "application", "application", name)
+        .arg(&folder)
+        .env_remove("STILLBEAM_METHOD")
+        .envs(variable))?;
+    keep(&folder, TARGET, "application", bin, name)
 }
 
-fn build_variant(bin: &str, variable: Option<(&str, &str)>) -> Result<PathBuf, String> {
-    require_target(TARGET)?;
+fn build_variant(
+    target: &str,
+    bin: &str,
+    variable: Option<(&str, &str)>,
+) -> Result<PathBuf, String> {
+    require_target(target)?;
     let _one = BUILDING.lock();
     // A folder of its own: the cargo that runs the tests may hold the lock of the usual one.
     let folder = root().join("target/firmware");
     run(cargo()
         .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", bin])
-        .args(["--profile", "firmware", "--target", TARGET, "--target-dir"])
+        .args(["--profile", "firmware", "--target", target, "--target-dir"])
         .arg(&folder)
         .env_remove("STILLBEAM_METHOD")
         .env_remove("STILLBEAM_FAULT")
         .envs(variable))?;
-    let name = variable.map_or(bin.to_owned(), |(_, value)| format!("{bin}-{value}"));
-    keep(&folder, "firmware", bin, &name)
+    let variant = variable.map(|(_, value)| value).or((target != TARGET).then_some(target));
+    let name = variant.map_or(bin.to_owned(), |variant| format!("{bin}-{variant}"));
+    keep(&folder, target, "firmware", bin, &name)
 }
 
 /// Variants share a file name: each is kept under one of its own.
-fn keep(folder: &Path, profile: &str, bin: &str, name: &str) -> Result<PathBuf, String> {
-    let built = folder.join(TARGET).join(profile).join(bin);
+fn keep(
+    folder: &Path,
+    target: &str,
+    profile: &str,
+    bin: &str,
+    name: &str,
+) -> Result<PathBuf, String> {
+    let built = folder.join(target).join(profile).join(bin);
     let kept = folder.join("images").join(name);
     fs::create_dir_all(folder.join("images"))
         .and_then(|()| fs::copy(&built, &kept))

@@ -8,15 +8,50 @@ use stillbeam_sim::talk::{
     Answer, DEMONSTRATION, FAULTS, FIRST, Machine, STILL, Session, converse,
 };
 
-use crate::{firmware, image, root};
+use crate::emulator::{self, Clock, LIMIT};
+use crate::{firmware, image};
 
 /// Instructions of 10 ms on the emulated board at 64 ns each, and the half of them that the tick may
 /// have.
 const INSTRUCTIONS: u32 = 156_250;
 const SHARE: u32 = INSTRUCTIONS / 2;
 
-/// The application's own stepper in the instruction table.
-const OWN: &str = "newmark 1 nodal";
+/// The methods in the table of axes: how the page names them, and their names in the list of methods.
+pub const FITTED: [(&str, &str); 17] = [
+    ("rigid", "RigidArm"),
+    ("newmark 1 consistent", "Newmark1"),
+    ("newmark 1 nodal", "Newmark1Nodal"),
+    ("newmark 2 consistent", "Newmark2"),
+    ("newmark 4 consistent", "Newmark4"),
+    ("newmark 8 consistent", "Newmark8"),
+    ("newmark 1 lumped", "Lumped1"),
+    ("newmark 2 lumped", "Lumped2"),
+    ("newmark 4 lumped", "Lumped4"),
+    ("newmark 8 lumped", "Lumped8"),
+    ("modal 1", "Modal1"),
+    ("modal 2", "Modal2"),
+    ("modal 3", "Modal3"),
+    ("elastica 1 fast", "Elastica1"),
+    ("elastica 2 fast", "Elastica2"),
+    ("elastica 2 fine", "Elastica2Fine"),
+    ("elastica 3 fine", "Elastica3Fine"),
+];
+
+/// Instructions of a tick of two axes in the application's profile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fit {
+    /// Worst while both move.
+    pub moving: u32,
+    /// Worst of all: both plan their stop in it.
+    pub worst: u32,
+}
+
+impl Fit {
+    /// How many axes the tick has time for.
+    pub fn axes(&self) -> u32 {
+        2 * SHARE / self.worst
+    }
+}
 
 /// A block of a page: what is between its two lines is written by the command.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,7 +62,7 @@ pub struct Block {
     pub text: String,
 }
 
-/// Runs the demonstration, measures the images, reads the instruction table.
+/// Runs the demonstrations and measures the application's images.
 ///
 /// # Errors
 /// What is missing, or does not build or run.
@@ -43,7 +78,6 @@ pub fn blocks() -> Result<Vec<Block>, String> {
         Block { name: "faults", text: faults.transcript },
         Block { name: "still", text: still.transcript },
         Block { name: "sizes", text: sizes(stack, still.stack)? },
-        Block { name: "axes", text: axes(whole.cost)? },
     ])
 }
 
@@ -64,8 +98,6 @@ pub fn replace(page: &str, blocks: &[Block]) -> Result<String, String> {
 /// A conversation with the emulated board.
 struct Talk {
     transcript: String,
-    /// Instructions of a tick of both axes, in a move.
-    cost: u32,
     /// Deepest, bytes.
     stack: u32,
 }
@@ -91,22 +123,15 @@ fn spelled(steps: &[&str]) -> String {
 fn talk(features: &str, steps: &[&str], command: &str) -> Result<Talk, String> {
     let image = firmware::application(features)?;
     let mut text = format!("```text\n$ {command}\n");
-    let mut moving = 0;
     let mut run = || {
         let mut session = Session::begin(Machine::emulate(&image)?)?;
         converse(&mut session, steps, &mut |line| {
             writeln!(text, "{line}").expect("a string");
-            let words: Vec<&str> = line.split_whitespace().collect();
-            if let [_, "s", "|", _, "tick:", cost, "instructions", ..] = words.as_slice() {
-                moving = moving.max(cost.parse().unwrap_or(0));
-            }
         })?;
         session.ask(0, Command::Status)
     };
     match run() {
-        Ok(Answer::Status(status)) => {
-            Ok(Talk { transcript: text + "```\n", cost: moving, stack: status.stack })
-        }
+        Ok(Answer::Status(status)) => Ok(Talk { transcript: text + "```\n", stack: status.stack }),
         Ok(other) => Err(format!("status: {other:?}")),
         Err(error) => Err(error.to_string()),
     }
@@ -129,36 +154,35 @@ fn sizes(stack: u32, still: u32) -> Result<String, String> {
     Ok(text)
 }
 
-/// How many axes fit: the worst tick of each method by the instruction table, and what the
-/// application does beside it, which does not depend on the method.
-fn axes(both: u32) -> Result<String, String> {
-    let path = root().join("docs/instructions.csv");
-    let table = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let mut methods: Vec<(String, u32)> = Vec::new();
-    for line in table.lines().skip(1) {
-        let cells: Vec<&str> = line.split(',').collect();
-        let &[method, size, quality, skip, _, worst, ..] = cells.as_slice() else { continue };
-        // A plan is no tick; a rigid arm's rows name the motion where it is not the cubic.
-        let other_motion = method == "rigid" && !quality.is_empty();
-        if method == "plan" || skip.contains("no-spin") || other_motion {
-            continue;
-        }
-        let name = [method, size, quality].join(" ");
-        let worst: u32 = worst.parse().map_err(|_| format!("{}: {line}", path.display()))?;
-        match methods.iter_mut().find(|(known, _)| *known == name.trim()) {
-            Some((_, most)) => *most = worst.max(*most),
-            None => methods.push((name.trim().to_owned(), worst)),
-        }
+/// Builds and runs the image of two axes with one method, by its name in the list of methods.
+///
+/// # Errors
+/// What is missing, or what the build, the emulator or the image said.
+pub fn fit(id: &str) -> Result<Fit, String> {
+    let printed = emulator::run(&firmware::fit(id)?, Clock::Instructions, LIMIT)?;
+    let printed = String::from_utf8_lossy(&printed);
+    let numbers: Vec<u32> = printed.trim().split(',').filter_map(|n| n.parse().ok()).collect();
+    match numbers[..] {
+        [moving, worst] => Ok(Fit { moving, worst }),
+        _ => Err(format!("fit with {id} printed {printed}")),
     }
-    let own = methods.iter().find(|(name, _)| name == OWN);
-    let own = own.ok_or(format!("{}: no {OWN}", path.display()))?.1;
-    let beside = (both / 2).saturating_sub(own);
-    let mut text = format!(
-        "Beside the generator the application takes {beside} instructions an axis and tick.\n\n\
-         | method | worst tick | axes in half of 10 ms |\n|---|---|---|\n"
-    );
-    for (name, worst) in methods {
-        writeln!(text, "| {name} | {worst} | {} |", SHARE / (worst + beside)).expect("a string");
+}
+
+/// How many axes fit, by what a tick of two costs with each method.
+///
+/// # Errors
+/// As [`fit`].
+pub fn axes() -> Result<Block, String> {
+    let mut text = "| method | two axes moving | worst tick of two | axes in half of 10 ms |\n\
+                    |---|---|---|---|\n"
+        .to_owned();
+    for (name, id) in FITTED {
+        text += &row(name, &fit(id)?);
     }
-    Ok(text)
+    Ok(Block { name: "axes", text })
+}
+
+/// A line of the table of axes.
+pub fn row(name: &str, fit: &Fit) -> String {
+    format!("| {name} | {} | {} | {} |\n", fit.moving, fit.worst, fit.axes())
 }

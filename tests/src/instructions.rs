@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::emulator::{self, Clock, LIMIT};
+use crate::emulator::{self, Board, Clock, LIMIT};
 use crate::{firmware, image};
 
 /// Columns of the CSV.
@@ -68,6 +68,16 @@ pub struct Minimal {
 pub fn count() -> Result<Bench, String> {
     let image = firmware::build("bench")?;
     parse(&String::from_utf8_lossy(&emulator::run(&image, Clock::Instructions, LIMIT)?))
+}
+
+/// Builds the bench for a processor without floating-point unit and runs it there.
+///
+/// # Errors
+/// As [`count`].
+pub fn count_soft() -> Result<Bench, String> {
+    let image = firmware::build_soft("bench")?;
+    let printed = emulator::run_on(Board::An385, &image, Clock::Instructions, LIMIT)?;
+    parse(&String::from_utf8_lossy(&printed))
 }
 
 /// Builds and runs the minimal image of one method, by its name in the list of methods.

@@ -36,10 +36,15 @@ pub fn replace(page: &str, tables: &str) -> Result<String, String> {
     Ok(format!("{before}{BEGIN}\n{tables}\n{END}{after}"))
 }
 
-/// The tables.
-pub fn tables(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
-    let sections =
-        [methods(bench, minimal), motions(bench), plans(bench, minimal), functions(bench)];
+/// The tables: of the processor with an FPU, and of one without.
+pub fn tables(bench: &Bench, soft: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
+    let sections = [
+        methods(bench, minimal),
+        motions(bench),
+        plans(bench, minimal),
+        functions(bench),
+        without_fpu(soft),
+    ];
     format!("\n{}", sections.join("\n"))
 }
 
@@ -121,6 +126,32 @@ fn functions(bench: &Bench) -> String {
         .to_owned();
     for f in &bench.functions {
         writeln!(text, "| {} | {} | {} | {} |", f.name, f.least, f.worst, f.error)
+            .expect("a string");
+    }
+    text
+}
+
+/// Ticks inside of a move, with every term and with none, where arithmetic is a call whose cost
+/// depends on its operands.
+pub fn without_fpu(soft: &Bench) -> String {
+    let mut text = "### Without an FPU (Cortex-M3): ticks inside of a move, one path\n\n\
+                    | method | size | terms | least | worst | spread |\n|---|---|---|---|---|---|\n"
+        .to_owned();
+    for count in &soft.counts {
+        let [method, size, quality, skip] = &count.key;
+        let terms = match skip.as_str() {
+            "" => "all",
+            "no-damping no-gravity" => "neither",
+            _ => continue,
+        };
+        if method == PLAN || motion(count) {
+            continue;
+        }
+        let Count { least, worst, .. } = count;
+        let spread = 100.0 * (f64::from(*worst) / f64::from(*least) - 1.0);
+        let name = [method.as_str(), quality].join(" ");
+        let name = name.trim();
+        writeln!(text, "| {name} | {size} | {terms} | {least} | {worst} | {spread:.0} % |")
             .expect("a string");
     }
     text

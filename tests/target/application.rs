@@ -6,6 +6,7 @@ use std::path::Path;
 use stillbeam::axis::Mode;
 use stillbeam_protocol::{Command, Status};
 use stillbeam_sim::talk::{Answer, DEMONSTRATION, FAULTS, FIRST, Machine, STILL, Session, Step};
+use stillbeam_tests::firmware_page::{FITTED, Fit};
 use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 
 /// Whole application on the emulated board.
@@ -281,6 +282,7 @@ fn the_nucleo_boards_build_and_fit() {
 /// makes until the page is written anew; everything else is as it stands there.
 #[test]
 fn the_pages_are_what_the_firmware_does() {
+    // The table of axes has a test of its own.
     let blocks = firmware_page::blocks().unwrap_or_else(|error| panic!("{error}"));
     let pages = ["docs/firmware.md", "README.md"].map(|name| {
         let page = std::fs::read_to_string(root().join(name)).expect(name);
@@ -292,6 +294,43 @@ fn the_pages_are_what_the_firmware_does() {
         let begin = format!("<!-- firmware: {} -->", block.name);
         assert!(pages.iter().any(|page| page.contains(&begin)), "{} has no place", block.name);
     }
+}
+
+/// The table of axes holds every method, its arithmetic is right, and a method of each end is counted
+/// again: to 2 %, as the instruction table is.
+#[test]
+fn as_many_axes_fit_as_the_page_says() {
+    let page = std::fs::read_to_string(root().join("docs/firmware.md")).expect("docs/firmware.md");
+    let (_, table) = page.split_once("<!-- firmware: axes -->\n").expect("the table of axes");
+    let rows: Vec<&str> = table.lines().skip(2).take_while(|line| line.starts_with('|')).collect();
+    assert_eq!(rows.len(), FITTED.len(), "{rows:#?}");
+    for ((name, id), row) in FITTED.into_iter().zip(rows) {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let count = |i: usize| cells[i].parse().unwrap_or_else(|_| panic!("{row}"));
+        let written = Fit { moving: count(2), worst: count(3) };
+        assert_eq!(row.to_owned() + "\n", firmware_page::row(name, &written));
+        if ["Newmark1Nodal", "Elastica2"].contains(&id) {
+            let counted = firmware_page::fit(id).unwrap_or_else(|error| panic!("{error}"));
+            for (was, is) in [(written.moving, counted.moving), (written.worst, counted.worst)] {
+                assert!(was.abs_diff(is) * 50 <= was, "{name}: {counted:?}, write the page anew");
+            }
+        }
+    }
+}
+
+/// What is counted for the table of axes is what the application's tick costs, to 5 %.
+#[test]
+fn the_image_that_counts_axes_stands_for_the_application() {
+    let fit = firmware_page::fit("Newmark1Nodal").unwrap_or_else(|error| panic!("{error}"));
+    let mut session = begin();
+    for step in ["enable 0", "enable 1", "move 0 s-curve 1.2 1.5", "move 1 s-curve 1.2 1.5", "rest"]
+    {
+        let said = take(&mut session, step);
+        assert!(!said.contains("refused"), "{step}: {said}");
+    }
+    let own = status(&mut session).worst;
+    println!("application {own}, {fit:?}");
+    assert!(own.abs_diff(fit.moving) * 20 <= own, "application {own}, {fit:?}");
 }
 
 /// Lines that hold counts of instructions or bytes, with every number as `#`. How long a plan takes, by a

@@ -137,6 +137,37 @@ fn skips_save() {
     }
 }
 
+/// Without an FPU a tick's cost depends on its numbers: the page says so, with the figures of a run,
+/// to 2 %.
+#[test]
+fn the_page_is_right_about_processors_without_an_fpu() {
+    let page = std::fs::read_to_string(root().join("docs/instructions.md")).unwrap();
+    let soft = instructions::count_soft().unwrap_or_else(|error| panic!("{error}"));
+    let counted = page::without_fpu(&soft);
+    let (_, written) = page.split_once(counted.lines().next().unwrap()).expect("its heading");
+    let rows = |text: &str| -> Vec<Vec<String>> {
+        let rows = text.lines().skip_while(|line| !line.starts_with("| ")).skip(2);
+        rows.take_while(|line| line.starts_with('|'))
+            .map(|line| line.split('|').map(|cell| cell.trim().to_owned()).collect())
+            .collect()
+    };
+    let (written, counted) = (rows(written), rows(&counted));
+    assert!(written.len() == counted.len() && written.len() > 20, "{}", written.len());
+    let mut varied = 0;
+    for (written, counted) in written.iter().zip(&counted) {
+        assert_eq!(written[..4], counted[..4], "write the page anew");
+        let number = |cells: &[String], i: usize| -> f64 { cells[i].parse().expect("a number") };
+        for i in [4, 5] {
+            let (was, is) = (number(written, i), number(counted, i));
+            assert!((was - is).abs() <= 0.02 * was, "{written:?} is now {counted:?}");
+        }
+        let (least, worst) = (number(written, 4), number(written, 5));
+        assert_eq!(written[6], format!("{:.0} %", 100.0 * (worst / least - 1.0)));
+        varied += u32::from(worst > 1.02 * least);
+    }
+    assert!(varied > 10, "the claim that ticks vary is about nothing: {varied}");
+}
+
 /// The page says that these are not cycles, and has a place for the tables.
 #[test]
 fn the_page_is_honest_about_its_unit() {

@@ -4,10 +4,11 @@ use crate::Error;
 use crate::math::{Band, Scalar, dot, generalized_eigen, sqrt};
 use crate::scene::Scene;
 
-/// Polynomials that the modes of a stepper are made of: slopes of degree 1 to 5.
+/// Polynomials that [`Rod::new`] makes its modes of: slopes of degree 1 to 5.
 const BASIS: usize = 5;
 
-/// Gauss points over the link; products of two deflections have degree 12.
+/// Gauss points over the link. A deflection has degree `N + 1`; products of two have at most
+/// `2(N + 1)`, and the rule is exact to degree 15.
 pub(crate) const POINTS: usize = 8;
 
 /// `(ξ, weight)` of the Gauss-Legendre rule on 0..1, lower half; the upper half mirrors it.
@@ -21,8 +22,9 @@ const HALF_RULE: [(f64, f64); POINTS / 2] = [
 /// A clamped inextensible rod with payload, its angle relative to the hub expanded in the slopes of
 /// its lowest `K` modes: `φ(x) = Σ aₖ ψₖ(x)`, `X = r + ∫cos φ`, `Y = ∫sin φ`.
 ///
-/// The modes are those of five polynomials, `ψₖ(0) = 0`, mass-normalised: `a` are the modal
-/// coordinates of the small-deflection model.
+/// The modes are the lowest `K` of `N` polynomials (Rayleigh–Ritz), `ψₖ(0) = 0`, mass-normalised:
+/// `a` are the modal coordinates of the small-deflection model. [`Rod::new`] takes `N = 5`; the
+/// exact rod that `auto` judges its rungs by takes more.
 #[derive(Clone, Debug)]
 pub struct Rod<const K: usize> {
     scene: Scene,
@@ -59,14 +61,16 @@ pub struct Kinetics<const K: usize> {
 }
 
 impl<const K: usize> Rod<K> {
-    /// Solves for the modes. `K` is 1 to 5, the lowest of five polynomials'.
+    /// Solves for the lowest `K` modes of five polynomials; `K` is 1 to 5.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         Self::of_polynomials::<BASIS>(scene)
     }
 
-    /// Solves for the lowest `K` modes of `N` polynomials.
+    /// Solves for the lowest `K` modes of `N` polynomials. `N` is at most 6: then the rule integrates
+    /// the products of two deflections exactly.
     pub(crate) fn of_polynomials<const N: usize>(scene: &Scene) -> Result<Self, Error> {
-        const { assert!(1 <= K && K <= N && N < POINTS, "as many modes as polynomials at most") }
+        const { assert!(1 <= K && K <= N, "as many modes as polynomials at most") }
+        const { assert!(2 * (N + 1) < 2 * POINTS, "the mass is integrated exactly") }
         let scene = scene.validate()?;
         let (points, weights) = rule();
         let running = running_integrals(&points, &weights);
@@ -258,7 +262,7 @@ pub(super) fn legendre<const N: usize>(xi: f64) -> [f64; N] {
     p
 }
 
-/// `ψⱼ(ξ) = ∫₀^ξ P_{j}(2ξ' − 1) dξ'`, `j = 0..5`: degree 1 to 5, zero at the clamp.
+/// `ψⱼ(ξ) = ∫₀^ξ P_{j}(2ξ' − 1) dξ'`, `j = 0..N`: degree 1 to `N`, zero at the clamp.
 fn slopes<const N: usize>(xi: f64) -> [f64; N] {
     let p = legendre::<POINTS>(xi);
     core::array::from_fn(

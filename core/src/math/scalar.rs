@@ -5,7 +5,7 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A real number of the tick path.
 ///
-/// Only `+ − × ÷`, comparisons and conversions: these are IEEE-exact on every target, so that a
+/// Only `+ − × ÷`, the absolute value, comparisons and conversions: these are IEEE-exact on every target, so that a
 /// run gives the same bits everywhere. There is deliberately no `sin`, `sqrt` or `mul_add`: the
 /// first two would pull libm into the tick, the last would change bits between machines.
 pub trait Scalar:
@@ -60,6 +60,9 @@ pub trait Scalar:
     /// Source: Chebyshev fits in `x²` with 40 digits; fit errors 2e-8 and 2e-17.
     fn sin_cos_turns(self) -> (Self, Self);
 
+    /// The absolute value, exact.
+    fn abs(self) -> Self;
+
     /// Finite: neither infinite nor NaN.
     fn is_finite(self) -> bool;
 }
@@ -109,6 +112,11 @@ macro_rules! scalar {
                 let c = 1.0 + z * horner(&$cos, z);
                 let (s, c) = if quarters & 1 == 0 { (s, c) } else { (c, -s) };
                 if quarters & 2 == 0 { (s, c) } else { (-s, -c) }
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                <$t>::abs(self)
             }
 
             #[inline(always)]

@@ -25,7 +25,7 @@ impl TablesArgs {
         })?;
         // Faults in the text show before the sweep runs.
         tables::fill(&text, &[]).map_err(|error| error.within(path.display()))?;
-        let rows = tables::rows(!self.check)?;
+        let rows = tables::rows()?;
         if self.check {
             return Ok(match tables::difference(&text, &rows)? {
                 None => {

@@ -103,7 +103,7 @@ pub fn rows(plan: &Plan) -> Result<Vec<Row>, Error> {
 }
 
 /// The row of a case with its cost. Nothing else should run meanwhile.
-pub fn with_cost(plan: &Plan, index: usize, row: Row) -> Result<Row, Error> {
+fn with_cost(plan: &Plan, index: usize, row: Row) -> Result<Row, Error> {
     let case = &plan.cases[index];
     let cost = cost::cost(plan.scene(case), case.keys)?;
     Ok(Row { cost: Some(cost), ..row })

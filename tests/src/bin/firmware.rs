@@ -5,7 +5,8 @@ use std::process::ExitCode;
 use stillbeam_tests::{firmware_page, root};
 
 fn main() -> ExitCode {
-    let written = firmware_page::blocks().and_then(|blocks| {
+    let written = firmware_page::blocks().and_then(|mut blocks| {
+        blocks.push(firmware_page::axes()?);
         for name in ["docs/firmware.md", "README.md"] {
             let path = root().join(name);
             let page = std::fs::read_to_string(&path).map_err(|e| format!("{name}: {e}"))?;

@@ -28,7 +28,7 @@ fn main() -> ExitCode {
 }
 
 fn write() -> Result<(), String> {
-    let bench = instructions::count()?;
+    let (bench, soft) = (instructions::count()?, instructions::count_soft()?);
     let mut minimal = BTreeMap::new();
     for count in &bench.counts {
         if !minimal.contains_key(&count.id) {
@@ -39,7 +39,7 @@ fn write() -> Result<(), String> {
     fs::write(&path, instructions::csv(&bench, &minimal)).map_err(|e| format!("{path:?}: {e}"))?;
     let path = root().join("docs/instructions.md");
     let text = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
-    let text = page::replace(&text, &page::tables(&bench, &minimal))?;
+    let text = page::replace(&text, &page::tables(&bench, &soft, &minimal))?;
     fs::write(&path, text).map_err(|e| format!("{path:?}: {e}"))
 }
 

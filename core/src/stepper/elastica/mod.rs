@@ -19,6 +19,7 @@ mod calm;
 mod flex;
 mod mode;
 mod polynomial;
+mod reach;
 mod remainder;
 mod settle;
 
@@ -48,9 +49,10 @@ pub enum Quality {
 
 /// Geometrically exact inextensible rod in `K` modes, 1 to 3.
 ///
-/// Exponential predictor-corrector of second order. The remainder sees coordinates, the first
-/// mode's momentum and the second's rate clipped to 1.5 times the range that it was fitted for, so
-/// that it is bounded and the oscillators, which contract at any tick, cannot run away: a setpoint
+/// Exponential predictor-corrector of second order. The remainder sees its arguments (coordinates,
+/// the first mode's momentum, the second's rate) scaled down where they leave its reach: to at most
+/// 3 times the range that it was fitted for in the first mode, 12 times in the others. It is
+/// therefore bounded, and the oscillators, which contract at any tick, cannot run away: a setpoint
 /// is finite whatever is asked for. Moves that would bend the link further than that range are
 /// refused when they are pushed.
 ///

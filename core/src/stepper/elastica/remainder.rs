@@ -1,6 +1,7 @@
 //! What the exact kinematics add to the linear oscillators, as the centres that these turn about.
 
 use super::polynomial::{Axial, Even, Local, Odd, Order, Shape};
+use super::reach::Reach;
 use crate::beam::monomials::{EVEN, ODD};
 use crate::beam::{Expansion, Rod};
 use crate::math::{Scalar, cast};
@@ -32,9 +33,8 @@ pub(super) struct Remainder<T, const K: usize> {
     drag: [T; K],
     gravity: bool,
     damping: bool,
-    /// Beyond this sum of squares the arguments are scaled down; weights of the modes in it.
-    reach: T,
-    weight: [T; K],
+    /// Keeps the arguments bounded.
+    reach: Reach<T, K>,
 }
 
 /// The remainder at one instant.
@@ -103,14 +103,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
             gravity: g != 0.0,
             damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
-            reach: f({
-                let largest = REACH * omega[0] * range[0];
-                largest * largest
-            }),
-            weight: core::array::from_fn(|k| {
-                let share = omega[0] * range[0] / (LOOSER * omega[k] * range[k]);
-                f(share * share)
-            }),
+            reach: Reach::new(omega, range),
         }
     }
 
@@ -139,7 +132,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         y: &[[T; 2]; K],
         hub: &Hub<T>,
     ) -> Value<T, K> {
-        let (x, p) = self.within_reach(y);
+        let (x, p) = self.reach.of(y);
         let shape = Shape::new(x);
         let forms = self.forms(&shape);
         let flow = self.flow::<TURNS>(&forms, &p, hub.rate);
@@ -155,21 +148,6 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
             [if ALL { gradient[k] - drag } else { gradient[k] }, flow.u[k]]
         });
         Value { offset, torque, inertia }
-    }
-
-    /// `x` and `p̃`, scaled down to what keeps the remainder bounded.
-    #[inline(always)]
-    fn within_reach(&self, y: &[[T; 2]; K]) -> ([T; K], [T; K]) {
-        let mut sum = y[0][0] * y[0][0] + y[0][1] * y[0][1];
-        for k in 1..K {
-            let mut square = y[k][0] * y[k][0];
-            if k == 1 {
-                square += y[k][1] * y[k][1];
-            }
-            sum += self.weight[k] * square;
-        }
-        let scale = self.reach / if sum > self.reach { sum } else { self.reach };
-        (y.map(|y| scale * y[0]), y.map(|y| scale * y[1]))
     }
 
     #[inline(always)]
@@ -328,12 +306,6 @@ fn gradient<T: Scalar, const K: usize, const TURNS: bool>(
     }
     gradient
 }
-
-/// Amplitude of the first mode beyond which the remainder's arguments are scaled down, in fitted
-/// ranges; and how much further, in their own, the others may go: what they reach is less well known,
-/// and their polynomials are of second degree only.
-const REACH: f64 = 2.1;
-const LOOSER: f64 = 4.0;
 
 /// The second mode's inertia, 1 in the straight link, is not taken to be less.
 const LEAST_INERTIA: f64 = 0.25;

@@ -63,8 +63,9 @@ mod planner {
         }
     }
 
+    // With braces: `Planners::default()` is written for both, and for a unit struct clippy objects.
     #[derive(Default)]
-    pub struct Planners;
+    pub struct Planners {}
 
     impl Planners {
         pub fn of(&mut self, _: usize) -> Outcome<&Planner> {

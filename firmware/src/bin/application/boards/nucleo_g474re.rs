@@ -125,8 +125,9 @@ fn clocks() -> Config {
 /// Buffers of the serial line: two ticks' setpoints out, a few requests in.
 fn buffers() -> [&'static mut [u8]; 2] {
     static mut BUFFERS: [[u8; 256]; 2] = [[0; 256]; 2];
+    let both = &raw mut BUFFERS;
     // SAFETY: called once, by `set_up`.
-    let [transmit, receive] = unsafe { &mut *(&raw mut BUFFERS) };
+    let [transmit, receive] = unsafe { &mut *both };
     [transmit, receive]
 }
 
