@@ -75,6 +75,9 @@ macro_rules! each_with_state {
 }
 
 impl<T: Scalar> Auto<T> {
+    /// The response to a state of another stepper.
+    const NOTHING: Response<T> = Response { torque: T::ZERO, tip: [T::ZERO; 2] };
+
     /// Sets up one rung; `bend` as in [`Elastica::new`], other rungs have no use for it.
     pub fn new(scene: &Scene, tick: f64, rung: Rung, bend: f64) -> Result<Self, Error> {
         let model = || EightElements::consistent(scene);
@@ -161,6 +164,32 @@ impl<T: Scalar> Stepper for Auto<T> {
     type Scalar = T;
     type State = AutoState<T>;
 
+    // Every rung has both, so that each ticks on the paths that it takes when it is linked itself.
+    const PLAIN: bool = every_rung_is(
+        true,
+        [
+            Rigid::<T>::PLAIN,
+            Modal::<T, 1>::PLAIN,
+            Modal::<T, 2>::PLAIN,
+            Modal::<T, 3>::PLAIN,
+            Elastica::<T, 1>::PLAIN,
+            Elastica::<T, 2>::PLAIN,
+            Elastica::<T, 3>::PLAIN,
+        ],
+    );
+    const RESTS: bool = every_rung_is(
+        true,
+        [
+            Rigid::<T>::RESTS,
+            Modal::<T, 1>::RESTS,
+            Modal::<T, 2>::RESTS,
+            Modal::<T, 3>::RESTS,
+            Elastica::<T, 1>::RESTS,
+            Elastica::<T, 2>::RESTS,
+            Elastica::<T, 3>::RESTS,
+        ],
+    );
+
     fn tick(&self) -> f64 {
         each!(self, s => s.tick())
     }
@@ -191,6 +220,35 @@ impl<T: Scalar> Stepper for Auto<T> {
         each_with_state!(self, state, (s, own) => s.step(own, before, after), ());
     }
 
+    #[inline(always)]
+    fn is_plain(&self, rate: T) -> bool {
+        each!(self, s => s.is_plain(rate))
+    }
+
+    #[inline(always)]
+    fn advance_in_cubic(
+        &self,
+        state: &mut AutoState<T>,
+        before: &Hub<T>,
+        after: &Hub<T>,
+    ) -> Response<T> {
+        each_with_state!(
+            self, state,
+            (s, own) => s.advance_in_cubic(own, before, after),
+            Self::NOTHING
+        )
+    }
+
+    #[inline(always)]
+    fn swing(&self, state: &mut AutoState<T>, hub: &Hub<T>) {
+        each_with_state!(self, state, (s, own) => s.swing(own, hub), ());
+    }
+
+    #[inline(always)]
+    fn response_at_rest(&self, state: &AutoState<T>, hub: &Hub<T>) -> Response<T> {
+        each_with_state!(self, state, (s, own) => s.response_at_rest(own, hub), Self::NOTHING)
+    }
+
     fn shift(&self, state: &mut AutoState<T>, moment: T) {
         each_with_state!(self, state, (s, own) => s.shift(own, moment), ());
     }
@@ -202,7 +260,16 @@ impl<T: Scalar> Stepper for Auto<T> {
 
     #[inline(always)]
     fn response(&self, state: &AutoState<T>, hub: &Hub<T>) -> Response<T> {
-        let nothing = Response { torque: T::ZERO, tip: [T::ZERO; 2] };
-        each_with_state!(self, state, (s, own) => s.response(own, hub), nothing)
+        each_with_state!(self, state, (s, own) => s.response(own, hub), Self::NOTHING)
     }
+}
+
+/// `value`, which every rung must have: one that differed would tick otherwise than when it is linked.
+const fn every_rung_is(value: bool, rungs: [bool; 7]) -> bool {
+    let mut k = 0;
+    while k < rungs.len() {
+        assert!(rungs[k] == value, "the rungs differ");
+        k += 1;
+    }
+    value
 }
