@@ -21,6 +21,7 @@ pub mod compare;
 pub mod error;
 #[cfg(feature = "faults")]
 pub mod faults;
+mod flight;
 pub mod model_choice;
 pub mod output;
 pub mod plan;

@@ -28,7 +28,7 @@ fn tip_errors_at_ten_milliseconds_in_f32() {
     ];
     for (name, bounds) in bounds {
         let error = |method, modes, quality| {
-            let solver = Solver { method, modes, quality, elements: 8, ..Solver::default() };
+            let solver = Solver { method, modes, quality, elements: 8, ..Solver::PAPER };
             against_truth(name, &solver).tip_max
         };
         let errors = [
@@ -48,7 +48,7 @@ fn tip_errors_at_ten_milliseconds_in_f32() {
 fn elastica_torque_is_within_half_a_percent() {
     // 0.57, 0.14, 0.10, 0.02, 0.01, 0.33 % were measured.
     for name in stillbeam_tests::TRUTH_SCENES {
-        let solver = Solver { method: Method::Elastica, ..Solver::default() };
+        let solver = Solver { method: Method::Elastica, ..Solver::PAPER };
         let torque = against_truth(name, &solver).torque;
         let bound = if name == "d-fast" { 0.01 } else { 0.005 };
         assert!(torque <= bound, "{name}: {torque}");
@@ -68,7 +68,7 @@ fn a_linear_mode_is_exact_for_any_tick() {
             spin: false,
             scalar: Scalar::F64,
             tick,
-            ..Solver::default()
+            ..Solver::PAPER
         };
         run(&scene, &solver).expect("run")
     };

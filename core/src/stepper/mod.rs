@@ -10,7 +10,7 @@ mod oscillator;
 mod rigid;
 mod terms;
 
-pub use auto::{Auto, AutoState, Choice, Rung};
+pub use auto::{Assessment, Auto, AutoState, Choice, NoChoice, Rung, Tolerance, assess, choose};
 pub use elastica::{Elastica, ElasticaState, Flex, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, Vibration};
