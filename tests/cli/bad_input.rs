@@ -178,7 +178,11 @@ fn words_that_the_method_does_not_read() {
         (&["--method", "auto", "--modes", "2"], "solver.modes = 2: auto"),
         (&["--method", "modal", "--quality", "fast"], "solver.quality = fast: modal"),
         (&["--method", "elastica", "--tolerance", "0.01"], "solver.tolerance = 0.01: elastica"),
-        (&["--modes", "2"], "solver.modes = 2: newmark"),
+        (
+            &["--method", "modal", "--torque-tolerance", "0.01"],
+            "solver.torque_tolerance = 0.01: modal",
+        ),
+        (&["--modes", "2"], "solver.modes = 2: auto"),
     ];
     for (args, words) in cases {
         refused(GOOD, args, &[words, "must be"]);

@@ -35,8 +35,8 @@ impl From<NoChoice> for Error {
 ///
 /// Four rungs at a time, cheapest first, are flown along the motion beside the exact rod in six modes and
 /// small steps. What that costs at set-up stands in `docs/auto.md`: the exact rod flies once or twice,
-/// in at most 150,000 steps each unless its third mode asks for more. `progress` is given the part that is
-/// done, 0 to 1.
+/// each time in at most 60,000 steps or 32 a tick, whichever is more. `progress` is given the part that
+/// is done, 0 to 1.
 pub fn choose(
     scene: &Scene,
     tick: f64,

@@ -10,9 +10,12 @@ const STATIONS: usize = POINTS + 1;
 /// Most steps a tick.
 const MAX_STEPS: f64 = 128.0;
 
-/// Steps of a whole flight beyond which a step is made no shorter than the third mode asks for. On a
-/// host they take half a second.
-const STEPS: f64 = 150_000.0;
+/// Steps of a whole flight beyond which a step is made no shorter than the second mode asks for, nor
+/// than a [`FEWEST`]th of a tick. On a host they take a quarter of a second.
+const STEPS: f64 = 60_000.0;
+
+/// Steps a tick that are affordable however long the flight.
+const FEWEST: f64 = 32.0;
 
 /// What a step may turn a mode by, rad, and decay it by: the method bears 2.8. The second highest of
 /// six modes is held to it; the third then turns by 0.4, and its phase errs by 1e-4 of that.
@@ -39,7 +42,7 @@ pub(super) struct Shape<T, const MODES: usize> {
 /// equations without an expansion in `a`, classical Runge-Kutta of fourth order.
 ///
 /// The steps are made for the second highest mode, or where a flight of so many ticks would take more
-/// than [`STEPS`] of them, for as high a mode as it affords, the third at least. Every mode that the steps
+/// than [`STEPS`] of them, for as high a mode as it affords, the second in most cases. Every mode that the steps
 /// do not resolve, or whose decay they do not, is given as much more inertia as makes it bearable: it
 /// still follows its load, many periods a tick.
 ///
@@ -110,7 +113,7 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             let fastest = rod.frequency()[mode].max(loss[mode]);
             libm::ceil(tick * fastest / MOST).clamp(1.0, MAX_STEPS)
         };
-        let affordable = wanted(2).max(libm::floor(STEPS / ticks.max(1.0)));
+        let affordable = wanted(1).min(FEWEST).max(libm::floor(STEPS / ticks.max(1.0)));
         let steps = wanted(MODES - 2).min(affordable);
         let step = tick / steps;
         Self {
