@@ -12,8 +12,10 @@ use crate::error::Error;
 use crate::reference::{Sample, rod};
 use crate::trajectory::Trajectory;
 
-/// The judge. Its steps are bound by the highest polynomial's vibration, the tolerance hardly counts.
-pub(super) const JUDGE: rod::Options = rod::Options { order: 6, tolerance: 1e-6, integrator: None };
+/// The judge. Its steps are bound by the highest polynomial's vibration; where damping has it take the
+/// implicit method, by the tolerance, an angle in rad: a stiff arm bends by 1e-4, and its torque is to be
+/// right to a part in a thousand of that.
+pub(super) const JUDGE: rod::Options = rod::Options { order: 6, tolerance: 1e-9, integrator: None };
 
 /// The judge where it is close.
 pub(super) const CLOSE: rod::Options = rod::Options { order: 7, ..JUDGE };
@@ -22,7 +24,7 @@ pub(super) const CLOSE: rod::Options = rod::Options { order: 7, ..JUDGE };
 pub(super) const MARGIN: f64 = 0.1;
 
 /// The judge's judge.
-pub(super) const STRICT: rod::Options = rod::Options { order: 8, tolerance: 1e-8, ..JUDGE };
+pub(super) const STRICT: rod::Options = rod::Options { order: 8, tolerance: 1e-11, ..JUDGE };
 
 /// Every so many arms the judge itself is judged.
 pub(super) const STRICT_EACH: u64 = 50;
