@@ -87,8 +87,8 @@ fn a_rung_out_of_order_would_be_found() {
     assert_eq!(instructions(rows, Rung::Modal(1), "no-gravity"), None);
 }
 
-/// A stiff steel bar, a tenth of a second a period and a half, in two thirds of a tick each tick: the tip
-/// hardly moves, and the torque rings with its full size.
+/// A stiff steel bar with a payload: its tip moves by less than a thousandth of its length, and the
+/// torque rings with its full size.
 const BAR: &str = "[link]\nlength = 0.3\nmaterial = \"steel\"\nwidth = 0.025\nthickness = 0.012\n\
     [payload]\nmass = 0.2\n[move]\nprofile = \"cubic\"\nduration = 0.25\nto = 1.0\nsettle = 0.3\n";
 

@@ -25,8 +25,9 @@ const NEAR: f64 = 1e-6;
 /// Ticks beside a jump of the commanded acceleration within which the torque is not compared.
 const BESIDE: f64 = 1.5;
 
-/// Change of the commanded acceleration, of its peak, from which on it is a jump.
-const JUMP: f64 = 1e-6;
+/// Change of the commanded acceleration, of its peak, from which on it is a jump: a hundred times what an
+/// f32 rounds it by.
+const JUMP: f64 = 1e-4;
 
 /// Ticks between two looks at whether the arm has come to rest.
 const LOOK: u64 = 16;
