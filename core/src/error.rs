@@ -58,9 +58,12 @@ pub enum Error {
     },
     /// No stepper is as good as asked for.
     Tolerance {
-        /// What was asked for, fraction of L.
+        /// The tolerance that is not kept: `solver.tolerance` of the tip, a fraction of L, or
+        /// `solver.torque_tolerance`, a fraction of the torque's peak.
+        parameter: &'static str,
+        /// What was asked for.
         tolerance: f64,
-        /// The error to expect of the best, fraction of L; infinite where none follows.
+        /// The error to expect of the best, the same fraction; infinite where none follows.
         best: f64,
     },
     /// The queue has not enough free segments for the move.
@@ -196,14 +199,14 @@ impl fmt::Display for Error {
                 "move.duration: the tip is expected to turn {bend:.3} rad against the hub, must \
                  be at most {max:.3} rad; use a longer move, a stiffer link or a stepper set up for more"
             ),
-            Self::Tolerance { tolerance, best } if !best.is_finite() => write!(
+            Self::Tolerance { parameter, tolerance, best } if !best.is_finite() => write!(
                 f,
-                "solver.tolerance = {tolerance}: no method follows this move at this tick; use a \
+                "{parameter} = {tolerance}: no method follows this move at this tick; use a \
                  longer move or a shorter tick"
             ),
-            Self::Tolerance { tolerance, best } => write!(
+            Self::Tolerance { parameter, tolerance, best } => write!(
                 f,
-                "solver.tolerance = {tolerance}: must be at least {best:.6} for this move at \
+                "{parameter} = {tolerance}: must be at least {best:.6} for this move at \
                  this tick; a longer move or a shorter tick takes less"
             ),
             Self::QueueFull { needed, free } => write!(

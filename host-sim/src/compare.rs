@@ -85,7 +85,7 @@ pub fn residual(rows: &[Row], scene: &SceneFile) -> Result<Option<f64>, Error> {
 }
 
 /// Times at which the commanded acceleration jumps, the beginning of the run included.
-fn jumps(trajectory: &Trajectory) -> Vec<f64> {
+pub(crate) fn jumps(trajectory: &Trajectory) -> Vec<f64> {
     let largest =
         trajectory.plans().iter().map(|plan| plan.outline.peaks.acceleration).fold(0.0, f64::max);
     let jumps_at = |t: f64| {

@@ -22,6 +22,7 @@ mod document;
 pub mod error;
 #[cfg(feature = "faults")]
 pub mod faults;
+mod flight;
 pub mod model_choice;
 pub mod output;
 pub mod plan;

@@ -3,10 +3,15 @@
 use std::marker::PhantomData;
 
 use stillbeam::beam::{Model, Modes, Rod};
-use stillbeam::stepper::{self, Auto, Choice, Elastica, Modal, Newmark, Rigid, Stepper};
+use stillbeam::motion::{Commanded, Moves};
+use stillbeam::stepper::{
+    self, Assessment, Auto, Choice, Elastica, Modal, Newmark, NoChoice, Rigid, Stepper, Tolerance,
+};
 use stillbeam::{Scalar as Real, Scene};
 
 use crate::error::Error;
+use crate::flight::Flight;
+use crate::progress;
 use crate::scene_file::SceneFile;
 use crate::solver::{Mass, Method, Quality, Scalar, Solver};
 
@@ -70,23 +75,41 @@ pub trait StepperVisitor {
 }
 
 /// Builds the stepper that `solver` asks for, model included, and hands it to the visitor. A new
-/// method is one more arm here.
+/// method is one more arm here. `auto` chooses first, see [`choose`].
 pub fn with_stepper<V: StepperVisitor>(
     scene: &SceneFile,
     solver: &Solver,
     visitor: V,
 ) -> Result<V::Output, Error> {
+    let choice = match solver.method {
+        Method::Auto => Some(choose(scene, solver)?.map_err(|none| none.error)?),
+        _ => None,
+    };
+    with_chosen(scene, solver, choice.as_ref(), visitor)
+}
+
+/// The same where it is known what `auto` has chosen, if that is the method.
+pub fn with_chosen<V: StepperVisitor>(
+    scene: &SceneFile,
+    solver: &Solver,
+    choice: Option<&Choice>,
+    visitor: V,
+) -> Result<V::Output, Error> {
     match solver.scalar {
-        Scalar::F32 => with_stepper_in::<f32, V>(scene, solver, visitor),
-        Scalar::F64 => with_stepper_in::<f64, V>(scene, solver, visitor),
+        Scalar::F32 => with_stepper_in::<f32, V>(scene, solver, choice, visitor),
+        Scalar::F64 => with_stepper_in::<f64, V>(scene, solver, choice, visitor),
     }
 }
 
 fn with_stepper_in<T: Real, V: StepperVisitor>(
     scene: &SceneFile,
     solver: &Solver,
+    choice: Option<&Choice>,
     visitor: V,
 ) -> Result<V::Output, Error> {
+    if let Some(choice) = choice {
+        return visitor.visit(Auto::<T>::chosen(&scene.arm, solver.tick, choice)?);
+    }
     match solver.method {
         Method::Rigid => visitor.visit(Rigid::<T>::new(&scene.arm, solver.tick)?),
         Method::Newmark => {
@@ -100,7 +123,10 @@ fn with_stepper_in<T: Real, V: StepperVisitor>(
         Method::Elastica if solver.modes == 1 => visitor.visit(elastica::<T, 1>(scene, solver)?),
         Method::Elastica if solver.modes == 2 => visitor.visit(elastica::<T, 2>(scene, solver)?),
         Method::Elastica => visitor.visit(elastica::<T, 3>(scene, solver)?),
-        Method::Auto => visitor.visit(auto::<T>(scene, solver)?.0),
+        Method::Auto => {
+            let choice = choose(scene, solver)?.map_err(|none| none.error)?;
+            visitor.visit(Auto::<T>::chosen(&scene.arm, solver.tick, &choice)?)
+        }
     }
 }
 
@@ -154,10 +180,53 @@ fn modal<T: Real, const K: usize, const N: usize, const W: usize>(
     Ok(if solver.spin { stepper } else { stepper.without_spin() })
 }
 
-/// The cheapest stepper that is good enough, and what to expect of it.
-pub fn auto<T: Real>(scene: &SceneFile, solver: &Solver) -> Result<(Auto<T>, Choice), Error> {
+/// The cheapest stepper that is good enough for the motion that the scene commands, behind its shaper
+/// if it has one; or which one comes nearest. Shows its progress after a second.
+///
+/// # Errors
+/// The scene's moves are refused, whatever the method.
+pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoChoice>, Error> {
+    let tolerance = Tolerance { tip: solver.tolerance, torque: solver.torque_tolerance };
+    let mut progress = progress::after_a_second("choosing a method");
+    along(scene, solver.tick, |motion| {
+        Ok(stepper::choose(&scene.arm, solver.tick, motion, &tolerance, &mut progress))
+    })
+}
+
+/// The errors to expect of a method that is named by hand, along the motion that the scene commands.
+pub fn assess(scene: &SceneFile, solver: &Solver) -> Result<Assessment, Error> {
+    with_stepper(scene, solver, Assess { scene })
+}
+
+struct Assess<'a> {
+    scene: &'a SceneFile,
+}
+
+impl StepperVisitor for Assess<'_> {
+    type Output = Assessment;
+
+    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Assessment, Error> {
+        let arm = &self.scene.arm;
+        let mut progress = progress::after_a_second("judging the method");
+        along(self.scene, stepper.tick(), |motion| {
+            Ok(stepper::assess(arm, stepper, motion, &mut progress)?)
+        })
+    }
+}
+
+/// Hands over the motion that a scene commands: its moves, or what is left of them behind a shaper.
+fn along<R>(
+    scene: &SceneFile,
+    tick: f64,
+    with: impl FnOnce(&dyn Commanded) -> Result<R, Error>,
+) -> Result<R, Error> {
+    // The limits are refused first.
+    let trajectory = scene.trajectory(tick)?;
+    if let Some(shaper) = &scene.shaper {
+        return with(&Flight::new(&trajectory, shaper, scene.from));
+    }
     let moves = scene.motions();
-    Ok(Auto::choose(&scene.arm, solver.tick, scene.from, &moves, solver.tolerance)?)
+    with(&Moves::new(scene.from, &moves, tick)?)
 }
 
 /// Fitted for the bend that the scene's own accelerations let expect.

@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 
 use stillbeam::motion::{Hub as HubState, Segment, Shaped, Shaper};
-use stillbeam::stepper::{Response, Stepper};
+use stillbeam::stepper::{Choice, Response, Stepper};
 use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
 use crate::error::Error;
-use crate::model_choice::{StepperVisitor, with_stepper};
+use crate::model_choice::{StepperVisitor, with_chosen, with_stepper};
 use crate::scene_file::SceneFile;
 use crate::solver::Solver;
 use crate::table::Row;
@@ -19,7 +19,20 @@ pub const QUEUE: usize = 14;
 ///
 /// At the end of a move the row holds the left-hand acceleration and torque.
 pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
-    let rows = with_stepper(scene, solver, Rows { scene })?;
+    admitted(scene, with_stepper(scene, solver, Rows { scene })?)
+}
+
+/// [`run`] where it is known what `auto` has chosen, if that is the method.
+pub fn run_chosen(
+    scene: &SceneFile,
+    solver: &Solver,
+    choice: Option<&Choice>,
+) -> Result<Vec<Row>, Error> {
+    admitted(scene, with_chosen(scene, solver, choice, Rows { scene })?)
+}
+
+/// The rows if their torque keeps the scene's limit.
+fn admitted(scene: &SceneFile, rows: Vec<Row>) -> Result<Vec<Row>, Error> {
     let torque = rows.iter().map(|row| row.torque_nm.abs()).fold(0.0, f64::max);
     scene.limits.admit_torque(torque)?;
     Ok(rows)

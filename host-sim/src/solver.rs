@@ -56,7 +56,7 @@ pub enum Scalar {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, clap::Args)]
 #[serde(deny_unknown_fields)]
 pub struct SolverKeys {
-    /// Stepper [default: newmark]
+    /// Stepper [default: auto, or the nearest to its tolerances]
     #[arg(long, value_enum)]
     pub method: Option<Method>,
     /// Beam elements: 1, 2, 4 or 8; newmark and modal [default: 1, modal 8]
@@ -74,6 +74,9 @@ pub struct SolverKeys {
     /// Error of the tip that auto may make, fraction of the length [default: 0.001]
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
+    /// Error of the torque that auto may make, fraction of its peak [default: 0.01]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub torque_tolerance: Option<f64>,
     /// Setpoint interval in s [default: 0.01]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub tick: Option<f64>,
@@ -100,6 +103,8 @@ pub struct Solver {
     pub quality: Quality,
     /// Error of the tip that auto may make, fraction of L.
     pub tolerance: f64,
+    /// Error of the torque that auto may make, fraction of its peak.
+    pub torque_tolerance: f64,
     /// h, s.
     pub tick: f64,
     /// Precision of the tick.
@@ -156,19 +161,26 @@ impl Scalar {
     }
 }
 
+impl Solver {
+    /// The paper's own: Newmark's rule on one element, 10 ms, f32.
+    pub const PAPER: Self = Self {
+        method: Method::Newmark,
+        elements: 1,
+        mass: Mass::Consistent,
+        modes: 2,
+        quality: Quality::Fine,
+        tolerance: 1e-3,
+        torque_tolerance: 1e-2,
+        tick: 0.01,
+        scalar: Scalar::F32,
+        spin: true,
+    };
+}
+
 impl Default for Solver {
+    /// The method that suits the scene, at the paper's tick.
     fn default() -> Self {
-        Self {
-            method: Method::Newmark,
-            elements: 1,
-            mass: Mass::Consistent,
-            modes: 2,
-            quality: Quality::Fine,
-            tolerance: 1e-3,
-            tick: 0.01,
-            scalar: Scalar::F32,
-            spin: true,
-        }
+        Self { method: Method::Auto, ..Self::PAPER }
     }
 }
 
@@ -181,6 +193,7 @@ impl From<Solver> for SolverKeys {
             modes: Some(solver.modes as i64),
             quality: Some(solver.quality),
             tolerance: Some(solver.tolerance),
+            torque_tolerance: Some(solver.torque_tolerance),
             tick: Some(solver.tick),
             scalar: Some(solver.scalar),
             spin: Some(solver.spin),
@@ -190,8 +203,18 @@ impl From<Solver> for SolverKeys {
 
 impl SolverKeys {
     /// Names of the keys, in the order of the fields; a sweep's columns.
-    pub const NAMES: [&'static str; 9] =
-        ["method", "elements", "mass", "modes", "quality", "tolerance", "tick_s", "scalar", "spin"];
+    pub const NAMES: [&'static str; 10] = [
+        "method",
+        "elements",
+        "mass",
+        "modes",
+        "quality",
+        "tolerance",
+        "torque_tolerance",
+        "tick_s",
+        "scalar",
+        "spin",
+    ];
 
     /// Every key that the method reads, absent ones at their defaults; none that it does not, so
     /// that equal solvers have equal keys.
@@ -199,7 +222,11 @@ impl SolverKeys {
         let method = self.method.unwrap_or(Solver::default().method);
         let default = Solver { elements: method.elements(), ..Solver::default() };
         let keys = self.or(default.into());
-        let keys = if method == Method::Auto { keys } else { Self { tolerance: None, ..keys } };
+        let keys = if method == Method::Auto {
+            keys
+        } else {
+            Self { tolerance: None, torque_tolerance: None, ..keys }
+        };
         let meshless = Self { elements: None, mass: None, spin: None, ..keys };
         match method {
             Method::Rigid | Method::Auto => Self { modes: None, quality: None, ..meshless },
@@ -216,7 +243,8 @@ impl SolverKeys {
             let typed = Self { method: Some(method), ..Self::default() };
             typed.relevant().values().map(|value| value.is_some())
         };
-        let names = ["elements", "mass", "modes", "quality", "tolerance", "spin"];
+        let names =
+            ["elements", "mass", "modes", "quality", "tolerance", "torque_tolerance", "spin"];
         let mut unread = Vec::new();
         for (k, value) in self.values().into_iter().enumerate() {
             let Some(value) = value.filter(|_| !reads(method)[k]) else { continue };
@@ -237,13 +265,14 @@ impl SolverKeys {
     }
 
     /// The values that not every method reads.
-    fn values(&self) -> [Option<String>; 6] {
+    fn values(&self) -> [Option<String>; 7] {
         [
             self.elements.map(|n| n.to_string()),
             self.mass.map(|mass| mass.name().to_owned()),
             self.modes.map(|n| n.to_string()),
             self.quality.map(|quality| quality.name().to_owned()),
             self.tolerance.map(|x| x.to_string()),
+            self.torque_tolerance.map(|x| x.to_string()),
             self.spin.map(|spin| spin.to_string()),
         ]
     }
@@ -257,6 +286,7 @@ impl SolverKeys {
             modes: self.modes.or(other.modes),
             quality: self.quality.or(other.quality),
             tolerance: self.tolerance.or(other.tolerance),
+            torque_tolerance: self.torque_tolerance.or(other.torque_tolerance),
             tick: self.tick.or(other.tick),
             scalar: self.scalar.or(other.scalar),
             spin: self.spin.or(other.spin),
@@ -287,12 +317,16 @@ impl SolverKeys {
         if !(1e-6..=1.0).contains(&tick) {
             return Err(Error::new(format_args!("solver.tick = {tick}: must be 0.000001 to 1 s")));
         }
-        let tolerance = self.tolerance.unwrap_or(default.tolerance);
-        if !(1e-6..=1.0).contains(&tolerance) {
-            return Err(Error::new(format_args!(
-                "solver.tolerance = {tolerance}: must be 0.000001 to 1, a fraction of the length"
-            )));
-        }
+        let tolerance = fraction(
+            "solver.tolerance",
+            self.tolerance.unwrap_or(default.tolerance),
+            "a fraction of the length",
+        )?;
+        let torque_tolerance = fraction(
+            "solver.torque_tolerance",
+            self.torque_tolerance.unwrap_or(default.torque_tolerance),
+            "a fraction of the torque's peak",
+        )?;
         Ok(Solver {
             method,
             elements,
@@ -300,11 +334,20 @@ impl SolverKeys {
             modes,
             quality: self.quality.unwrap_or(default.quality),
             tolerance,
+            torque_tolerance,
             tick,
             scalar: self.scalar.unwrap_or(default.scalar),
             spin: self.spin.unwrap_or(default.spin),
         })
     }
+}
+
+/// A tolerance if it is one.
+fn fraction(key: &str, value: f64, of: &str) -> Result<f64, Error> {
+    if (1e-6..=1.0).contains(&value) {
+        return Ok(value);
+    }
+    Err(Error::new(format_args!("{key} = {value}: must be 0.000001 to 1, {of}")))
 }
 
 impl Solver {
@@ -324,7 +367,8 @@ impl Solver {
                 format!("{method}, {modes}, {}, {tick} ms, {scalar}", self.quality.name())
             }
             Method::Auto => {
-                format!("{method}, within {} of L, {tick} ms, {scalar}", self.tolerance)
+                let (tip, torque) = (self.tolerance, self.torque_tolerance);
+                format!("{method}, within {tip} of L and {torque} of torque, {tick} ms, {scalar}")
             }
         }
     }

@@ -215,7 +215,7 @@ mod tests {
         for name in ["d-fast", "s-gravity", "b-tip30-damped-hub", "pick-and-place"] {
             for elements in [1, 2, 4, 8] {
                 let scene = scenes::open(name).unwrap();
-                let solver = Solver { elements, scalar: Scalar::F64, ..Solver::default() };
+                let solver = Solver { elements, scalar: Scalar::F64, ..Solver::PAPER };
                 let rows = run(&scene, &solver).unwrap();
                 let trajectory = scene.trajectory(solver.tick).unwrap();
                 let peak = rows.iter().map(|row| row.torque_nm.abs()).fold(0.0, f64::max);

@@ -101,7 +101,7 @@ fn rigid_tip_stays_on_the_circle_and_the_flexible_one_swings() {
 #[test]
 fn setpoints_are_what_run_writes() {
     let setpoints = &STUDY.setpoints.flexible;
-    assert_eq!(setpoints.solver, stillbeam_sim::solver::Solver::default());
+    assert_eq!(setpoints.solver, stillbeam_sim::solver::Solver::PAPER);
     let again = stillbeam_sim::run::run(&setpoints.scene, &setpoints.solver).unwrap();
     assert_eq!(setpoints.rows, again);
 }

@@ -60,8 +60,8 @@ impl From<Error> for Refusal<'static> {
             Error::TooFast { rate, max } => range("move: peak rate", rate, 0.0, max, "rad/s"),
             Error::NotAtRest { rate } => range("move: rate at its start", rate, 0.0, 0.0, "rad/s"),
             Error::BendsTooFar { bend, max } => range("move: expected bend", bend, 0.0, max, "rad"),
-            Error::Tolerance { tolerance, best } => {
-                range("solver.tolerance", tolerance, best, f64::INFINITY, "")
+            Error::Tolerance { parameter, tolerance, best } => {
+                range(parameter, tolerance, best, f64::INFINITY, "")
             }
             Error::QueueFull { needed, free } => {
                 Self::Queue { needed: needed as u32, free: free as u32 }

@@ -174,14 +174,18 @@ fn words_on_the_command_line() {
 #[test]
 fn words_that_the_method_does_not_read() {
     // The scene's own `elements` is for the method that it would be run with; what is typed is meant.
-    let cases: [(&[&str], &str); 7] = [
+    let cases: [(&[&str], &str); 8] = [
         (&["--method", "elastica", "--no-spin"], "solver.spin = false: elastica"),
         (&["--method", "elastica", "--elements", "4"], "solver.elements = 4: elastica"),
         (&["--method", "rigid", "--mass", "lumped"], "solver.mass = lumped: rigid"),
         (&["--method", "auto", "--modes", "2"], "solver.modes = 2: auto"),
         (&["--method", "modal", "--quality", "fast"], "solver.quality = fast: modal"),
         (&["--method", "elastica", "--tolerance", "0.01"], "solver.tolerance = 0.01: elastica"),
-        (&["--modes", "2"], "solver.modes = 2: newmark"),
+        (
+            &["--method", "modal", "--torque-tolerance", "0.01"],
+            "solver.torque_tolerance = 0.01: modal",
+        ),
+        (&["--modes", "2"], "solver.modes = 2: auto"),
     ];
     for (args, words) in cases {
         refused(GOOD, args, &[words, "must be"]);

@@ -64,12 +64,16 @@ fn rounding_is_reported() {
 #[test]
 fn every_method_runs_with_its_own_words() {
     let folder = tempfile::tempdir().expect("folder");
-    let cases: [(&[&str], &str); 5] = [
+    let cases: [(&[&str], &str); 6] = [
         (&["--method", "modal", "--modes", "1", "--no-spin"], "modal, 1 mode of 8 consistent"),
         (&["--method", "elastica"], "elastica, 2 modes, fine"),
         (&["--method", "elastica", "--modes", "3", "--quality", "fast"], "elastica, 3 modes, fast"),
-        (&["--method", "auto"], "auto, within 0.001 of L"),
-        (&["--method", "auto", "--tolerance", "0.05"], "chose            modal, 1 mode"),
+        (&["--method", "auto"], "auto, within 0.001 of L and 0.01 of torque"),
+        (&[], "auto, within 0.001 of L and 0.01 of torque"),
+        (
+            &["--tolerance", "0.05", "--torque-tolerance", "0.1"],
+            "chose            modal, 1 mode (expected error ",
+        ),
     ];
     for (args, words) in cases {
         let args = [&["run", "b-tip30", "--csv", "a.csv"], args].concat();
@@ -96,6 +100,50 @@ fn auto_keeps_its_tolerance_or_says_what_it_could() {
     let (code, _, err) = auto("d-fast", "0.000002");
     assert_eq!((code, err.lines().count()), (2, 1), "{err}");
     assert!(err.contains("solver.tolerance = 0.000002: must be at least 0.000"), "{err}");
+}
+
+/// The tick is a fifth of the arm's period: Newmark's rule errs by more than the torque itself.
+const COARSE: &str = "[link]\nlength = 0.4\nmass = 0.0224\nbending_stiffness = 0.46\n[payload]\n\
+    mass = 0.03\n[[moves]]\nprofile = \"s-curve\"\nduration = 0.6\nto = 1.0\nsettle = 0.12\n[solver]\n\
+    tick = 0.04\n";
+
+#[test]
+fn a_method_that_does_not_suit_is_remarked_on() {
+    let folder = tempfile::tempdir().expect("folder");
+    fs::write(folder.path().join("scene.toml"), COARSE).expect("scene");
+    let with = |args: &[&str]| {
+        let args = [&["run", "scene.toml", "--csv", "a.csv"], args].concat();
+        let (code, out, err) = run(folder.path(), &args);
+        assert_eq!(code, 0, "{err}");
+        (out, err)
+    };
+    for method in ["newmark", "rigid"] {
+        let (_, err) = with(&["--method", method]);
+        assert_eq!(err.lines().count(), 1, "{err}");
+        assert!(err.starts_with(&format!("note: {method} is expected to err by ")), "{err}");
+        assert!(err.contains("of the torque's peak; auto would take modal, "), "{err}");
+    }
+    assert_eq!(with(&["--method", "modal"]).1, "");
+    let (out, err) = with(&[]);
+    assert!(err.is_empty() && out.contains("chose            modal, "), "{out}{err}");
+}
+
+/// Tolerances that nobody asked for are no reason not to run.
+#[test]
+fn without_a_method_the_nearest_is_taken() {
+    let folder = tempfile::tempdir().expect("folder");
+    // A hub as wide as the link is long, and a profile that jumps: the torque rings in every mode.
+    let scene = "[link]\nlength = 0.3\nmass = 0.1\nbending_stiffness = 1.0\n[hub]\nradius = 0.3\n\
+        [move]\nprofile = \"trapezoid\"\nduration = 0.5\nto = 1.0\nsettle = 0.2\n";
+    fs::write(folder.path().join("scene.toml"), scene).expect("scene");
+    let args = ["run", "scene.toml", "--csv", "a.csv"];
+    let (code, out, err) = run(folder.path(), &args);
+    assert_eq!((code, err.lines().count()), (0, 1), "{out}{err}");
+    assert!(err.starts_with("note: no method keeps 0.001 of L and 0.01 of the torque"), "{err}");
+    let asked = [&args[..], &["--method", "auto"]].concat();
+    let (code, _, err) = run(folder.path(), &asked);
+    assert_eq!((code, err.lines().count()), (2, 1), "{err}");
+    assert!(err.starts_with("error: solver.torque_tolerance = 0.01: must be at least"), "{err}");
 }
 
 #[test]
@@ -125,7 +173,8 @@ fn scenes_are_listed_by_name() {
 fn the_same_run_gives_the_same_bytes() {
     let folder = tempfile::tempdir().expect("folder");
     for name in ["a.csv", "b.csv"] {
-        let args = ["run", "s-gravity", "--csv", name, "--elements", "8", "--mass", "lumped"];
+        let args = ["run", "s-gravity", "--csv", name, "--method", "newmark"];
+        let args = [&args[..], &["--elements", "8", "--mass", "lumped"]].concat();
         assert_eq!(run(folder.path(), &args).0, 0);
     }
     let read = |name: &str| fs::read(folder.path().join(name)).expect("table");

@@ -1,9 +1,17 @@
 //! What `auto` chooses: the bounded part of the campaign behind `docs/auto.md`, and the order of the
 //! ladder.
 
-use stillbeam::stepper::{Quality, Rung};
-use stillbeam::{Damping, Link, Scene};
+use stillbeam::motion::Moves;
+use stillbeam::stepper::{Choice, Quality, Rigid, Rung, Tolerance, assess, choose};
+use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 use stillbeam_sim::choice::{Summary, campaign};
+use stillbeam_sim::compare::compare;
+use stillbeam_sim::model_choice;
+use stillbeam_sim::run::run;
+use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::solver::{Method, Solver, SolverKeys};
+use stillbeam_sim::table::Row;
+use stillbeam_sim::truth::{self, Reference};
 use stillbeam_tests::root;
 
 /// Another seed than the document's.
@@ -77,4 +85,120 @@ fn a_rung_out_of_order_would_be_found() {
     assert_eq!(instructions(rows, Rung::Rigid, ""), Some(200));
     assert!(cost(rows, Rung::Rigid, "") > cost(rows, Rung::Modal(1), ""));
     assert_eq!(instructions(rows, Rung::Modal(1), "no-gravity"), None);
+}
+
+/// A stiff steel bar with a payload: its tip moves by less than a thousandth of its length, and the
+/// torque rings with its full size.
+const BAR: &str = "[link]\nlength = 0.3\nmaterial = \"steel\"\nwidth = 0.025\nthickness = 0.012\n\
+    [payload]\nmass = 0.2\n[move]\nprofile = \"cubic\"\nduration = 0.25\nto = 1.0\nsettle = 0.3\n";
+
+fn chosen(scene: &SceneFile, solver: &Solver) -> Choice {
+    model_choice::choose(scene, solver).expect("moves").expect("choice")
+}
+
+/// The reference rod at those intervals.
+fn reference(scene: &SceneFile, every: f64) -> Vec<Row> {
+    let tick = scene.solver.resolve().expect("solver").tick;
+    let trajectory = scene.trajectory(tick).expect("moves");
+    let times = truth::times(&trajectory, every);
+    truth::solve(Reference::Rod, scene, &trajectory, &times, &|_| ()).expect("reference")
+}
+
+#[test]
+fn the_torque_decides_where_the_tip_does_not() {
+    let scene = SceneFile::parse("bar", BAR).expect("scene");
+    let choice = chosen(&scene, &Solver::default());
+    assert_ne!(choice.rung, Rung::Rigid);
+    // By the tip alone the rigid arm would do.
+    let tip_only = Solver { torque_tolerance: 1.0, ..Solver::default() };
+    assert_eq!(chosen(&scene, &tip_only).rung, Rung::Rigid);
+    let rows = run(&scene, &Solver::default()).expect("run");
+    let truth = compare(&rows, &reference(&scene, 0.01), &scene).expect("comparison");
+    assert!(truth.torque <= 0.01 && truth.tip_max <= 1e-3, "{truth:?}");
+    // The peaks lie between the ticks.
+    let fine = reference(&scene, 1e-4);
+    let peak = fine.iter().map(|row| row.torque_nm.abs()).fold(0.0, f64::max);
+    let seen = choice.expected.peak_torque;
+    assert!((seen / peak - 1.0).abs() < 0.01, "{seen} N m of {peak} N m");
+    // Without a hub of its own, what the motor gives is what bends the link at the clamp.
+    assert!((choice.expected.peak_moment / seen - 1.0).abs() < 1e-4, "{choice:?}");
+}
+
+/// Expected errors are those that the reference rod finds, behind a shaper too, whose pulses fall
+/// inside the ticks. Newmark's rule takes the rates only, so that it needs no care there.
+#[test]
+fn a_shaped_motion_is_judged_as_it_is_commanded() {
+    let text = "[link]\nlength = 0.25\nmass = 0.02\nbending_stiffness = 1.0219\n[move]\n\
+        profile = \"trapezoid\"\nduration = 0.3\nto = 0.5\nsettle = 0.3\n[shaper]\nkind = \"zv\"\n\
+        frequency = 32.0\ndamping = 0.0\n";
+    let scene = SceneFile::parse("shaped", text).expect("scene");
+    let solver = Solver::PAPER;
+    let expected = model_choice::assess(&scene, &solver).expect("assessment");
+    let rows = run(&scene, &solver).expect("run");
+    let truth = compare(&rows, &reference(&scene, 0.01), &scene).expect("comparison");
+    for (expected, truth) in [(expected.tip, truth.tip_max), (expected.torque, truth.torque)] {
+        assert!(truth <= expected && expected < 1.1 * truth + 1e-5, "{expected}, {truth}");
+    }
+    // The shaper keeps the arm from ringing: rigid is nearer than it is without.
+    let rigid = Solver { method: Method::Rigid, ..solver };
+    let shaped = model_choice::assess(&scene, &rigid).expect("assessment").tip;
+    let plain = SceneFile { shaper: None, ..scene };
+    let ringing = model_choice::assess(&plain, &rigid).expect("assessment").tip;
+    assert!(shaped < 0.9 * ringing, "{shaped} behind the shaper, {ringing} without");
+}
+
+/// Held level, the motor carries the first moment about the axis, the clamp that about itself.
+#[test]
+fn torque_and_moment_of_a_level_arm_are_its_weight_s() {
+    let mut scene = Scene::new(Link { length: 0.4, mass: 0.3, bending_stiffness: 4000.0 });
+    scene.hub = Hub { radius: 0.1, inertia: 0.01 };
+    scene.payload = Payload { mass: 0.2, inertia: 0.0 };
+    scene.gravity = 9.81;
+    let hold = [Move::Dwell { duration: 0.2 }];
+    let motion = Moves::new(0.0, &hold, 0.01).expect("motion");
+    let rigid = Rigid::<f32>::new(&scene, 0.01).expect("rigid");
+    let seen = assess(&scene, rigid, &motion, &mut |_| ()).expect("assessment");
+    let torque = 9.81 * (0.3 * 0.3 + 0.2 * 0.5);
+    let moment = 9.81 * (0.3 * 0.2 + 0.2 * 0.4);
+    assert!((seen.peak_torque / torque - 1.0).abs() < 1e-3, "{seen:?}, {torque}");
+    assert!((seen.peak_moment / moment - 1.0).abs() < 1e-3, "{seen:?}, {moment}");
+    assert!(seen.torque < 1e-3 && seen.tip < 1e-3, "{seen:?}");
+}
+
+/// The exact rod's steps are bounded for many moves, for stiff arms and for long rests.
+#[test]
+fn a_choice_takes_a_bounded_number_of_steps() {
+    let turn = |to, duration| Move::To { profile: Profile::Quintic, duration, to };
+    let soft = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.46 });
+    let stiff = Scene::new(Link { length: 0.2, mass: 0.6, bending_stiffness: 3000.0 });
+    let damped = Scene { damping: Damping { alpha: 0.5, beta: 0.002 }, ..soft };
+    let mut many = Vec::new();
+    for k in 0..40 {
+        many.push(turn(f64::from(1 - k % 2), 0.7));
+        many.push(Move::Dwell { duration: 0.3 });
+    }
+    let long = [turn(1.0, 100.0)];
+    let rest = [turn(1.0, 0.5), Move::Dwell { duration: 1000.0 }];
+    let cases: [(&str, Scene, &[Move], u32); 3] = [
+        ("forty moves", soft, &many, 2 * 61_000),
+        ("a stiff arm", stiff, &long, 2 * 330_000),
+        ("a long rest", damped, &rest, 2 * 61_000),
+    ];
+    for (what, scene, moves, most) in cases {
+        let motion = Moves::new(0.0, moves, 0.01).expect("motion");
+        let mut done = 0.0;
+        let choice = choose(&scene, 0.01, &motion, &Tolerance::default(), &mut |part| {
+            assert!(part >= done && part <= 1.0, "{what}: {part} after {done}");
+            done = part;
+        });
+        let steps = choice.expect("choice").expected.steps;
+        assert!(steps <= most, "{what}: {steps} steps");
+        assert!(done > 0.4, "{what}: {done}");
+    }
+}
+
+#[test]
+fn a_scene_that_names_no_method_gets_auto() {
+    let solver = SolverKeys::default().resolve().expect("solver");
+    assert_eq!((solver, solver.method), (Solver::default(), Method::Auto));
 }

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 use stillbeam::beam::{EightElements, Rod};
-use stillbeam::motion::{Hub, Kink};
+use stillbeam::motion::{Hub, Kink, Peaks};
 use stillbeam::stepper::{Elastica, Modal, Quality as Work, Response, Stepper};
-use stillbeam::{Generator, Link, Move, Profile, Scalar as Real, Scene, Setpoint};
+use stillbeam::{Error, Generator, Link, Move, Profile, Scalar as Real, Scene, Setpoint};
 use stillbeam_sim::compare::{Comparison, compare};
 use stillbeam_sim::run::run;
 use stillbeam_sim::solver::{Method, Quality, Scalar, Solver};
@@ -28,7 +28,7 @@ fn tip_errors_at_ten_milliseconds_in_f32() {
     ];
     for (name, bounds) in bounds {
         let error = |method, modes, quality| {
-            let solver = Solver { method, modes, quality, elements: 8, ..Solver::default() };
+            let solver = Solver { method, modes, quality, elements: 8, ..Solver::PAPER };
             against_truth(name, &solver).tip_max
         };
         let errors = [
@@ -48,7 +48,7 @@ fn tip_errors_at_ten_milliseconds_in_f32() {
 fn elastica_torque_is_within_half_a_percent() {
     // 0.57, 0.14, 0.10, 0.02, 0.01, 0.33 % were measured.
     for name in stillbeam_tests::TRUTH_SCENES {
-        let solver = Solver { method: Method::Elastica, ..Solver::default() };
+        let solver = Solver { method: Method::Elastica, ..Solver::PAPER };
         let torque = against_truth(name, &solver).torque;
         let bound = if name == "d-fast" { 0.01 } else { 0.005 };
         assert!(torque <= bound, "{name}: {torque}");
@@ -68,7 +68,7 @@ fn a_linear_mode_is_exact_for_any_tick() {
             spin: false,
             scalar: Scalar::F64,
             tick,
-            ..Solver::default()
+            ..Solver::PAPER
         };
         run(&scene, &solver).expect("run")
     };
@@ -118,15 +118,26 @@ fn nonsense_is_refused() {
     assert!(error.to_string().starts_with("elements"), "{error}");
 }
 
-/// A stepper that takes on what it was not set up for.
+/// A stepper that takes on what it was not set up for, and is else the one inside it.
 struct Unguarded<S>(S);
 
 impl<S: Stepper> Stepper for Unguarded<S> {
     type Scalar = S::Scalar;
     type State = S::State;
 
+    const PLAIN: bool = S::PLAIN;
+    const RESTS: bool = S::RESTS;
+
     fn tick(&self) -> f64 {
         self.0.tick()
+    }
+
+    fn is_directed(&self) -> bool {
+        self.0.is_directed()
+    }
+
+    fn admit(&self, _: &Peaks, _: f64) -> Result<(), Error> {
+        Ok(())
     }
 
     fn equilibrium(&self, hub: &Hub<S::Scalar>) -> S::State {
@@ -137,12 +148,37 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         self.0.step(state, before, after);
     }
 
+    fn is_plain(&self, rate: S::Scalar) -> bool {
+        self.0.is_plain(rate)
+    }
+
+    fn advance_in_cubic(
+        &self,
+        state: &mut S::State,
+        before: &Hub<S::Scalar>,
+        after: &Hub<S::Scalar>,
+    ) -> Response<S::Scalar> {
+        self.0.advance_in_cubic(state, before, after)
+    }
+
+    fn swing(&self, state: &mut S::State, hub: &Hub<S::Scalar>) {
+        self.0.swing(state, hub);
+    }
+
+    fn response_at_rest(&self, state: &S::State, hub: &Hub<S::Scalar>) -> Response<S::Scalar> {
+        self.0.response_at_rest(state, hub)
+    }
+
     fn shift(&self, state: &mut S::State, moment: S::Scalar) {
         self.0.shift(state, moment);
     }
 
     fn kink(&self, state: &mut S::State, kink: &Kink<S::Scalar>) {
         self.0.kink(state, kink);
+    }
+
+    fn is_settled(&self, state: &S::State) -> bool {
+        self.0.is_settled(state)
     }
 
     fn response(&self, state: &S::State, hub: &Hub<S::Scalar>) -> Response<S::Scalar> {
@@ -160,6 +196,17 @@ fn finite<T: Real>(run: &[Setpoint<T>]) -> bool {
     run.iter().all(|s| {
         [s.rate, s.acceleration, s.torque, s.tip[0], s.tip[1]].iter().all(|x| x.is_finite())
     })
+}
+
+/// The wrapper runs the code that ships: a move that the stepper admits gives the same setpoints
+/// with it and without, through cubics and the ringing after them.
+#[test]
+fn an_unguarded_stepper_ticks_as_the_guarded_one() {
+    let (scene, _) = truth("a-tip30");
+    let rod = Rod::<2>::new(&scene.arm).expect("rod");
+    let stepper = Elastica::<f32, 2>::new(&rod, 0.01, Work::Fine, 1.0).expect("stepper");
+    let motion = Move::To { profile: Profile::Cubic, duration: 2.0, to: 1.0 };
+    assert_eq!(drive(stepper, &motion), drive(Unguarded(stepper), &motion));
 }
 
 proptest! {

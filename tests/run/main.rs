@@ -1,6 +1,7 @@
 //! Whole runs: against truth, against finer steps, against the law of energy, and on random arms.
 
 mod auto;
+mod auto_bits;
 mod convergence;
 mod energy;
 mod exact;

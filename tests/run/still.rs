@@ -47,7 +47,7 @@ fn a_scene_file_plans_its_still_moves() {
         .map(|row| row.deflection_m.abs() / 0.4)
         .fold(0.0, f64::max);
     assert!(ringing < 0.001, "{ringing}");
-    let solver = Solver { method: Method::Elastica, ..Solver::default() };
+    let solver = Solver { method: Method::Elastica, ..Solver::PAPER };
     let ours = run::run(&scene, &solver).expect("a run");
     assert_eq!(ours.len(), rows.len());
     for word in ["duration = 0.05", "robust = 0.9", "rate = 1.0"] {
@@ -97,7 +97,7 @@ fn a_scene_file_shapes_its_moves() {
         let trajectory = scene.trajectory(0.01).expect("a motion");
         let times = truth::times(&trajectory, 0.01);
         let rod = truth::solve(truth::Reference::Rod, &scene, &trajectory, &times, &|_| ());
-        let solver = Solver { method: Method::Elastica, ..Solver::default() };
+        let solver = Solver { method: Method::Elastica, ..Solver::PAPER };
         let ours = run::run(&scene, &solver).expect("a run");
         let apart = compare::compare(&ours, &rod.expect("a run"), &scene).expect("one scene");
         assert!(apart.tip_max < 1e-3, "{shaper}: {apart:?}");

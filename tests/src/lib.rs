@@ -42,7 +42,7 @@ pub fn truth(name: &str) -> (SceneFile, Vec<Row>) {
 
 /// Newmark with consistent mass.
 pub fn newmark(elements: usize, tick: f64, scalar: Scalar) -> Solver {
-    Solver { elements, mass: Mass::Consistent, tick, scalar, ..Solver::default() }
+    Solver { elements, mass: Mass::Consistent, tick, scalar, ..Solver::PAPER }
 }
 
 /// Asserts `|value − expected| ≤ tolerance` and says by how much it fails.

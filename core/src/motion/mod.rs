@@ -2,6 +2,7 @@
 //! [`Limits`] and cut into [`Segment`]s that cost a few multiplications a tick.
 
 mod angle;
+mod commanded;
 mod curve;
 mod limits;
 mod plan;
@@ -11,6 +12,7 @@ mod shaper;
 pub mod still;
 
 pub use angle::Angle;
+pub use commanded::{Commanded, Moves, Stretch};
 pub use curve::BULGE;
 pub use limits::{Limits, Peaks};
 pub(crate) use plan::lay;

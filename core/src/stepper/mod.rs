@@ -11,7 +11,7 @@ mod oscillator;
 mod rigid;
 mod terms;
 
-pub use auto::{Auto, AutoState, Choice, Rung};
+pub use auto::{Assessment, Auto, AutoState, Choice, NoChoice, Rung, Tolerance, assess, choose};
 pub use elastica::{Elastica, ElasticaState, Flex, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, Vibration};
@@ -33,8 +33,11 @@ pub struct Response<T> {
 
 /// Advances an arm whose hub follows a commanded motion.
 ///
-/// `step` and `response` are the tick path: no allocation, no panic, no `Result`, a fixed number of
-/// operations for a given stepper.
+/// The methods marked `inline(always)` in the implementations are the tick path: no allocation, no
+/// panic, no `Result`, a fixed number of operations for a given stepper.
+///
+/// No method and no constant has a default. A wrapper that left one out would still run, but on other
+/// paths than the stepper inside it: with other bits, and with energy that the inner one does not gain.
 pub trait Stepper {
     /// The scalar of the tick.
     type Scalar: Scalar;
@@ -42,21 +45,24 @@ pub trait Stepper {
     /// What changes from tick to tick.
     type State: Copy;
 
+    /// True if there are plain ticks at all, see [`Self::is_plain`]. The generator holds no code for
+    /// those of a stepper that has none.
+    const PLAIN: bool;
+
+    /// True if the ticks of a hub at rest are advanced by [`Self::swing`] and answered by
+    /// [`Self::response_at_rest`].
+    const RESTS: bool;
+
     /// h, s.
     fn tick(&self) -> f64;
 
-    /// Whether the arm feels where down is. If not, the hubs that `step` and `response` are given
-    /// hold no sine and cosine, which then cost nothing.
-    #[inline(always)]
-    fn is_directed(&self) -> bool {
-        true
-    }
+    /// True if gravity acts on the arm. If not, the hubs that [`Self::step`] and [`Self::response`] are
+    /// given hold no sine and cosine, which then cost nothing.
+    fn is_directed(&self) -> bool;
 
-    /// Whether a move with these peaks, after which the hub goes on turning at `held` rad/s, is one that
-    /// the stepper was set up for. Not for the tick.
-    fn admit(&self, _peaks: &Peaks, _held: f64) -> Result<(), Error> {
-        Ok(())
-    }
+    /// Refuses a move with these peaks, after which the hub goes on turning at `held` rad/s, if the
+    /// stepper was not set up for it. Not for the tick.
+    fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error>;
 
     /// Static equilibrium with the hub at rest at `hub.angle`. Set-up only.
     fn equilibrium(&self, hub: &Hub<Self::Scalar>) -> Self::State;
@@ -64,71 +70,47 @@ pub trait Stepper {
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
     fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
 
-    /// Whether there are plain ticks at all, see [`Self::is_plain`]: a stepper that has none takes no
-    /// room for them.
-    const PLAIN: bool = false;
+    /// True if the ticks of a cubic in which `|θ̇|` is at most `rate` may be advanced by
+    /// [`Self::advance_in_cubic`]. Asked once a segment. Only an arm without gravity has plain ticks,
+    /// see [`Self::is_directed`].
+    fn is_plain(&self, rate: Self::Scalar) -> bool;
 
-    /// Whether the ticks of a hub at rest are advanced by [`Self::swing`], likewise.
-    const RESTS: bool = Self::PLAIN;
-
-    /// Whether the scene leaves so little to do that the ticks inside a cubic, in which `|θ̇|` is at most
-    /// `rate`, are to be advanced by [`Self::advance_in_cubic`]: asked once a segment. Only of an arm
-    /// that is not [directed](Self::is_directed).
-    #[inline(always)]
-    fn is_plain(&self, _rate: Self::Scalar) -> bool {
-        false
-    }
-
-    /// [`Self::step`] and [`Self::response`] in one, where θ̈ is a straight line from the beginning of
-    /// the tick to its end: the tick that most ticks are, inlined into [`Generator::tick`]. A stepper
-    /// that is plain says here what it takes then; what it returns is the response to `after`, but for
-    /// rounding.
+    /// Does [`Self::step`] and [`Self::response`] in one, where θ̈ is a straight line from the beginning of
+    /// the tick to its end: the tick that most ticks are, inlined into [`Generator::tick`]. Returns the
+    /// response to `after`, but for rounding.
     ///
     /// [`Generator::tick`]: crate::Generator::tick
-    #[inline(always)]
     fn advance_in_cubic(
         &self,
         state: &mut Self::State,
         before: &Hub<Self::Scalar>,
         after: &Hub<Self::Scalar>,
-    ) -> Response<Self::Scalar> {
-        self.step(state, before, after);
-        self.response(state, after)
-    }
+    ) -> Response<Self::Scalar>;
 
-    /// [`Self::step`] where the hub has been at rest and stays so, in any scene.
-    #[inline(always)]
-    fn swing(&self, state: &mut Self::State, hub: &Hub<Self::Scalar>) {
-        self.step(state, hub, hub);
-    }
+    /// Does [`Self::step`] where the hub has been at rest and stays so, in any scene.
+    fn swing(&self, state: &mut Self::State, hub: &Hub<Self::Scalar>);
 
-    /// [`Self::response`] to a hub at rest.
-    #[inline(always)]
+    /// Does [`Self::response`] for a hub at rest.
     fn response_at_rest(
         &self,
         state: &Self::State,
         hub: &Hub<Self::Scalar>,
-    ) -> Response<Self::Scalar> {
-        self.response(state, hub)
-    }
+    ) -> Response<Self::Scalar>;
 
-    /// Called before the [`Self::step`] of a tick in which the commanded acceleration jumps or
-    /// kinks between the ticks: `moment` is by how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola
-    /// with the mean and the ends that `step` is given, rad/s², `s` the fraction of the tick. Steppers that take the rates
-    /// only have nothing to do.
-    fn shift(&self, _state: &mut Self::State, _moment: Self::Scalar) {}
+    /// Prepares the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks between
+    /// the ticks. `moment` is by how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola with the mean
+    /// and the ends that `step` is given, rad/s²; `s` is the fraction of the tick. Steppers that take
+    /// the rates only do nothing here.
+    fn shift(&self, state: &mut Self::State, moment: Self::Scalar);
 
     /// Takes in the jumps that a shaper's delays put inside the tick that the coming [`Self::step`]
     /// advances by. [`Shaped::advance`](crate::motion::Shaped::advance) calls it before that step, in
     /// ticks that hold a jump only.
     fn kink(&self, state: &mut Self::State, kink: &Kink<Self::Scalar>);
 
-    /// Whether the arm, its hub at rest, moves by less than [`SLEEP`] of its length from where it
+    /// True if the arm, its hub at rest, moves by less than [`SLEEP`] of its length from where it
     /// rests: it may then be left as it is, and goes on from there.
-    #[inline(always)]
-    fn is_settled(&self, _state: &Self::State) -> bool {
-        false
-    }
+    fn is_settled(&self, state: &Self::State) -> bool;
 
     /// Hub torque and tip for a state and the hub at the same instant.
     fn response(&self, state: &Self::State, hub: &Hub<Self::Scalar>) -> Response<Self::Scalar>;

@@ -3,7 +3,7 @@
 use super::{Response, Stepper};
 use crate::Error;
 use crate::math::{Scalar, round};
-use crate::motion::{Hub, Kink};
+use crate::motion::{Hub, Kink, Peaks};
 use crate::scene::Scene;
 
 /// Rigid arm: `τ = (J_h + J_r)θ̈ + J_r αθ̇ + g cosθ S`, the tip at `(r + L, 0)`.
@@ -46,6 +46,12 @@ impl<T: Scalar> Stepper for Rigid<T> {
     }
 
     const PLAIN: bool = true;
+    const RESTS: bool = true;
+
+    /// Carries any move: it has no state that could run away.
+    fn admit(&self, _: &Peaks, _: f64) -> Result<(), Error> {
+        Ok(())
+    }
 
     #[inline(always)]
     fn is_plain(&self, _: T) -> bool {
@@ -64,6 +70,16 @@ impl<T: Scalar> Stepper for Rigid<T> {
 
     /// An arm that does not bend keeps nothing of it.
     fn kink(&self, (): &mut (), _: &Kink<T>) {}
+
+    #[inline(always)]
+    fn swing(&self, (): &mut (), _: &Hub<T>) {}
+
+    #[inline(always)]
+    fn response_at_rest(&self, (): &(), hub: &Hub<T>) -> Response<T> {
+        self.response(&(), hub)
+    }
+
+    fn shift(&self, (): &mut (), _: T) {}
 
     #[inline(always)]
     fn is_settled(&self, (): &()) -> bool {

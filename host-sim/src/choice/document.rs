@@ -43,13 +43,15 @@ pub fn page(seed: u64, verdicts: &[Verdict]) -> String {
 fn introduction(summary: &Summary, seed: u64) -> String {
     format!(
         "# How good the choices of `auto` are\n\n\
-         `Auto::choose` is given an arm, its moves, the tick and a tolerance, a fraction of the link's \
-         length. It tries the rungs of a ladder, cheapest tick first, on the moves themselves beside the \
-         exact rod in six modes and small steps, takes the first that stays within the tolerance, and \
-         says what error to expect. Here {} random arms, seed {seed}, are judged by the reference rod \
-         of the host, which shares no method with it: {} of {} choices err by more than the tolerance \
-         (wanted: fewer than 1 in 1,000), {} are at most one rung above the cheapest that met it \
-         (wanted: 99 %). This page is written whole by a command.\n",
+         `Auto::choose` is given an arm, its moves, the tick and two tolerances: of the tip, a fraction of \
+         the link's length, and of the torque, a fraction of its peak. It tries the rungs of a ladder, \
+         cheapest tick first, on the moves themselves beside the exact rod in six modes and small steps, \
+         takes the first that keeps both tolerances, and says what errors to expect. Torques are \
+         compared at the ticks; those less than one and a half ticks from a jump of the commanded \
+         acceleration are left out, as in `compare`. Here {} random arms, seed {seed}, are judged by the \
+         reference rod of the host, which shares no method with it: {} of {} choices err by more than a \
+         tolerance (wanted: fewer than 1 in 1,000), {} are at most one rung above the cheapest that met \
+         both (wanted: 99 %). This page is written whole by a command.\n",
         thousands(summary.arms),
         thousands(summary.exceeded),
         thousands(summary.choices()),
@@ -64,15 +66,17 @@ fn outcomes(summary: &Summary) -> String {
         lines.push(line(what, &thousands(n), &percent(n, of)));
     };
     add("chosen", choices, summary.arms);
-    add("… true error above the tolerance", summary.exceeded, choices);
+    add("… a true error above its tolerance", summary.exceeded, choices);
+    add("… of these, the torque's", summary.torque_exceeded, choices);
+    add("… the torque is nearer to its tolerance than the tip", summary.torque_decides, choices);
     add("… true error above the expected one", summary.underestimated, choices);
-    add("… the cheapest rung that met the tolerance", summary.too_dear[0], choices);
+    add("… the cheapest rung that met both tolerances", summary.too_dear[0], choices);
     add("… one rung above it", summary.too_dear[1], choices);
     add("… two rungs or more", choices - summary.at_most_one_too_dear(), choices);
-    add("refused: no rung is expected to be within the tolerance", summary.tolerance, summary.arms);
+    add("refused: no rung is expected to keep both tolerances", summary.tolerance, summary.arms);
     add("refused: bends too far for the exact kinematics", summary.bends, summary.arms);
     add("refused: the finest rung cannot be set up", summary.other, summary.arms);
-    add("… of all refused, a rung met the tolerance", summary.needless, summary.arms);
+    add("… of all refused, a rung met both tolerances", summary.needless, summary.arms);
     format!("## What came out\n\n{}", table(&lines))
 }
 
@@ -108,20 +112,20 @@ fn rungs(summary: &Summary) -> String {
 
 fn set_up(verdicts: &[Verdict]) -> String {
     let choices = || verdicts.iter().filter_map(|verdict| verdict.choice.as_ref().ok());
-    let mut steps: Vec<u32> = choices().map(|choice| choice.steps).collect();
+    let mut steps: Vec<u32> = choices().map(|choice| choice.expected.steps).collect();
     let mut a_tick: Vec<f64> = verdicts
         .iter()
-        .filter_map(|v| Some(f64::from(v.choice.as_ref().ok()?.steps) / v.ticks as f64))
+        .filter_map(|v| Some(f64::from(v.choice.as_ref().ok()?.expected.steps) / v.ticks as f64))
         .collect();
     steps.sort_unstable();
     a_tick.sort_unstable_by(f64::total_cmp);
     let [some, many] = [0.5, 0.99].map(|part| thousands(quantile(&steps, part) as usize));
     let [few, lots] = [0.5, 0.99].map(|part| quantile(&a_tick, part));
     format!(
-        "## What the choice costs at set-up\n\nIts steps are counted in `Choice::steps`: {some} for the \
+        "## What the choice costs at set-up\n\nIts steps are counted in `Choice::expected.steps`: {some} for the \
          median arm, {many} for all but one in a hundred; {few:.0} and {lots:.0} for each tick of the \
-         moves, all rungs that were tried taken together. A step is four evaluations of the six-mode rod, \
-         each some 2,200 multiplications and as many additions in f32; the ticks of the rungs beside it \
+         moves; the exact rod flies once for the first four rungs and once more if none of them is good enough. A step is four evaluations of the six-mode rod, \
+         each some 2,400 multiplications and as many additions in f32; the ticks of the rungs beside it \
          are small against that. It was not counted on the target: at two instructions an operation it \
          would be 35,000 a step, a second for 4,800 steps at 168 MHz. It needs no heap. A firmware that \
          knows its moves lets the host choose, `run --method auto`, and links the rung.\n"
@@ -186,8 +190,8 @@ pub fn picture(verdicts: &[Verdict]) -> Result<String, Error> {
 /// True and expected error over tolerance of every choice.
 fn ratios(verdicts: &[Verdict]) -> impl Iterator<Item = [f64; 2]> {
     verdicts.iter().filter_map(|verdict| {
-        let expected = verdict.choice.as_ref().ok()?.error;
-        Some([verdict.error()?, expected].map(|error| error / verdict.tolerance))
+        let expected = verdict.choice.as_ref().ok()?.expected.excess(&verdict.tolerance);
+        Some([verdict.error()?, expected])
     })
 }
 

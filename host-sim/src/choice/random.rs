@@ -6,6 +6,7 @@ use rand::rngs::StdRng;
 use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
 use stillbeam::motion::Still;
+use stillbeam::stepper::Tolerance;
 use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 
 use crate::error::Error;
@@ -34,7 +35,7 @@ pub const DISTRIBUTION: &[(&str, &str)] = &[
                4 in 10 a dwell of up to 2 first periods; one arm in 8 spins up instead, to as \
                much as 4 rad a first period and half a radian a tick, and down again",
     ),
-    ("tolerance", "2e-4 to 5e-2 of L"),
+    ("tolerances", "2e-4 to 5e-2 of L, 3e-3 to 0.1 of the torque's peak"),
 ];
 
 /// An arm, what it does and what is asked of `auto`.
@@ -50,8 +51,8 @@ pub struct Case {
     pub from: f64,
     /// From rest to rest.
     pub moves: Vec<Move>,
-    /// Fraction of L.
-    pub tolerance: f64,
+    /// Of the tip and of the torque.
+    pub tolerance: Tolerance,
 }
 
 /// Uniform in the logarithm.
@@ -68,7 +69,8 @@ impl Case {
         let period = rod::first_period(&arm)?;
         let tick = log(rng, 0.002, 0.020);
         let from = if arm.gravity > 0.0 { rng.random_range(-PI..PI) } else { 0.0 };
-        let mut case = Self { arm, period, tick, from, moves: Vec::new(), tolerance: 0.0 };
+        let mut case =
+            Self { arm, period, tick, from, moves: Vec::new(), tolerance: Tolerance::default() };
         if rng.random_bool(0.125) {
             // Half a radian a tick at most.
             let rate = rng.random_range(-1.0..1.0) * f64::min(4.0 / period, 0.5 / tick);
@@ -86,7 +88,8 @@ impl Case {
                 at = to;
             }
         }
-        case.tolerance = log(rng, 2e-4, 5e-2);
+        case.tolerance.tip = log(rng, 2e-4, 5e-2);
+        case.tolerance.torque = log(rng, 3e-3, 0.1);
         Ok(case)
     }
 

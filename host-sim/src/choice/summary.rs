@@ -18,6 +18,10 @@ pub struct Summary {
     pub too_dear: [usize; Rung::LADDER.len()],
     /// Chosen, true error above the tolerance.
     pub exceeded: usize,
+    /// Of these, those whose torque errs by more than its tolerance.
+    pub torque_exceeded: usize,
+    /// Chosen, the torque's error the larger one, each over its tolerance.
+    pub torque_decides: usize,
     /// Chosen, true error above the expected one.
     pub underestimated: usize,
     /// Refused: no rung within the tolerance.
@@ -54,7 +58,9 @@ impl Summary {
             refused(|error| matches!(error, CoreError::Tolerance { .. })),
             refused(|error| matches!(error, CoreError::BendsTooFar { .. })),
         );
-        let expected = |verdict: &Verdict| verdict.choice.as_ref().ok().map(|choice| choice.error);
+        let expected = |verdict: &Verdict| {
+            verdict.choice.as_ref().ok().map(|choice| choice.expected.excess(&verdict.tolerance))
+        };
         let doubts = || verdicts.iter().filter_map(|v| v.doubt);
         Self {
             arms: verdicts.len(),
@@ -62,6 +68,8 @@ impl Summary {
             cheapest: by_rung(&Verdict::cheapest),
             too_dear: by_place(&Verdict::rungs_too_dear),
             exceeded: count(&Verdict::exceeds),
+            torque_exceeded: count(&|v| v.parts.is_some_and(|[_, torque]| torque > 1.0)),
+            torque_decides: count(&|v| v.parts.is_some_and(|[tip, torque]| torque > tip)),
             underestimated: count(&|verdict| {
                 verdict
                     .error()
@@ -88,7 +96,7 @@ impl Summary {
         self.too_dear[0] + self.too_dear[1]
     }
 
-    /// Whether fewer than 1 in 1,000 choices exceed the tolerance and 99 in 100 are at most one rung
+    /// True if fewer than 1 in 1,000 choices exceed the tolerance and 99 in 100 are at most one rung
     /// too dear.
     pub fn holds(&self) -> bool {
         1000 * self.exceeded < self.choices()

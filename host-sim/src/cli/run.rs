@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use stillbeam::stepper::{Assessment, Choice, Tolerance};
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::solver::{Method, SolverKeys};
+use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
 use stillbeam_sim::{model_choice, run, table};
 
@@ -40,16 +42,20 @@ impl RunArgs {
         for line in scene.roundings(solver.tick)? {
             super::note(&line);
         }
-        let rows = run::run(&scene, &solver)?;
+        let keys = typed.or(scene.solver);
+        let choice = match solver.method {
+            Method::Auto => Some(chosen(&scene, &solver, &keys)?),
+            _ => {
+                remark(&scene, &solver);
+                None
+            }
+        };
+        let rows = run::run_chosen(&scene, &solver, choice.as_ref())?;
         table::write(&self.csv, &rows)?;
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
-        if solver.method == Method::Auto {
-            let (_, choice) = model_choice::auto::<f32>(&scene, &solver)?;
-            println!(
-                "  chose            {} (expected error {:.1e} of L)",
-                choice.rung, choice.error
-            );
+        if let Some(Choice { rung, expected, .. }) = choice {
+            println!("  chose            {rung} (expected error {})", errors(&expected));
         }
         println!("  {} setpoints to {}", rows.len(), self.csv.display());
         println!("  peak torque      {:.4} N m", peak(|row| row.torque_nm.abs()));
@@ -71,4 +77,60 @@ impl RunArgs {
         }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// What `auto` chooses. Tolerances that nobody asked for are no reason not to run: then the rung that
+/// comes nearest to them is taken, and that is said.
+fn chosen(scene: &SceneFile, solver: &Solver, keys: &SolverKeys) -> Result<Choice, Error> {
+    let none = match model_choice::choose(scene, solver)? {
+        Ok(choice) => return Ok(choice),
+        Err(none) => none,
+    };
+    let asked =
+        keys.method.is_some() || keys.tolerance.is_some() || keys.torque_tolerance.is_some();
+    let Some(nearest) = none.nearest.filter(|_| !asked) else { return Err(none.error.into()) };
+    eprintln!(
+        "note: no method keeps {} of L and {} of the torque's peak here; {} comes nearest, with {}",
+        solver.tolerance,
+        solver.torque_tolerance,
+        nearest.rung,
+        errors(&nearest.expected)
+    );
+    Ok(nearest)
+}
+
+/// Errors above which a method that is named by hand is remarked on.
+const REMARKABLE: Tolerance = Tolerance { tip: 0.01, torque: 0.05 };
+
+/// Says in one line if the method is expected to err by more than [`REMARKABLE`], and which would not.
+fn remark(scene: &SceneFile, solver: &Solver) {
+    // A method that is refused says so itself when it is run.
+    let Ok(expected) = model_choice::assess(scene, solver) else { return };
+    if expected.excess(&REMARKABLE) <= 1.0 {
+        return;
+    }
+    let (tolerance, torque_tolerance) = (Solver::PAPER.tolerance, Solver::PAPER.torque_tolerance);
+    let auto = Solver { method: Method::Auto, tolerance, torque_tolerance, ..*solver };
+    let better = match model_choice::choose(scene, &auto) {
+        Ok(Ok(choice)) => Some(choice),
+        Ok(Err(none)) => none.nearest,
+        Err(_) => None,
+    };
+    let excess = |choice: &Choice| choice.expected.excess(&REMARKABLE);
+    let advice = match better.filter(|choice| excess(choice) < expected.excess(&REMARKABLE)) {
+        Some(choice) => {
+            format!("auto would take {}, with {}", choice.rung, errors(&choice.expected))
+        }
+        None => "no method does better at this tick; a shorter one may".to_owned(),
+    };
+    eprintln!(
+        "note: {} is expected to err by {}; {advice}",
+        solver.method.name(),
+        errors(&expected)
+    );
+}
+
+/// In words, e.g. `4.0e-4 of L, 0.2 % of the torque's peak`.
+fn errors(expected: &Assessment) -> String {
+    format!("{:.1e} of L, {:.2} % of the torque's peak", expected.tip, 100.0 * expected.torque)
 }

@@ -21,7 +21,7 @@ pub struct Map {
 
 /// What is mapped: a word for files and the solver, its tick left open.
 pub fn solvers() -> [(&'static str, Solver); 6] {
-    let newmark = Solver { method: Method::Newmark, scalar: Scalar::F32, ..Solver::default() };
+    let newmark = Solver { method: Method::Newmark, scalar: Scalar::F32, ..Solver::PAPER };
     let modal = Solver { method: Method::Modal, elements: 8, ..newmark };
     let elastica = Solver { method: Method::Elastica, ..newmark };
     [
@@ -123,7 +123,7 @@ pub fn trapezoidal() -> Result<Map, Error> {
             return Ok(Verdict::Unstable);
         };
         let found: Vec<f64> = samples.iter().map(|sample| sample.deflection).collect();
-        let exact = Solver { method: Method::Elastica, tick, ..Solver::default() };
+        let exact = Solver { method: Method::Elastica, tick, ..Solver::PAPER };
         let truth = probe::truth(&arm, &exact, omega, Task::Spin(rate))?;
         Ok(probe::verdict(&found, &truth, 500))
     })?;

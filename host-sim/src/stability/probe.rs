@@ -125,7 +125,7 @@ pub fn truth(arm: &Scene, solver: &Solver, omega: f64, task: Task) -> Result<Vec
         quality: Quality::Fine,
         scalar: Scalar::F64,
         tick: solver.tick / finer,
-        ..Solver::default()
+        ..Solver::PAPER
     };
     let scene = scene(arm, omega, solver.tick, task, COMPARED);
     Ok(deflections(&scene, &fine)

@@ -17,7 +17,7 @@ use crate::solver::Solver;
 /// Scenes between two writes.
 const CHUNK: u64 = 10_000;
 
-/// A scene takes some milliseconds, and half a minute where `auto` tries a stiff arm for ten thousand ticks.
+/// A scene takes some milliseconds, and some seconds where `auto` tries a stiff arm for ten thousand ticks.
 /// One that takes this long hangs.
 const PATIENCE: Duration = Duration::from_secs(600);
 

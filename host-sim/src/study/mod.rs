@@ -21,7 +21,7 @@ use stillbeam::Move;
 use crate::compare;
 use crate::error::Error;
 use crate::scene_file::SceneFile;
-use crate::solver::{Solver, SolverKeys};
+use crate::solver::{Method, Solver, SolverKeys};
 use crate::table::Row;
 use crate::{run, scenes};
 
@@ -118,10 +118,11 @@ impl Run {
     }
 }
 
-/// An embedded scene; `keys` go over its own solver.
+/// An embedded scene; `keys` go over its own solver, and the paper's method is what neither names.
 fn scene(name: &str, keys: SolverKeys) -> Result<SceneFile, Error> {
     let scene = scenes::open(name)?;
-    Ok(SceneFile { solver: keys.or(scene.solver), ..scene })
+    let paper = SolverKeys { method: Some(Method::Newmark), ..SolverKeys::default() };
+    Ok(SceneFile { solver: keys.or(scene.solver).or(paper), ..scene })
 }
 
 /// The same scene with another profile and duration in its first move.

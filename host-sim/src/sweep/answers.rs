@@ -1,7 +1,7 @@
 //! What a choice costs, everything else equal: pairs of rows that differ in one key.
 
 use super::row::Row;
-use crate::solver::{Mass, Scalar, SolverKeys};
+use crate::solver::{Mass, Scalar, Solver, SolverKeys};
 use crate::table::significant;
 
 /// A choice that a reader has to make.
@@ -49,10 +49,10 @@ pub struct Answer<'a> {
     pub rows: [&'a Row; 2],
 }
 
-/// The solvers around which the questions are asked: the default, where the tick is long and the
+/// The solvers around which the questions are asked: the paper's, where the tick is long and the
 /// mesh coarse, and its opposite, where neither hides what the other choices do.
 pub fn bases() -> [SolverKeys; 2] {
-    let coarse = SolverKeys::default().relevant();
+    let coarse = SolverKeys::from(Solver::PAPER).relevant();
     [coarse, SolverKeys { elements: Some(4), tick: Some(0.001), ..coarse }]
 }
 

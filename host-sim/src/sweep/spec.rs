@@ -35,6 +35,8 @@ pub struct Grid {
     pub quality: Vec<Quality>,
     /// Errors that auto may make, fractions of L.
     pub tolerance: Vec<f64>,
+    /// Errors of the torque that auto may make, fractions of its peak.
+    pub torque_tolerance: Vec<f64>,
     /// Ticks, s.
     pub tick: Vec<f64>,
     /// Precisions.
@@ -88,6 +90,7 @@ impl Grid {
         cross(&mut all, &self.modes, |keys| &mut keys.modes);
         cross(&mut all, &self.quality, |keys| &mut keys.quality);
         cross(&mut all, &self.tolerance, |keys| &mut keys.tolerance);
+        cross(&mut all, &self.torque_tolerance, |keys| &mut keys.torque_tolerance);
         cross(&mut all, &self.spin, |keys| &mut keys.spin);
         cross(&mut all, &self.scalar, |keys| &mut keys.scalar);
         cross(&mut all, &self.tick, |keys| &mut keys.tick);
@@ -119,7 +122,7 @@ mod tests {
     #[test]
     fn only_what_a_method_reads_is_crossed() {
         let text = "scenes = [\"d-fast\"]\n[[grid]]\nmethod = [\"rigid\", \"newmark\"]\nelements = \
-                    [1, 2]\nspin = [true, false]\n[[grid]]\nelements = [2]";
+                    [1, 2]\nspin = [true, false]\n[[grid]]\nmethod = [\"newmark\"]\nelements = [2]";
         let solvers = Spec::parse("test", text).unwrap().solvers();
         assert_eq!(solvers.len(), 1 + 4, "{solvers:?}");
     }

@@ -38,6 +38,12 @@ impl<T: Scalar> Kink<T> {
         *self == Self::NONE
     }
 
+    /// Returns the same in another scalar.
+    pub(crate) fn cast<U: Scalar>(&self) -> Kink<U> {
+        let cast = |x: T| U::from_f64(x.to_f64());
+        Kink { moments: self.moments.map(cast), end: cast(self.end) }
+    }
+
     /// Adds jumps at `left` ticks, 0 to 1, before the end of the tick: of θ̈, rad/s², and of its first
     /// and second derivatives by the tick.
     pub(super) fn add(&mut self, left: T, jumps: [T; 3]) {

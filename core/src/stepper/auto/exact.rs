@@ -2,7 +2,7 @@
 
 use crate::beam::{POINTS, Rod};
 use crate::math::{Band, Scalar, cast, dot, round};
-use crate::motion::{Hub, Segment};
+use crate::motion::Hub;
 
 /// The points of the link, and the tip.
 const STATIONS: usize = POINTS + 1;
@@ -10,9 +10,23 @@ const STATIONS: usize = POINTS + 1;
 /// Most steps a tick.
 const MAX_STEPS: f64 = 128.0;
 
+/// Steps of a whole flight beyond which a step is made no shorter than the second mode asks for, nor
+/// than a [`FEWEST`]th of a tick. On a host they take a quarter of a second.
+const STEPS: f64 = 60_000.0;
+
+/// Steps a tick that are affordable however long the flight.
+const FEWEST: f64 = 32.0;
+
 /// What a step may turn a mode by, rad, and decay it by: the method bears 2.8. The second highest of
 /// six modes is held to it; the third then turns by 0.4, and its phase errs by 1e-4 of that.
 const MOST: f64 = 1.5;
+
+/// What a step may turn a mode by, rad, so that its ringing is followed rather than damped away: it
+/// then keeps 0.998 of itself.
+const RESOLVED: f64 = 0.8;
+
+/// Distance from rest, fraction of L, below which an arm whose hub rests is left as it is.
+const STILL: f64 = 1e-7;
 
 /// Halvings of the distance to the equilibrium.
 const EQUILIBRIUM_STEPS: usize = 60;
@@ -27,9 +41,13 @@ pub(super) struct Shape<T, const MODES: usize> {
 /// `φ = Σ aₖψₖ`, `X = r + ∫cos φ`, `Y = ∫sin φ` at eight Gauss points and the tip, Lagrange's
 /// equations without an expansion in `a`, classical Runge-Kutta of fourth order.
 ///
-/// The steps are made for the second highest mode. The highest, and where even [`MAX_STEPS`] a tick do
-/// not resolve a mode or its decay that one too, is given as much more inertia as makes it bearable:
-/// it still follows its load, many periods a tick.
+/// The steps are made for the second highest mode, or where a flight of so many ticks would take more
+/// than [`STEPS`] of them, for as high a mode as it affords, the second in most cases. Every mode that the steps
+/// do not resolve, or whose decay they do not, is given as much more inertia as makes it bearable: it
+/// still follows its load, many periods a tick.
+///
+/// Hub torque and clamp moment are those of the inertia forces, drag and weight about the axis and about
+/// the clamp, `τ = J_hθ̈ + ∫(X a_Y − Y a_X) dm + J_p α_L`, as the host's reference rod has them.
 pub(super) struct Exact<T, const MODES: usize> {
     steps_a_tick: f64,
     /// h, s.
@@ -50,17 +68,53 @@ pub(super) struct Exact<T, const MODES: usize> {
     radius: T,
     alpha: T,
     gravity: T,
+    /// `J_h`.
+    hub: T,
+    /// Tip deflection per unit of `aₖ` and `ωₖ⁻¹` of it, fractions of L: what a rate amounts to.
+    swing: [[T; 2]; MODES],
+    /// `b_k²` of the modes that the steps do not resolve, and of those that are left out, kg m².
+    unresolved: f64,
+}
+
+/// What acts on the arm at one instant.
+#[derive(Clone, Copy)]
+pub(super) struct Load<T> {
+    /// Hub torque, N m.
+    pub torque: T,
+    /// Bending moment at the clamp, N m.
+    pub moment: T,
+}
+
+/// Lagrange's equations `M ä = f` at one instant, and what follows from `ä`.
+struct Forces<T, const MODES: usize> {
+    mass: Band<T, MODES, MODES>,
+    force: [T; MODES],
+    /// The tip in the hub frame, m.
+    tip: [T; 2],
+    /// Moment about the axis and force across the hub at the clamp but for `ä`, and per unit of it.
+    fixed: [T; 2],
+    moving: [[T; MODES]; 2],
+}
+
+impl<T: Scalar, const MODES: usize> Forces<T, MODES> {
+    fn acceleration(&self) -> [T; MODES] {
+        self.mass.factor().solve(&self.force)
+    }
 }
 
 impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
-    /// For ticks of `tick` s.
-    pub fn new(rod: &Rod<MODES>, tick: f64) -> Self {
+    /// For `ticks` ticks of `tick` s.
+    pub fn new(rod: &Rod<MODES>, tick: f64, ticks: f64) -> Self {
         let (scene, rule) = (rod.scene(), rod.rule());
         let length = scene.link.length;
         let squared = rod.frequency().map(|omega| omega * omega);
         let loss = squared.map(|w2| scene.damping.beta * w2);
-        let fastest = rod.frequency()[MODES - 2].max(loss[MODES - 2]);
-        let steps = libm::ceil(tick * fastest / MOST).clamp(1.0, MAX_STEPS);
+        let wanted = |mode: usize| {
+            let fastest = rod.frequency()[mode].max(loss[mode]);
+            libm::ceil(tick * fastest / MOST).clamp(1.0, MAX_STEPS)
+        };
+        let affordable = wanted(1).min(FEWEST).max(libm::floor(STEPS / ticks.max(1.0)));
+        let steps = wanted(MODES - 2).min(affordable);
         let step = tick / steps;
         Self {
             steps_a_tick: steps,
@@ -85,15 +139,35 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             radius: round(scene.hub.radius),
             alpha: round(scene.damping.alpha),
             gravity: round(scene.gravity),
+            hub: round(scene.hub.inertia),
+            swing: core::array::from_fn(|k| {
+                let swing = rod.tip_swing()[k].abs() / length;
+                [T::from_f64(swing / rod.frequency()[k]), T::from_f64(swing / squared[k])]
+            }),
+            unresolved: {
+                let rest = rod.kinetics(&[0.0; MODES]);
+                let resolved = |k: usize| rod.frequency()[k] * step < RESOLVED;
+                let seen: f64 = (0..MODES)
+                    .filter(|&k| resolved(k))
+                    .map(|k| rest.coupling[k] * rest.coupling[k])
+                    .sum();
+                (rest.inertia - seen).max(0.0)
+            },
         }
     }
 
-    /// `(M, f)` of `M ä = f`, and the tip in the hub frame.
-    fn forces(
-        &self,
-        shape: &Shape<T, MODES>,
-        hub: &Hub<T>,
-    ) -> (Band<T, MODES, MODES>, [T; MODES], [T; 2]) {
+    /// h, s.
+    pub fn tick(&self) -> T {
+        T::from_f64(self.tick)
+    }
+
+    /// Inertia about the axis of the modes that ring, after a jump of the commanded acceleration, without
+    /// being seen here: `J − Σ bₖ²` over those that the steps resolve, kg m².
+    pub fn unresolved(&self) -> f64 {
+        self.unresolved
+    }
+
+    fn forces(&self, shape: &Shape<T, MODES>, hub: &Hub<T>) -> Forces<T, MODES> {
         let Shape { a, v } = shape;
         // What is integrated: ∂X/∂a, ∂Y/∂a, then X, Y and the centripetal parts of their second
         // derivatives.
@@ -129,6 +203,8 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             }
         }
         let mut tip = [T::ZERO; 2];
+        let mut fixed = [self.twist * turning, T::ZERO];
+        let mut moving = [self.tip_slope.map(|slope| self.twist * slope), [T::ZERO; MODES]];
         for s in 0..STATIONS {
             let row = &self.integral[s];
             let along: [T; MODES] = core::array::from_fn(|k| dot(row, &x_slope[k]));
@@ -144,7 +220,12 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
                 + alpha * (y_rate + omega * x)
                 + self.gravity * hub.cos;
             let (x_load, y_load) = (self.mass[s] * x_load, self.mass[s] * y_load);
+            let (x_mass, y_mass) = (self.mass[s] * tip[0], self.mass[s] * tip[1]);
+            fixed[0] += tip[0] * y_load - tip[1] * x_load;
+            fixed[1] += y_load;
             for k in 0..MODES {
+                moving[0][k] += x_mass * across[k] - y_mass * along[k];
+                moving[1][k] += self.mass[s] * across[k];
                 force[k] += -(along[k] * x_load + across[k] * y_load);
                 let (x, y) = (self.mass[s] * along[k], self.mass[s] * across[k]);
                 for j in 0..=k {
@@ -152,17 +233,28 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
                 }
             }
         }
-        (mass, force, tip)
+        Forces { mass, force, tip, fixed, moving }
     }
 
     fn acceleration(&self, shape: &Shape<T, MODES>, hub: &Hub<T>) -> [T; MODES] {
-        let (mass, force, _) = self.forces(shape, hub);
-        mass.factor().solve(&force)
+        self.forces(shape, hub).acceleration()
     }
 
-    /// The tip in the hub frame, m.
-    pub fn tip(&self, shape: &Shape<T, MODES>) -> [T; 2] {
-        self.forces(shape, &Hub::ZERO).2
+    /// Torque and moment, where `ä` is known.
+    fn load(&self, forces: &Forces<T, MODES>, a: &[T; MODES], hub: &Hub<T>) -> Load<T> {
+        let of = |i: usize| forces.fixed[i] + dot(&forces.moving[i], a);
+        let (about_axis, across) = (of(0), of(1));
+        Load {
+            torque: about_axis + self.hub * hub.acceleration,
+            moment: about_axis - self.radius * across,
+        }
+    }
+
+    /// The tip in the hub frame, m, and what acts on the arm. Where the acceleration jumps, that is of
+    /// the side that the hub is of.
+    pub fn answer(&self, shape: &Shape<T, MODES>, hub: &Hub<T>) -> ([T; 2], Load<T>) {
+        let forces = self.forces(shape, hub);
+        (forces.tip, self.load(&forces, &forces.acceleration(), hub))
     }
 
     /// Static equilibrium with the hub at rest: `Ω²a` is the load, half-way steps.
@@ -170,30 +262,41 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         let hub = Hub { rate: T::ZERO, acceleration: T::ZERO, ..*hub };
         let mut shape = Shape { a: [T::ZERO; MODES], v: [T::ZERO; MODES] };
         for _ in 0..EQUILIBRIUM_STEPS {
-            let (_, left, _) = self.forces(&shape, &hub);
+            let left = self.forces(&shape, &hub);
             for k in 0..MODES {
-                shape.a[k] += T::HALF * left[k] / self.stiffness[k];
+                shape.a[k] += T::HALF * left.force[k] / self.stiffness[k];
             }
         }
         shape
     }
 
-    /// Advances from `begin` to `end`, ticks of the segment, no more than one apart; in so many steps.
+    /// True if the arm, its hub at rest, moves by less than [`STILL`].
+    pub fn is_still(&self, shape: &Shape<T, MODES>, hub: &Hub<T>) -> bool {
+        let pull = self.acceleration(shape, hub);
+        let floor = T::from_f64(STILL);
+        (0..MODES).all(|k| {
+            let [fast, far] = self.swing[k];
+            let (v, pull) = (fast * shape.v[k], far * pull[k]);
+            v < floor && -v < floor && pull < floor && -pull < floor
+        })
+    }
+
+    /// Advances from `begin` to `end`, ticks no more than one apart, along a motion with one formula;
+    /// returns how many steps that took. `seen` is given the load at the beginning of every step.
     pub fn advance(
         &self,
         shape: &mut Shape<T, MODES>,
-        segment: &Segment<T>,
+        hub_at: &dyn Fn(f64) -> Hub<T>,
         begin: f64,
         end: f64,
+        seen: &mut dyn FnMut(Load<T>),
     ) -> u32 {
         let steps = libm::ceil((end - begin) * self.steps_a_tick - 1e-6);
         if steps < 1.0 {
             return 0;
         }
         let ticks = (end - begin) / steps;
-        let at = |half_steps: u32| {
-            segment.hub_at(T::from_f64(begin + 0.5 * f64::from(half_steps) * ticks))
-        };
+        let at = |half_steps: u32| hub_at(begin + 0.5 * f64::from(half_steps) * ticks);
         let (h, sixth) = (T::from_f64(ticks * self.tick), T::from_f64(ticks * self.tick / 6.0));
         let mut hub = at(0);
         for i in 0..steps as u32 {
@@ -204,7 +307,9 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             };
             let Shape { a, v } = *shape;
             let v1 = v;
-            let f1 = self.acceleration(shape, &hub);
+            let forces = self.forces(shape, &hub);
+            let f1 = forces.acceleration();
+            seen(self.load(&forces, &f1, &hub));
             let v2 = from(&v, &f1, half);
             let f2 = self.acceleration(&Shape { a: from(&a, &v1, half), v: v2 }, &middle);
             let v3 = from(&v, &f2, half);

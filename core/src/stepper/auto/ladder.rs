@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::trial::Outcome;
+use crate::Error;
 use crate::scene::{Damping, Scene};
 use crate::stepper::Quality;
 
@@ -68,22 +68,107 @@ impl fmt::Display for Rung {
     }
 }
 
-/// What [`Auto::choose`](super::Auto::choose) decided.
+/// What is asked of a choice: errors that it may make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Largest distance of the tip from the real one, fraction of L, 1e-6 to 1.
+    pub tip: f64,
+    /// Largest difference of the torque from the real one at the ticks, fraction of its peak, 1e-6 to
+    /// 1. Ticks less than one and a half ticks from a jump of the commanded acceleration are left out:
+    /// what the torque is there depends on how many modes are taken for all of them.
+    pub torque: f64,
+}
+
+impl Default for Tolerance {
+    /// 0.1 % of L and 1 % of the torque's peak.
+    fn default() -> Self {
+        Self { tip: 1e-3, torque: 1e-2 }
+    }
+}
+
+impl Tolerance {
+    /// The tolerances themselves if both are in range.
+    pub fn validate(self) -> Result<Self, Error> {
+        Error::check("solver.tolerance", self.tip, 1e-6, 1.0, "of the length")?;
+        Error::check("solver.torque_tolerance", self.torque, 1e-6, 1.0, "of the torque's peak")?;
+        Ok(self)
+    }
+}
+
+/// The errors to expect of a stepper on a motion, and the loads that the motion takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assessment {
+    /// Largest distance of the tip from the real one, fraction of L: the distance seen in the trial,
+    /// and a little for what the trial itself leaves out. Infinite where the stepper has no answer.
+    pub tip: f64,
+    /// Largest difference of the torque, fraction of its peak, as [`Tolerance::torque`] has it.
+    pub torque: f64,
+    /// Largest magnitude of the exact rod's hub torque, between the ticks too, N m.
+    pub peak_torque: f64,
+    /// Largest magnitude of the exact rod's bending moment at the clamp, between the ticks too, N m.
+    pub peak_moment: f64,
+    /// Steps of the exact rod that were taken to find it.
+    pub steps: u32,
+}
+
+impl Assessment {
+    /// The larger of the two errors, each over its tolerance: at most 1 where both are kept.
+    pub fn excess(&self, tolerance: &Tolerance) -> f64 {
+        (self.tip / tolerance.tip).max(self.torque / tolerance.torque)
+    }
+
+    /// The error for a tolerance that is not kept: the one that is exceeded by the larger factor.
+    pub(super) fn fault(&self, tolerance: &Tolerance) -> Error {
+        if self.tip / tolerance.tip >= self.torque / tolerance.torque {
+            let (tolerance, best) = (tolerance.tip, self.tip);
+            Error::Tolerance { parameter: "solver.tolerance", tolerance, best }
+        } else {
+            let (tolerance, best) = (tolerance.torque, self.torque);
+            Error::Tolerance { parameter: "solver.torque_tolerance", tolerance, best }
+        }
+    }
+}
+
+/// What a choice came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
     /// The cheapest that is good enough.
     pub rung: Rung,
-    /// Largest distance of its tip from the real one to expect, fraction of L: the distance seen in
-    /// the trial, and a little for what the trial itself leaves out.
-    pub error: f64,
+    /// The errors to expect of it; its steps are those of the whole choice, and what it cost.
+    pub expected: Assessment,
     /// Tip angle relative to the hub that it is set up for, rad.
     pub bend: f64,
-    /// Steps of the exact rod that were taken to find it: the cost of the choice.
-    pub steps: u32,
 }
 
-/// Error to expect of a rung, fraction of L: the distance from the exact rod, and what that leaves
-/// out, more polynomials and the rounding of long moves.
-pub(super) fn expected(outcome: &Outcome) -> f64 {
-    1.02 * outcome.distance + 2e-5 * outcome.deflection + 2e-6
+/// What was seen of a stepper beside the exact rod.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outcome {
+    /// Largest distance between the two tips, fraction of L; infinite where one of them has none.
+    pub distance: f64,
+    /// Largest deflection of the exact rod, fraction of L.
+    pub deflection: f64,
+    /// Largest difference of the torques away from jumps, N m; infinite likewise.
+    pub torque: f64,
+    /// Largest torque of the exact rod at the ticks, N m.
+    pub peak: f64,
+    /// Torque that modes which the exact rod does not follow may ring with, N m.
+    pub unseen: f64,
 }
+
+impl Outcome {
+    /// Error of the tip to expect, fraction of L: the distance from the exact rod, and what that leaves
+    /// out, more polynomials and the rounding of long moves.
+    pub fn tip(&self) -> f64 {
+        1.02 * self.distance + 2e-5 * self.deflection + 2e-6
+    }
+
+    /// Error of the torque to expect, fraction of its peak: the difference from the exact rod, and what
+    /// that leaves out, the modes that ring unseen and rounding.
+    pub fn torque(&self) -> f64 {
+        let apart = 1.02 * self.torque + UNSEEN * self.unseen;
+        if apart == 0.0 { 0.0 } else { apart / self.peak + 1e-4 }
+    }
+}
+
+/// Part of what the unseen modes can ring with that is met at a tick away from the jump.
+const UNSEEN: f64 = 0.5;

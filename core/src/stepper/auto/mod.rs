@@ -1,17 +1,20 @@
 //! The cheapest stepper that is good enough, chosen once for an arm and its moves.
 
+mod candidate;
+mod choose;
 mod exact;
 mod ladder;
+mod peak;
 mod trial;
 
-pub use ladder::{Choice, Rung};
+pub use choose::{NoChoice, assess, choose};
+pub use ladder::{Assessment, Choice, Rung, Tolerance};
 
-use super::{Elastica, ElasticaState, Modal, ModalState, Response, Rigid, Stepper, check_tick};
+use super::{Elastica, ElasticaState, Modal, ModalState, Response, Rigid, Stepper};
 use crate::beam::{EightElements, Rod};
 use crate::math::Scalar;
-use crate::motion::{Hub, Kink, Limits, Move, Peaks, Plan, Start};
+use crate::motion::{Hub, Kink, Move, Moves, Peaks};
 use crate::{Error, Scene};
-use trial::Trial;
 
 /// One of the steppers of [`Rung::ladder`], known at run time only.
 ///
@@ -75,6 +78,9 @@ macro_rules! each_with_state {
 }
 
 impl<T: Scalar> Auto<T> {
+    /// The response to a state of another stepper.
+    const NOTHING: Response<T> = Response { torque: T::ZERO, tip: [T::ZERO; 2] };
+
     /// Sets up one rung; `bend` as in [`Elastica::new`], other rungs have no use for it.
     pub fn new(scene: &Scene, tick: f64, rung: Rung, bend: f64) -> Result<Self, Error> {
         let model = || EightElements::consistent(scene);
@@ -95,13 +101,8 @@ impl<T: Scalar> Auto<T> {
         })
     }
 
-    /// The cheapest rung whose tip stays within `tolerance`, a fraction of the link's length, of
-    /// where the real one is, over these moves from rest at `from` rad and one first period after
-    /// them; with the error to expect.
-    ///
-    /// Every rung is tried, cheapest first, on the moves themselves, beside the exact rod in six
-    /// modes and small steps; a rung that is further off than the tolerance is given up at once. What
-    /// that costs at set-up stands in `docs/auto.md`.
+    /// Sets up the cheapest rung whose tip and torque stay within `tolerance` of the real ones, over
+    /// these moves from rest at `from` rad and one first period after them: see [`choose`].
     ///
     /// # Errors
     /// No rung is good enough: [`Error::Tolerance`] with the error of the finest; or the finest cannot
@@ -111,55 +112,48 @@ impl<T: Scalar> Auto<T> {
         tick: f64,
         from: f64,
         moves: &[Move],
-        tolerance: f64,
+        tolerance: &Tolerance,
     ) -> Result<(Self, Choice), Error> {
-        let tick = check_tick(tick)?;
-        let tolerance = Error::check("solver.tolerance", tolerance, 1e-6, 1.0, "of the length")?;
-        let expected_bend = expected_bend(scene, tick, from, moves)?;
-        let (least, most) = Elastica::<f32, 3>::BEND;
-        let bend = expected_bend.clamp(least, most);
-        let trial = Trial::new(scene, tick, from, moves)?;
-        let mut steps = 0;
-        let mut attempt = |rung: Rung| {
-            if rung.is_elastica() && expected_bend > most {
-                return Err(Error::BendsTooFar { bend: expected_bend, max: most });
-            }
-            // The last is tried to the end, to tell its error.
-            let stop = if rung == Rung::FINEST { f64::INFINITY } else { tolerance };
-            let outcome = trial.run(Auto::<f32>::new(scene, tick, rung, bend)?, stop)?;
-            steps += outcome.steps;
-            Ok(Choice { rung, error: ladder::expected(&outcome), bend, steps })
-        };
-        let mut reason = Error::Tolerance { tolerance, best: f64::INFINITY };
-        for rung in Rung::ladder(scene) {
-            match attempt(rung) {
-                Ok(choice) if choice.error <= tolerance => {
-                    return Ok((Self::new(scene, tick, rung, bend)?, choice));
-                }
-                Ok(choice) => reason = Error::Tolerance { tolerance, best: choice.error },
-                // The moves are planned and the scene is valid: it is the rung that cannot do it.
-                Err(error) => reason = error,
-            }
-        }
-        Err(reason)
+        let motion = Moves::new(from, moves, super::check_tick(tick)?)?;
+        let choice = choose(scene, tick, &motion, tolerance, &mut |_| ())?;
+        Ok((Self::chosen(scene, tick, &choice)?, choice))
     }
-}
 
-/// The largest tip angle to expect of the moves, rad.
-fn expected_bend(scene: &Scene, tick: f64, from: f64, moves: &[Move]) -> Result<f64, Error> {
-    let mut start = Start::at_rest(from)?;
-    let mut acceleration: f64 = 0.0;
-    for motion in moves {
-        let outline = Plan::new(motion, start, &Limits::default(), tick)?.outline;
-        acceleration = acceleration.max(outline.peaks.acceleration);
-        start = outline.end;
+    /// Sets up what was chosen.
+    pub fn chosen(scene: &Scene, tick: f64, choice: &Choice) -> Result<Self, Error> {
+        Self::new(scene, tick, choice.rung, choice.bend)
     }
-    Ok(Rod::<1>::new(scene)?.bend(acceleration))
 }
 
 impl<T: Scalar> Stepper for Auto<T> {
     type Scalar = T;
     type State = AutoState<T>;
+
+    // Every rung has both, so that each ticks on the paths that it takes when it is linked itself.
+    const PLAIN: bool = every_rung_is(
+        true,
+        [
+            Rigid::<T>::PLAIN,
+            Modal::<T, 1>::PLAIN,
+            Modal::<T, 2>::PLAIN,
+            Modal::<T, 3>::PLAIN,
+            Elastica::<T, 1>::PLAIN,
+            Elastica::<T, 2>::PLAIN,
+            Elastica::<T, 3>::PLAIN,
+        ],
+    );
+    const RESTS: bool = every_rung_is(
+        true,
+        [
+            Rigid::<T>::RESTS,
+            Modal::<T, 1>::RESTS,
+            Modal::<T, 2>::RESTS,
+            Modal::<T, 3>::RESTS,
+            Elastica::<T, 1>::RESTS,
+            Elastica::<T, 2>::RESTS,
+            Elastica::<T, 3>::RESTS,
+        ],
+    );
 
     fn tick(&self) -> f64 {
         each!(self, s => s.tick())
@@ -191,6 +185,35 @@ impl<T: Scalar> Stepper for Auto<T> {
         each_with_state!(self, state, (s, own) => s.step(own, before, after), ());
     }
 
+    #[inline(always)]
+    fn is_plain(&self, rate: T) -> bool {
+        each!(self, s => s.is_plain(rate))
+    }
+
+    #[inline(always)]
+    fn advance_in_cubic(
+        &self,
+        state: &mut AutoState<T>,
+        before: &Hub<T>,
+        after: &Hub<T>,
+    ) -> Response<T> {
+        each_with_state!(
+            self, state,
+            (s, own) => s.advance_in_cubic(own, before, after),
+            Self::NOTHING
+        )
+    }
+
+    #[inline(always)]
+    fn swing(&self, state: &mut AutoState<T>, hub: &Hub<T>) {
+        each_with_state!(self, state, (s, own) => s.swing(own, hub), ());
+    }
+
+    #[inline(always)]
+    fn response_at_rest(&self, state: &AutoState<T>, hub: &Hub<T>) -> Response<T> {
+        each_with_state!(self, state, (s, own) => s.response_at_rest(own, hub), Self::NOTHING)
+    }
+
     fn shift(&self, state: &mut AutoState<T>, moment: T) {
         each_with_state!(self, state, (s, own) => s.shift(own, moment), ());
     }
@@ -206,7 +229,16 @@ impl<T: Scalar> Stepper for Auto<T> {
 
     #[inline(always)]
     fn response(&self, state: &AutoState<T>, hub: &Hub<T>) -> Response<T> {
-        let nothing = Response { torque: T::ZERO, tip: [T::ZERO; 2] };
-        each_with_state!(self, state, (s, own) => s.response(own, hub), nothing)
+        each_with_state!(self, state, (s, own) => s.response(own, hub), Self::NOTHING)
     }
+}
+
+/// `value`, which every rung must have: one that differed would tick otherwise than when it is linked.
+const fn every_rung_is(value: bool, rungs: [bool; 7]) -> bool {
+    let mut k = 0;
+    while k < rungs.len() {
+        assert!(rungs[k] == value, "the rungs differ");
+        k += 1;
+    }
+    value
 }

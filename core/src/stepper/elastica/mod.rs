@@ -324,6 +324,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     const PLAIN: bool = true;
+    const RESTS: bool = true;
 
     #[inline(always)]
     fn is_plain(&self, _: T) -> bool {

@@ -185,6 +185,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     const PLAIN: bool = true;
+    const RESTS: bool = true;
 
     #[inline(always)]
     fn is_plain(&self, rate: T) -> bool {

@@ -265,6 +265,9 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
         Response { torque, tip: self.tip_of(state) }
     }
 
+    /// Takes the rates only, so that a kink inside the tick needs nothing.
+    fn shift(&self, _: &mut Vibration<T, N>, _: T) {}
+
     /// Bounds the swing of every node by the arm's lowest frequency: none is larger than
     /// `c/(½hω₁)²` and `d/(½hω₁)` make it.
     #[inline(always)]

@@ -1,0 +1,106 @@
+//! A shaped motion as the core's trials fly along it.
+
+use std::ops::ControlFlow;
+
+use stillbeam::Move;
+use stillbeam::motion::{Commanded, Hub, Kink, Peaks, Segment, Shaped, Shaper, Stretch};
+
+use crate::trajectory::{Side, Trajectory};
+
+/// Looks at a stretch in search of its peaks: of polynomials of a degree up to 11 they miss 1e-3.
+const LOOKS: u32 = 64;
+
+/// A motion that no generator commands: a stepper is given the hub itself.
+pub struct Flight<'a> {
+    trajectory: &'a Trajectory,
+    /// The moves before they pass the shaper.
+    segments: Vec<Segment<f32>>,
+    shaper: &'a Shaper,
+    from: f64,
+    /// Borders of the stretches, ticks.
+    borders: Vec<f64>,
+    peaks: Peaks,
+}
+
+impl<'a> Flight<'a> {
+    /// From rest at `from` rad.
+    pub fn new(trajectory: &'a Trajectory, shaper: &'a Shaper, from: f64) -> Self {
+        let tick = trajectory.tick();
+        let inner = trajectory.breaks().into_iter().map(|t| t / tick);
+        let ends = [0.0, trajectory.ticks() as f64];
+        let borders = ends[..1].iter().copied().chain(inner).chain(ends[1..].iter().copied());
+        let peaks = Peaks { rate: 0.0, acceleration: 0.0, jerk: f64::INFINITY };
+        let plans = trajectory.plans().iter();
+        let segments = plans.flat_map(|plan| plan.segments.iter().map(Segment::cast)).collect();
+        let mut flight =
+            Self { trajectory, segments, shaper, from, borders: borders.collect(), peaks };
+        let (mut rate, mut acceleration) = (0.0f64, 0.0f64);
+        for pair in flight.borders.windows(2) {
+            for look in 0..=LOOKS {
+                let part = f64::from(look) / f64::from(LOOKS);
+                let hub = flight.within([pair[0], pair[1]], pair[0] + part * (pair[1] - pair[0]));
+                rate = rate.max(hub.rate.abs());
+                acceleration = acceleration.max(hub.acceleration.abs());
+            }
+        }
+        flight.peaks = Peaks { rate, acceleration, ..peaks };
+        flight
+    }
+
+    /// The hub so many ticks from the beginning, within one stretch.
+    fn within(&self, [begin, end]: [f64; 2], ticks: f64) -> Hub<f64> {
+        let side = if ticks > 0.5 * (begin + end) { Side::Left } else { Side::Right };
+        self.trajectory.at(ticks * self.trajectory.tick(), side)
+    }
+}
+
+impl Commanded for Flight<'_> {
+    fn from(&self) -> f64 {
+        self.from
+    }
+
+    fn ticks(&self) -> u64 {
+        self.trajectory.ticks()
+    }
+
+    fn peaks(&self) -> Peaks {
+        self.peaks
+    }
+
+    fn moves(&self) -> Option<&[Move]> {
+        None
+    }
+
+    fn kink(&self, tick: u64) -> Kink<f32> {
+        Shaped::new(&self.segments, self.shaper, self.trajectory.tick()).kink(tick as u32)
+    }
+
+    fn fly(
+        &self,
+        each: &mut dyn FnMut(&Stretch<'_>) -> ControlFlow<()>,
+    ) -> Result<(), stillbeam::Error> {
+        for pair in self.borders.windows(2) {
+            let (begin, end) = (pair[0], pair[1]);
+            let at = |ticks| self.within([begin, end], ticks);
+            let rests = [begin, 0.5 * (begin + end), end].into_iter().all(|ticks| {
+                let hub = at(ticks);
+                hub.rate == 0.0 && hub.acceleration == 0.0
+            });
+            let stretch = Stretch { begin, end, hub: &|ticks| single(&at(ticks)), rests };
+            if each(&stretch).is_break() {
+                break;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn single(hub: &Hub<f64>) -> Hub<f32> {
+    Hub {
+        angle: hub.angle.cast(),
+        rate: hub.rate as f32,
+        acceleration: hub.acceleration as f32,
+        sin: hub.sin as f32,
+        cos: hub.cos as f32,
+    }
+}
