@@ -1,5 +1,5 @@
 //! Requests of the host. What changes at once is done here, with the tick masked for as long; what
-//! has to be planned is handed down to [`plan`], so that a stop never waits for a plan.
+//! has to be planned is handed down to [`crate::plan`], so that a stop never waits for a plan.
 
 use embassy_futures::select::{Either, select};
 use embedded_io_async::Read;
