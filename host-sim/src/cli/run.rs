@@ -80,7 +80,8 @@ impl RunArgs {
 }
 
 /// What `auto` chooses. Tolerances that nobody asked for are no reason not to run: then the rung that
-/// comes nearest to them is taken, and that is said.
+/// comes nearest to them is taken, and that is said. A tip that errs by more than is [`REMARKABLE`] is no
+/// run.
 fn chosen(scene: &SceneFile, solver: &Solver, keys: &SolverKeys) -> Result<Choice, Error> {
     let none = match model_choice::choose(scene, solver)? {
         Ok(choice) => return Ok(choice),
@@ -88,7 +89,8 @@ fn chosen(scene: &SceneFile, solver: &Solver, keys: &SolverKeys) -> Result<Choic
     };
     let asked =
         keys.method.is_some() || keys.tolerance.is_some() || keys.torque_tolerance.is_some();
-    let Some(nearest) = none.nearest.filter(|_| !asked) else { return Err(none.error.into()) };
+    let near = |choice: &Choice| !asked && choice.expected.tip <= REMARKABLE.tip;
+    let Some(nearest) = none.nearest.filter(near) else { return Err(none.error.into()) };
     eprintln!(
         "note: no method keeps {} of L and {} of the torque's peak here; {} comes nearest, with {}",
         solver.tolerance,

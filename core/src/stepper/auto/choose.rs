@@ -110,7 +110,9 @@ impl Search {
                     Ok(candidate) => {
                         let _ = (names.push(rung), candidates.push(candidate));
                     }
-                    // The scene and the motion are valid: it is the rung that cannot do it.
+                    // An arm that cannot stand is no matter of the rung, nor one that seems stiff.
+                    Err(error @ Error::Buckles { .. }) => return Err(error),
+                    // Else the scene and the motion are valid: it is the rung that cannot do it.
                     Err(error) => reason = error,
                 }
             }
