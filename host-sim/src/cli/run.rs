@@ -34,23 +34,24 @@ impl RunArgs {
         if let Some(line) = typed.unread(solver.method).into_iter().next() {
             return Err(Error::new(line));
         }
+        // Told once it has run: what is refused is refused in one line.
+        let mut notes = Vec::new();
         if typed.method.is_none() {
-            for line in scene.solver.unread(solver.method) {
-                super::note(&line);
-            }
+            notes.extend(scene.solver.unread(solver.method));
         }
-        for line in scene.roundings(solver.tick)? {
-            super::note(&line);
-        }
+        notes.extend(scene.roundings(solver.tick)?);
         let keys = typed.or(scene.solver);
         let choice = match solver.method {
-            Method::Auto => Some(chosen(&scene, &solver, &keys)?),
-            _ => {
-                remark(&scene, &solver);
-                None
-            }
+            Method::Auto => Some(chosen(&scene, &solver, &keys, &mut notes)?),
+            _ => None,
         };
         let rows = run::run_chosen(&scene, &solver, choice.as_ref())?;
+        if choice.is_none() {
+            notes.extend(remark(&scene, &solver));
+        }
+        for line in notes {
+            super::note(&line);
+        }
         table::write(&self.csv, &rows)?;
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
@@ -80,22 +81,29 @@ impl RunArgs {
 }
 
 /// What `auto` chooses. Tolerances that nobody asked for are no reason not to run: then the rung that
-/// comes nearest to them is taken, and that is said.
-fn chosen(scene: &SceneFile, solver: &Solver, keys: &SolverKeys) -> Result<Choice, Error> {
+/// comes nearest to them is taken, and that is said. A tip that errs by more than is [`REMARKABLE`] is no
+/// run.
+fn chosen(
+    scene: &SceneFile,
+    solver: &Solver,
+    keys: &SolverKeys,
+    notes: &mut Vec<String>,
+) -> Result<Choice, Error> {
     let none = match model_choice::choose(scene, solver)? {
         Ok(choice) => return Ok(choice),
         Err(none) => none,
     };
     let asked =
         keys.method.is_some() || keys.tolerance.is_some() || keys.torque_tolerance.is_some();
-    let Some(nearest) = none.nearest.filter(|_| !asked) else { return Err(none.error.into()) };
-    eprintln!(
-        "note: no method keeps {} of L and {} of the torque's peak here; {} comes nearest, with {}",
+    let near = |choice: &Choice| !asked && choice.expected.tip <= REMARKABLE.tip;
+    let Some(nearest) = none.nearest.filter(near) else { return Err(none.error.into()) };
+    notes.push(format!(
+        "no method keeps {} of L and {} of the torque's peak here; {} comes nearest, with {}",
         solver.tolerance,
         solver.torque_tolerance,
         nearest.rung,
         errors(&nearest.expected)
-    );
+    ));
     Ok(nearest)
 }
 
@@ -103,11 +111,11 @@ fn chosen(scene: &SceneFile, solver: &Solver, keys: &SolverKeys) -> Result<Choic
 const REMARKABLE: Tolerance = Tolerance { tip: 0.01, torque: 0.05 };
 
 /// Says in one line if the method is expected to err by more than [`REMARKABLE`], and which would not.
-fn remark(scene: &SceneFile, solver: &Solver) {
-    // A method that is refused says so itself when it is run.
-    let Ok(expected) = model_choice::assess(scene, solver) else { return };
+fn remark(scene: &SceneFile, solver: &Solver) -> Option<String> {
+    // A method that cannot be judged here has run all the same.
+    let expected = model_choice::assess(scene, solver).ok()?;
     if expected.excess(&REMARKABLE) <= 1.0 {
-        return;
+        return None;
     }
     let (tolerance, torque_tolerance) = (Solver::PAPER.tolerance, Solver::PAPER.torque_tolerance);
     let auto = Solver { method: Method::Auto, tolerance, torque_tolerance, ..*solver };
@@ -123,11 +131,8 @@ fn remark(scene: &SceneFile, solver: &Solver) {
         }
         None => "no method does better at this tick; a shorter one may".to_owned(),
     };
-    eprintln!(
-        "note: {} is expected to err by {}; {advice}",
-        solver.method.name(),
-        errors(&expected)
-    );
+    let method = solver.method.name();
+    Some(format!("{method} is expected to err by {}; {advice}", errors(&expected)))
 }
 
 /// In words, e.g. `4.0e-4 of L, 0.2 % of the torque's peak`.

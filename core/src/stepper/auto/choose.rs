@@ -37,6 +37,7 @@ impl From<NoChoice> for Error {
 /// small steps. What that costs at set-up stands in `docs/auto.md`: the exact rod flies once or twice,
 /// each time in at most 60,000 steps or 32 a tick, whichever is more. `progress` is given the part that
 /// is done, 0 to 1.
+#[allow(clippy::result_large_err)] // Once a set-up, and there is no heap to put it on.
 pub fn choose(
     scene: &Scene,
     tick: f64,
@@ -110,7 +111,9 @@ impl Search {
                     Ok(candidate) => {
                         let _ = (names.push(rung), candidates.push(candidate));
                     }
-                    // The scene and the motion are valid: it is the rung that cannot do it.
+                    // An arm that cannot stand is no matter of the rung, nor one that seems stiff.
+                    Err(error @ Error::Buckles { .. }) => return Err(error),
+                    // Else the scene and the motion are valid: it is the rung that cannot do it.
                     Err(error) => reason = error,
                 }
             }

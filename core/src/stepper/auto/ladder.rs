@@ -73,9 +73,9 @@ impl fmt::Display for Rung {
 pub struct Tolerance {
     /// Largest distance of the tip from the real one, fraction of L, 1e-6 to 1.
     pub tip: f64,
-    /// Largest difference of the torque from the real one at the ticks, fraction of its peak, 1e-6 to
-    /// 1. Ticks less than one and a half ticks from a jump of the commanded acceleration are left out:
-    /// what the torque is there depends on how many modes are taken for all of them.
+    /// Largest difference of the torque from the real one at the ticks, fraction of its peak, from 1e-6
+    /// to one. Ticks less than one and a half ticks from a jump of the commanded acceleration are left
+    /// out: what the torque is there depends on how many modes are taken for all of them.
     pub torque: f64,
 }
 
