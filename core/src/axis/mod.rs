@@ -71,7 +71,8 @@ pub enum Refused {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Policy {
-    /// Moves beyond are refused; stops keep within. The acceleration must be limited.
+    /// Moves beyond are refused; stops keep within. The acceleration must be limited; torque and
+    /// moment must not, as an axis cannot check them: see [`Limits`].
     pub limits: Limits,
     /// Ticks without a word from the host until the axis stops; 0 waits for ever.
     pub patience: u32,
@@ -127,6 +128,9 @@ struct Accepted {
 
 impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// A disabled axis that stands at `angle`.
+    ///
+    /// # Errors
+    /// Limits that are not [those of a policy](Policy::limits).
     pub fn new(stepper: S, angle: Angle<S::Scalar>, policy: Policy) -> Result<Self, Error> {
         let braking = Braking::new(&policy.limits, stepper.tick())?;
         let mut generator = Generator::new(stepper, 0.0)?;
