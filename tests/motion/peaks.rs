@@ -29,7 +29,7 @@ fn dense(plan: &Plan, tick: f64) -> Peaks {
 /// those says of the ends.
 fn within(segment: &Segment<f64>, begin: f64, end: f64, tick: f64) -> Peaks {
     let step = (end - begin) / f64::from(LOOKS);
-    // Just inside: an end is stored apart.
+    // Just inside, as an end is stored apart and would be a step in the jerk.
     let hubs: Vec<_> =
         (0..LOOKS).map(|look| segment.hub_at(begin + step * (f64::from(look) + 0.5))).collect();
     let most = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, |a: f64, b| a.max(b.abs()));
@@ -39,9 +39,10 @@ fn within(segment: &Segment<f64>, begin: f64, end: f64, tick: f64) -> Peaks {
         .collect();
     let last = jerks.len() - 1;
     jerks.extend([2.0 * jerks[0] - jerks[1], 2.0 * jerks[last] - jerks[last - 1]]);
+    let ends = [begin, end].map(|at| segment.hub_at(at));
     Peaks {
-        rate: most(&mut hubs.iter().map(|hub| hub.rate)),
-        acceleration: most(&mut hubs.iter().map(|hub| hub.acceleration)),
+        rate: most(&mut hubs.iter().chain(&ends).map(|hub| hub.rate)),
+        acceleration: most(&mut hubs.iter().chain(&ends).map(|hub| hub.acceleration)),
         jerk: most(&mut jerks.into_iter()),
     }
 }
