@@ -292,8 +292,8 @@ impl fmt::Display for Error {
             ),
             Self::Buckles { gravity } => write!(
                 f,
-                "gravity.acceleration = {gravity}: the upright link buckles under its own weight; \
-                 use less gravity, a stiffer link or a lighter payload"
+                "gravity.acceleration = {gravity}: must be less, as the upright link buckles under its \
+                 own weight; use less gravity, a stiffer link or a lighter payload"
             ),
             Self::DegreesOfFreedom { given, needed } => write!(
                 f,
