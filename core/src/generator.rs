@@ -90,7 +90,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let mut current = tail;
         current.cut(0);
         let mut hub = Hub::ZERO;
-        current.drive_otherwise(&mut hub, 0);
+        current.begin(&mut hub);
         if stepper.is_directed() {
             hub.aim();
         }
@@ -113,9 +113,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         })
     }
 
-    /// Refuses from now on the moves that exceed `limits`.
+    /// Refuses from now on the moves that exceed `limits`, which are those of the hub's motion.
+    ///
+    /// # Errors
+    /// A limit of torque or moment, which a generator cannot keep: see [`Limits`].
     pub fn limit(&mut self, limits: Limits) -> Result<(), Error> {
-        self.limits = limits.validate()?;
+        self.limits = limits.validate()?.of_motion()?;
         Ok(())
     }
 
@@ -138,9 +141,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             }
             return Err(error);
         }
-        if self.holding {
-            self.current.cut(self.next_k());
-        }
+        self.end_hold();
         self.end = outline.end;
         self.tail = hold(outline.end, tick);
         Ok(outline)
@@ -265,8 +266,18 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if self.next_k() <= 1 { self.landing } else { self.hub.acceleration }
     }
 
-    /// Which way the ticks of the current segment go: to be called whenever there is another one, or
-    /// another count of its ticks.
+    /// Ends a hold at the next tick, where the queue goes on.
+    ///
+    /// The path of its ticks stays as it is: a hold is no cubic, so none of its ticks is plain, and
+    /// whether the hub rests does not depend on the count.
+    fn end_hold(&mut self) {
+        if self.holding {
+            self.current.cut(self.next_k());
+        }
+    }
+
+    /// Decides which way the ticks of the current segment go. To be called whenever the current
+    /// segment is another one, and when a cubic is broken off, whose plain ticks are counted.
     #[inline(always)]
     fn set_path(&mut self) {
         let plain =
@@ -306,7 +317,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         self.k = 0;
         self.set_path();
-        self.current.drive_otherwise(&mut self.hub, 0);
+        self.current.begin(&mut self.hub);
         if self.stepper.is_directed() {
             self.hub.aim();
         }

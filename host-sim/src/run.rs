@@ -108,7 +108,7 @@ pub fn each_tick<S: Stepper>(
         ));
     }
     let mut generator = Generator::<S, QUEUE>::new(stepper, scene.from)?;
-    generator.limit(scene.limits)?;
+    generator.limit(scene.limits.kinematic())?;
     let motions = scene.motions();
     let mut waiting = motions.iter().peekable();
     let mut ends = Vec::new();

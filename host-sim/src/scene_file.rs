@@ -189,7 +189,8 @@ impl SceneFile {
 
     /// The commanded motion with every duration rounded to whole ticks, its shaper passed.
     pub fn trajectory(&self, tick: f64) -> Result<Trajectory, Error> {
-        let trajectory = Trajectory::plan(self.from, &self.motions(), &self.limits, tick)?;
+        let trajectory =
+            Trajectory::plan(self.from, &self.motions(), &self.limits.kinematic(), tick)?;
         let Some(shaper) = &self.shaper else { return Ok(trajectory) };
         let rate = trajectory.plans().last().map_or(0.0, |plan| plan.outline.end.rate);
         if rate != 0.0 {

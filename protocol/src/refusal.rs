@@ -57,7 +57,11 @@ impl From<Error> for Refusal<'static> {
             Error::LimitExceeded { parameter, limit, needed, unit, .. } => {
                 range(parameter, needed, 0.0, limit, unit)
             }
-            Error::TooFast { rate, max } => range("move: peak rate", rate, 0.0, max, "rad/s"),
+            // Said when an axis is set up, never to a request.
+            Error::CannotCheck { parameter, value, unit } => {
+                range(parameter, value, 0.0, 0.0, unit)
+            }
+            Error::TooFast { rate, max, .. } => range("move: peak rate", rate, 0.0, max, "rad/s"),
             Error::NotAtRest { rate } => range("move: rate at its start", rate, 0.0, 0.0, "rad/s"),
             Error::BendsTooFar { bend, max } => range("move: expected bend", bend, 0.0, max, "rad"),
             Error::Tolerance { parameter, tolerance, best } => {

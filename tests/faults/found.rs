@@ -2,7 +2,7 @@
 
 use stillbeam::axis::{Mode, Refused};
 use stillbeam::beam::OneElement;
-use stillbeam::motion::{Peaks, Still};
+use stillbeam::motion::Still;
 use stillbeam::stepper::Newmark;
 use stillbeam::{Generator, Move, Payload, Profile, Scene};
 use stillbeam_protocol::Command;
@@ -41,22 +41,21 @@ fn a_still_move_as_planned_is_taken() {
 }
 
 /// A still move's peaks were taken on trust: any bulge passed the limits, and one that is no number
-/// went out as setpoints.
+/// went out as setpoints. Between the ticks too: of a move of one tick all that is violent lies there.
 #[test]
-fn a_still_move_must_keep_its_stated_peaks() {
-    let Move::Still { duration, to, bulge, peaks } = planned_still() else { unreachable!() };
-    let lies = [
-        Move::Still { duration, to, bulge: [f64::NAN; 6], peaks },
-        Move::Still { duration, to, bulge: bulge.map(|b| b + 0.5), peaks },
-        Move::Still { duration: 0.5 * duration, to, bulge, peaks },
-        Move::Still { duration, to, bulge, peaks: Peaks { rate: 0.9 * peaks.rate, ..peaks } },
-        Move::Still { duration, to, bulge, peaks: Peaks { rate: f64::NAN, ..peaks } },
-        // At its ends, its only ticks, it is at rest.
-        Move::Still { duration: 0.005, to, bulge, peaks },
+fn a_still_move_is_judged_by_its_own_curve() {
+    let Move::Still { duration, to, bulge } = planned_still() else { unreachable!() };
+    let violent = [
+        Move::Still { duration, to, bulge: [f64::NAN; 6] },
+        Move::Still { duration, to, bulge: [f64::INFINITY; 6] },
+        Move::Still { duration, to, bulge: bulge.map(|b| b + 5.0) },
+        Move::Still { duration: 0.1 * duration, to, bulge },
+        Move::Still { duration: TICK, to, bulge },
     ];
-    for lie in lies {
-        let refused = plan(&lie);
-        assert!(matches!(refused, Err(Refused::Move(_))), "{lie:?}: {refused:?}");
+    for motion in violent {
+        let refused = plan(&motion);
+        assert!(matches!(refused, Err(Refused::Move(_))), "{motion:?}: {refused:?}");
+        assert!(arm().push(&motion).is_err(), "{motion:?}");
     }
 }
 

@@ -46,7 +46,7 @@ fn a_still_move_waits_for_the_moves_before_it() {
     assert_near("angle", radians(all.last().unwrap()), 1.0, 1e-6);
 }
 
-/// Every limit of the axis is one of the plan's, what the arm does included.
+/// Every limit of the axis is one of the plan's, and so are the planner's own, of what the arm does.
 #[test]
 fn what_the_planner_refuses_is_named() {
     let error = |limits: Limits, duration| {
@@ -60,9 +60,12 @@ fn what_the_planner_refuses_is_named() {
     assert!(error(LIMITS, Some(f64::NAN)).starts_with("move.duration = NaN"));
     let slow = Limits { rate: Some(0.1), ..LIMITS };
     assert!(error(slow, Some(1.0)).starts_with("limits.rate"));
-    let weak = Limits { torque: Some(1e-4), ..LIMITS };
-    assert!(error(weak, Some(1.0)).starts_with("limits.torque"));
-    assert!(error(weak, None).starts_with("limits.torque"));
+    let weak = planner().with_load_limits(Some(1e-4), None).unwrap();
+    for duration in [Some(1.0), None] {
+        let refused = enabled(POLICY).departure().unwrap().plan_still(&weak, 2.5, duration);
+        let error = refused.map(drop).unwrap_err().to_string();
+        assert!(error.starts_with("limits.torque"), "{error}");
+    }
 }
 
 #[test]

@@ -213,3 +213,23 @@ fn a_plan_in_single_precision_is_exact_to_its_rounding() {
         }
     }
 }
+
+/// A stiff arm or a slow move bends by less than the least range: it is fitted for that one.
+#[test]
+fn a_range_below_the_least_is_the_least() {
+    let rod = Rod::<2>::new(&scene()).expect("rod");
+    let fitted = |bend| Elastica::<f64, 2>::new(&rod, 0.01, Quality::Fast, bend);
+    let run = |bend| {
+        let mut arm = Generator::<_, 8>::new(fitted(bend).expect("stepper"), 0.0).expect("arm");
+        arm.push(&to(Profile::Cubic, 3.0, 0.1)).expect("move");
+        (0..300).map(|_| arm.tick()).collect::<Vec<_>>()
+    };
+    let least = run(Elastica::<f64, 2>::BEND.0);
+    for bend in [0.0, 1e-9, 0.0497] {
+        assert_eq!(run(bend), least, "{bend}");
+    }
+    for bend in [f64::NAN, -1e-3, 2.1, f64::INFINITY] {
+        let error = fitted(bend).expect_err("no range").to_string();
+        assert!(error.starts_with("bend = ") && error.contains("must be 0 to 2 rad"), "{error}");
+    }
+}

@@ -210,7 +210,7 @@ fn limits_refuse_with_the_limit_by_name() {
         let motion = Move::To { profile, duration: 1.0, to: PI };
         Plan::new(&motion, REST, &limits, 0.01).expect_err("above the limit")
     };
-    let named = |error: Error| error.to_string().split(' ').next().map(str::to_owned);
+    let named = |error: Error| error.to_string().split(':').next().map(str::to_owned);
     let rate = Limits { rate: Some(4.7), ..Limits::default() };
     assert_eq!(named(refuse(rate, Profile::Cubic)).as_deref(), Some("limits.rate"));
     let acceleration = Limits { acceleration: Some(18.8), ..Limits::default() };

@@ -73,7 +73,8 @@ pub enum Refused {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Policy {
-    /// Moves beyond are refused; stops keep within. The acceleration must be limited.
+    /// Moves beyond are refused; stops keep within. The acceleration must be limited; torque and
+    /// moment must not, as an axis cannot check them: see [`Limits`].
     pub limits: Limits,
     /// Time without a word from the host after which the axis stops, s, rounded to whole ticks, one
     /// at least. 0 waits for ever.
@@ -136,7 +137,8 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// A disabled axis that stands at `angle`.
     ///
     /// # Errors
-    /// `policy.patience` is not within 0 to 2³² ticks; the limits lack what a stop needs.
+    /// `policy.patience` is not within 0 to 2³² ticks; limits that are not
+    /// [those of a policy](Policy::limits).
     pub fn new(stepper: S, angle: Angle<S::Scalar>, policy: Policy) -> Result<Self, Error> {
         let patience = ticks("policy.patience", policy.patience, stepper.tick())?;
         let braking = Braking::new(&policy.limits, stepper.tick())?;

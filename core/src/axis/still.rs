@@ -6,8 +6,9 @@ use crate::{Departure, Error, Planned};
 
 impl Departure {
     /// Plans a move to `to` rad after which the arm is at rest: in `duration` s, rounded to whole
-    /// ticks, or if none is told in the shortest time within the limits. Every limit is kept by the
-    /// planner's model, torque and bending moment included.
+    /// ticks, or if none is told in the shortest time within the limits. Torque and bending moment
+    /// are kept by the planner's model where the planner has
+    /// [limits of them](Still::with_load_limits).
     ///
     /// From rest, as a queue of moves that end at rest leaves it, in any number of ticks from now.
     /// Runs for 10⁵ to 10⁸ instructions: at a low priority, never in the tick.

@@ -51,22 +51,16 @@ pub enum Rejected {
 impl Departure {
     /// Plans `motion` from here. Runs in f64.
     ///
-    /// This is the way of moves that come over a wire, so it asks more than [`Generator::push`]: the
-    /// peaks that a still move states are not taken on trust, and a move turns by 2⁻¹⁶/ε turns at
-    /// most, 128 in f32, so that its angle is right to 2⁻¹⁶ turn.
+    /// This is the way of moves that come over a wire, so it asks more than [`Generator::push`]: a
+    /// move turns by 2⁻¹⁶/ε turns at most, 128 in f32, so that its angle is right to 2⁻¹⁶ turn.
     pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<Planned<T>, Error> {
         let mut segments = Vec::new();
         let outline = lay(motion, self.start, &self.limits, self.tick, &mut |segment| {
             // No move has more.
-            let _ = segments.push(segment.cast());
+            let _ = segments.push(*segment);
         })?;
-        match (motion, segments.first()) {
-            (Move::Dwell { .. }, _) | (_, None) => {}
-            (Move::Still { .. }, Some(segment)) => {
-                resolved::<T>(&self.start, &outline)?;
-                honest(segment, &outline)?;
-            }
-            _ => resolved::<T>(&self.start, &outline)?,
+        if !matches!(motion, Move::Dwell { .. }) {
+            resolved::<T>(&self.start, &outline)?;
         }
         Ok(Planned { segments, start: self.start, outline })
     }
@@ -86,27 +80,6 @@ fn resolved<T: Scalar>(start: &Start, outline: &Outline) -> Result<(), Error> {
     let turned = outline.end.angle.since(start.angle);
     let most = 1.0 / 65_536.0 / T::EPSILON.to_f64();
     Error::check("move: turns", turned, -most, most, "turns").map(drop)
-}
-
-/// Instants at which a still move is looked at: of a polynomial of degree 11 they miss 1e-3.
-const LOOKS: u32 = 256;
-
-/// Refuses a move that is faster, or accelerates more, than its outline says, by 1e-3; and one that
-/// is no number. Between the ticks too: a move of one tick could be anything there.
-fn honest<T: Scalar>(segment: &Segment<T>, outline: &Outline) -> Result<(), Error> {
-    let step = T::from_u32(outline.ticks) / T::from_u32(LOOKS);
-    let (rate, acceleration) = (outline.peaks.rate, outline.peaks.acceleration);
-    for look in 0..=LOOKS {
-        let hub = segment.hub_at(T::from_u32(look) * step);
-        let check = |parameter, found: T, stated: f64, unit| {
-            let found = found.to_f64();
-            let most = 1.001 * stated;
-            Error::check(parameter, found, -most, most, unit).map(drop)
-        };
-        check("move.peaks.rate", hub.rate, rate, "rad/s")?;
-        check("move.peaks.acceleration", hub.acceleration, acceleration, "rad/s^2")?;
-    }
-    Ok(())
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
@@ -129,13 +102,14 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         let Outline { peaks, end, .. } = &planned.outline;
         self.stepper.admit(peaks, end.rate).map_err(Rejected::Arm)?;
+        // Whole turns apart: a fraction of many turns would be rounded with them.
+        let by = Angle::default().plus(turned).cast();
+        let mut first = Some(start.angle.cast());
         for segment in &planned.segments {
             // There is room: just counted.
-            let _ = self.queue.push_back(segment.shifted(S::Scalar::from_f64(turned)));
+            let _ = self.queue.push_back(segment.shifted(by, first.take()));
         }
-        if self.holding {
-            self.current.cut(self.next_k());
-        }
+        self.end_hold();
         let end = planned.outline.end;
         self.end = Start { angle: end.angle.plus(turned), rate: end.rate };
         self.tail = super::hold(self.end, self.stepper.tick());

@@ -2,7 +2,7 @@
 
 use super::{Generator, hold};
 use crate::Error;
-use crate::motion::{Angle, Hub, Origin, Segment, Start, StillMove};
+use crate::motion::{Angle, Hub, MAX_ANGLE, Origin, Segment, Start, StillMove, admit};
 use crate::stepper::Stepper;
 
 /// A coming tick: which segment it falls into, and where.
@@ -20,7 +20,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ///
     /// A plan is made outside the tick, from what a copy of the generator shows `lead + 1` ticks
     /// later. If ticks have gone by since, `lead` is as many less. A plan that does not begin
-    /// exactly where the hub is at that tick is refused, and nothing changes.
+    /// exactly where the hub is at that tick is refused, and nothing changes. So is one whose curve
+    /// exceeds the limits: its peaks are found anew, and those that it states are not looked at.
     ///
     /// ```
     /// # use stillbeam::beam::Rod;
@@ -48,8 +49,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// # Ok::<(), stillbeam::Error>(())
     /// ```
     pub fn redirect(&mut self, lead: u32, plan: &StillMove) -> Result<(), Error> {
-        self.limits.admit(&plan.peaks)?;
-        self.stepper.admit(&plan.peaks, 0.0)?;
+        let tick = self.stepper.tick();
+        Error::check("plan.tick", plan.tick, tick, tick, "s")?;
+        Error::check("plan.to", plan.to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+        // Of the curve itself: what a plan states of it may be anything.
+        let peaks = plan.curve_peaks::<S::Scalar>();
+        admit(&self.limits, &peaks, tick)?;
+        self.stepper.admit(&peaks, 0.0)?;
         let place = self.place(lead);
         let here = Origin::of(&self.hub_of(&place));
         if here != plan.from {
@@ -88,7 +94,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let _ = self.queue.push_back(segment.cast());
         let end = Start { angle: Angle::from_radians(plan.to), rate: 0.0 };
         self.end = end;
-        self.tail = hold(end, self.stepper.tick());
+        self.tail = hold(end, tick);
         Ok(())
     }
 

@@ -5,8 +5,18 @@ use crate::error::Remedy;
 
 /// Limits of the drive; `None` is unlimited.
 ///
-/// Rate, acceleration and jerk are checked when a move is accepted, against the exact peaks of its
-/// profile. Torque depends on the arm's vibration and is checked by whoever has run the move.
+/// Rate, acceleration and jerk limit the hub's motion. Every layer that takes a move keeps them: a
+/// move is accepted by the peaks of its curve, between the ticks as well as on them.
+///
+/// Torque and moment limit what the arm answers with, which depends on its vibration. Only a layer
+/// that flies the arm through the move knows them: the planner of still moves
+/// ([`Still`](super::Still)) and the desktop's `run`. The others ([`Generator::limit`],
+/// [`Axis::new`], [`Plan::new`](super::Plan::new), [`Braking::new`](super::Braking::new)) see a tick
+/// of one method at a time, whose peak may lie between the ticks, and refuse these two limits rather
+/// than ignore them.
+///
+/// [`Generator::limit`]: crate::Generator::limit
+/// [`Axis::new`]: crate::axis::Axis::new
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Limits {
@@ -50,7 +60,24 @@ impl Limits {
         Ok(self)
     }
 
-    /// Refuses peaks above a limit, with 1e-9 of it for rounding.
+    /// The limits of the hub's motion alone: rate, acceleration and jerk.
+    pub fn kinematic(self) -> Self {
+        Self { torque: None, moment: None, ..self }
+    }
+
+    /// The limits themselves if none of them depends on the arm.
+    pub(crate) fn of_motion(self) -> Result<Self, Error> {
+        let absent = |parameter, limit: Option<f64>| match limit {
+            Some(value) => Err(Error::CannotCheck { parameter, value, unit: "N m" }),
+            None => Ok(()),
+        };
+        absent("limits.torque", self.torque)?;
+        absent("limits.moment", self.moment)?;
+        Ok(self)
+    }
+
+    /// Refuses peaks of the hub's motion above a limit of rate, acceleration or jerk, with 1e-9 of
+    /// it for rounding.
     pub fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
         within("limits.rate", self.rate, peaks.rate, "rad/s")?;
         within("limits.acceleration", self.acceleration, peaks.acceleration, "rad/s^2")?;

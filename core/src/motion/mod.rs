@@ -4,6 +4,7 @@
 mod angle;
 mod commanded;
 mod curve;
+mod demand;
 mod limits;
 mod plan;
 mod profile;
@@ -14,7 +15,9 @@ pub mod still;
 pub use angle::Angle;
 pub use commanded::{Commanded, Moves, Stretch};
 pub use curve::BULGE;
+pub(crate) use demand::admit;
 pub use limits::{Limits, Peaks};
+pub(crate) use plan::MAX_ANGLE;
 pub(crate) use plan::lay;
 pub use plan::{MAX_SEGMENTS, Outline, Plan, Start};
 pub use profile::{Move, Profile};

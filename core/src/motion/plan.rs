@@ -5,8 +5,9 @@ use core::f64::consts::TAU;
 
 use heapless::Vec;
 
+use super::demand::Demand;
 use super::segment::Shape;
-use super::{Angle, Limits, Move, Peaks, Profile, Segment};
+use super::{Angle, Limits, Move, Peaks, Profile, Segment, still};
 use crate::Error;
 use crate::math::Scalar;
 
@@ -54,6 +55,10 @@ pub struct Plan {
 
 impl Plan {
     /// Plans `motion` from `start`, with setpoints every `tick` s.
+    ///
+    /// # Errors
+    /// A parameter of the move out of range, a limit that it exceeds with what would keep it, or a
+    /// limit of torque or moment, which a plan of the hub's motion cannot check.
     pub fn new(motion: &Move, start: Start, limits: &Limits, tick: f64) -> Result<Self, Error> {
         let mut segments = Vec::new();
         let outline = lay(motion, start, limits, tick, &mut |segment| {
@@ -75,59 +80,63 @@ pub(crate) fn lay<T: Scalar>(
     let ticks = motion.ticks(tick)?;
     let duration = f64::from(ticks) * tick;
     let turned = |rate: f64| rate * duration / TAU;
-    let (shapes, end, peaks) = match *motion {
+    let limits = limits.of_motion()?;
+    let (shapes, end, demand) = match *motion {
         Move::To { profile, to, .. } => {
             let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
             if start.rate != 0.0 {
                 return Err(Error::NotAtRest { rate: start.rate });
             }
-            let delta = to / TAU - start.angle.in_turns();
-            let end = Start { angle: start.angle.plus(delta), rate: 0.0 };
-            (rest_to_rest(profile, delta), end, profile.peaks(delta * TAU, duration))
+            let (delta, end) = turn_to(to, &start);
+            (rest_to_rest(profile, delta), end, Demand::Turn(profile, delta * TAU))
         }
         Move::SpinUp { rate, .. } => {
             let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
             let change = rate - start.rate;
             let mean = 0.5 * (rate + start.rate);
             let end = Start { angle: start.angle.plus(turned(mean)), rate };
-            let peaks = Peaks {
-                rate: rate.abs().max(start.rate.abs()),
-                acceleration: 2.0 * change.abs() / duration,
-                jerk: TAU * change.abs() / (duration * duration),
-            };
+            let demand = Demand::Spin { from: start.rate, to: rate };
             let (old, change) = (turned(start.rate), turned(change));
-            (Shapes::One(spin_up(T::from_f64(old), T::from_f64(change))), end, peaks)
+            (Shapes::One(spin_up(T::from_f64(old), T::from_f64(change))), end, demand)
         }
-        Move::Still { to, bulge, peaks, .. } => {
+        Move::Still { to, bulge, .. } => {
             let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
             if start.rate != 0.0 {
                 return Err(Error::NotAtRest { rate: start.rate });
             }
-            let delta = to / TAU - start.angle.in_turns();
-            let end = Start { angle: start.angle.plus(delta), rate: 0.0 };
-            let c = quintic(T::from_f64(delta));
-            let shape = Shape::Bulged { c, d: bulge.map(|b| T::from_f64(b / TAU)) };
-            (Shapes::One(shape), end, peaks)
+            for b in bulge {
+                Error::check("move.bulge", b, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+            }
+            let (delta, end) = turn_to(to, &start);
+            let (c, d) = (quintic(T::from_f64(delta)), bulge.map(|b| T::from_f64(b / TAU)));
+            let demand = Demand::Curve(still::peaks(&c, &d, duration));
+            (Shapes::One(Shape::Bulged { c, d }), end, demand)
         }
         Move::Dwell { .. } => {
             let angle = start.angle.plus(turned(start.rate));
-            let peaks = Peaks { rate: start.rate.abs(), acceleration: 0.0, jerk: 0.0 };
-            (Shapes::Hold, Start { angle, rate: start.rate }, peaks)
+            (Shapes::Hold, Start { angle, rate: start.rate }, Demand::Hold(start.rate))
         }
     };
-    limits.admit(&peaks)?;
-    if peaks.rate * tick > 1.0 {
-        return Err(Error::TooFast { rate: peaks.rate, max: 1.0 / tick });
-    }
+    let peaks = demand.admit(&limits, ticks, tick)?;
     match shapes {
         Shapes::Hold => sink(&Segment::cruise(start.angle, start.rate, ticks, tick)),
         Shapes::One(shape) => {
             let length = T::from_u32(ticks);
-            sink(&Segment::new(start.angle, shape, length, T::ZERO, ticks, tick));
+            let segment = Segment::new(start.angle, shape, length, T::ZERO, ticks, tick);
+            // Every shape of one piece begins and ends without acceleration.
+            let rate = T::from_f64(start.rate);
+            sink(&segment.beginning(rate, T::ZERO).landing_with(T::ZERO));
         }
         Shapes::Cubics(pieces, turn) => lay_cubics(pieces, turn, start.angle, ticks, tick, sink),
     }
     Ok(Outline { end, ticks, peaks, rounded_by: duration - motion.duration() })
+}
+
+/// Turns from `start` to the angle `to` in rad, and the rest there: exactly that angle, whatever the
+/// turns round to.
+fn turn_to(to: f64, start: &Start) -> (f64, Start) {
+    let end = Start { angle: Angle::from_radians(to), rate: 0.0 };
+    (end.angle.since(start.angle), end)
 }
 
 /// The formulas of a move.
@@ -139,14 +148,22 @@ enum Shapes<T> {
     Cubics(&'static [Piece], f64),
 }
 
-/// A share of a move: where it begins, and its cubic about its middle, `[c₁, c₂, c₃]`.
+/// A share of a move by 1 in a time of 1.
 struct Piece {
+    /// Where it begins, the rate there, and the accelerations at its beginning and end.
     start: f64,
+    rate: f64,
+    accelerations: [f64; 2],
+    /// About its middle, `[c₁, c₂, c₃]`.
     cubic: [f64; 3],
 }
 
+/// The cubic `3s² − 2s³`.
+const CUBIC: Piece =
+    Piece { start: 0.0, rate: 0.0, accelerations: [6.0, -6.0], cubic: [0.75, 0.0, -0.25] };
+
 /// Largest angle and rate that a move may name: 1e6 rad resolve to 1e-10 rad.
-const MAX_ANGLE: f64 = 1e6;
+pub(crate) const MAX_ANGLE: f64 = 1e6;
 
 /// A quintic's coefficients, of a turn by `turn`.
 fn quintic<T: Scalar>(turn: T) -> [T; 5] {
@@ -158,9 +175,7 @@ fn quintic<T: Scalar>(turn: T) -> [T; 5] {
 fn rest_to_rest<T: Scalar>(profile: Profile, d: f64) -> Shapes<T> {
     let (n, turn) = (T::from_f64, T::from_f64(d));
     match profile {
-        Profile::Cubic => {
-            Shapes::Cubics(const { &[Piece { start: 0.0, cubic: [0.75, 0.0, -0.25] }] }, d)
-        }
+        Profile::Cubic => Shapes::Cubics(&[CUBIC], d),
         Profile::Quintic => Shapes::One(Shape::Quintic(quintic(turn))),
         Profile::Cycloid => Shapes::One(Shape::Harmonic {
             c: [T::HALF * turn, T::ZERO],
@@ -184,14 +199,14 @@ const S_CURVE: [(f64, f64); 7] = {
 /// T² and T³, from rest.
 const fn integrate<const N: usize>(stretches: [(f64, f64); N]) -> [Piece; N] {
     let f = 1.0 / N as f64;
-    let mut pieces = [const { Piece { start: 0.0, cubic: [0.0; 3] } }; N];
+    let mut pieces = [const { CUBIC }; N];
     let (mut start, mut rate, mut i) = (0.0, 0.0, 0);
     while i < N {
         let (a, j) = stretches[i];
         // c₁s + c₂s² + c₃s³ about s = ½.
         let (c1, c2, c3) = (rate * f, a * f * f / 2.0, j * f * f * f / 6.0);
         let cubic = [(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0];
-        pieces[i] = Piece { start, cubic };
+        pieces[i] = Piece { start, rate, accelerations: [a, a + j * f], cubic };
         start += c1 + c2 + c3;
         rate += (a + j * f / 2.0) * f;
         i += 1;
@@ -220,6 +235,10 @@ fn lay_cubics<T: Scalar>(
     let length = T::from_u32(ticks) / T::from_u32(share);
     let shares = |n: u32| T::from_u32(n) / T::from_u32(share);
     // Borders are multiples of a tick's share, counted in integers: at most 7 × 2²⁴ of them.
+    // 2π/D and 2π/D²: rates and accelerations at the borders, rounded once.
+    let duration = f64::from(ticks) * tick;
+    let rate_scale = TAU * turn / duration;
+    let acceleration_scale = rate_scale / duration;
     let (mut first, mut border, mut entry) = (0, 0, T::ZERO);
     for piece in pieces {
         let end = border + ticks;
@@ -227,9 +246,13 @@ fn lay_cubics<T: Scalar>(
         let (before, after) = (shares(first * share - border), shares(next * share - end));
         let shape = Shape::Cubic(piece.cubic.map(|c| T::from_f64(c) * T::from_f64(turn)));
         let start = start.plus(piece.start * turn);
-        let mut segment = Segment::new(start, shape, length, before, next - first, tick);
-        let [begin, at_first, at_last] = segment.accelerations();
-        let landing = segment.landing();
+        let [begin, landing] = piece.accelerations.map(|a| T::from_f64(acceleration_scale * a));
+        let mut segment =
+            Segment::new(start, shape, length, before, next - first, tick).landing_with(landing);
+        if before == T::ZERO {
+            segment = segment.beginning(T::from_f64(rate_scale * piece.rate), begin);
+        }
+        let [at_first, at_last] = segment.accelerations();
         if next == first {
             entry += moment(T::ONE - before, T::ONE - after, begin, landing);
         } else {

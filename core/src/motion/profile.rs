@@ -96,9 +96,6 @@ pub enum Move {
         to: f64,
         /// `b₀ … b₅`, rad.
         bulge: [f64; BULGE],
-        /// Greatest magnitudes, as the planner found them: to find them again would take code that
-        /// every program would carry.
-        peaks: Peaks,
     },
     /// The hub keeps its rate: zero after every move but a spin-up.
     Dwell {
@@ -124,15 +121,7 @@ impl Move {
         match self {
             Self::To { profile, to, .. } => Self::To { profile, duration, to },
             Self::SpinUp { rate, .. } => Self::SpinUp { duration, rate },
-            Self::Still { duration: before, to, bulge, peaks } => {
-                let faster = before / duration;
-                let peaks = Peaks {
-                    rate: peaks.rate * faster,
-                    acceleration: peaks.acceleration * faster * faster,
-                    jerk: peaks.jerk * faster * faster * faster,
-                };
-                Self::Still { duration, to, bulge, peaks }
-            }
+            Self::Still { to, bulge, .. } => Self::Still { duration, to, bulge },
             Self::Dwell { .. } => Self::Dwell { duration },
         }
     }
@@ -151,4 +140,4 @@ impl Move {
 }
 
 /// Longest move: tick counts up to here are exact in an f32.
-const MAX_TICKS: u32 = 1 << 24;
+pub(super) const MAX_TICKS: u32 = 1 << 24;

@@ -2,6 +2,7 @@
 
 mod border;
 mod braking;
+mod ends;
 mod setup;
 mod shape;
 
@@ -52,13 +53,17 @@ impl<T: Scalar> Hub<T> {
 /// thirds of a trapezoid need not be whole ticks.
 ///
 /// Error in f32: angle 2e-7 of the segment's own turn (a cruise: 3e-8 turn, however long), rate
-/// 5e-7 and acceleration 1e-6 of their peaks.
+/// 5e-7 and acceleration 1e-6 of their peaks. The hub at tick 0 and the acceleration at the end are
+/// stored apart from the formula: of a move's first and last segment they are exact, correctly
+/// rounded to the scalar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment<T> {
     /// Angle at `u = 0`; of a cruise, at its first tick.
     origin: Angle<T>,
     /// Ticks that belong to the segment.
     count: u32,
+    /// The hub at the first of them.
+    begin: End<T>,
     /// `u` at the first of them.
     offset: T,
     /// `u` a tick.
@@ -75,6 +80,16 @@ pub struct Segment<T> {
     /// What a cubic consists of; of the other shapes, their first coefficients.
     low: [T; 3],
     rest: Rest<T>,
+}
+
+/// The hub at an end of a segment, but for its sine and cosine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct End<T> {
+    angle: Angle<T>,
+    /// rad/s.
+    rate: T,
+    /// rad/s².
+    acceleration: T,
 }
 
 /// What a shape has beyond its first three coefficients. Apart from those, so that a tick of a
@@ -105,7 +120,11 @@ impl<T: Scalar> Segment<T> {
     /// The hub at the segment's tick `k`, `k < count`.
     pub fn hub(&self, k: u32) -> Hub<T> {
         let mut hub = Hub::ZERO;
-        self.drive_otherwise(&mut hub, k);
+        if k == 0 {
+            self.begin(&mut hub);
+        } else {
+            self.drive_otherwise(&mut hub, k);
+        }
         (hub.sin, hub.cos) = hub.angle.sin_cos();
         hub
     }
@@ -114,11 +133,16 @@ impl<T: Scalar> Segment<T> {
     #[inline(never)]
     pub(crate) fn angle(&self, k: u32) -> Angle<T> {
         let mut hub = Hub::ZERO;
-        self.drive_otherwise(&mut hub, k);
+        if k == 0 {
+            self.begin(&mut hub);
+        } else {
+            self.drive_otherwise(&mut hub, k);
+        }
         hub.angle
     }
 
-    /// Moves the hub, but for its sine and cosine, to the segment's tick `k`, `k < count`.
+    /// Moves the hub, but for its sine and cosine, to the segment's tick `k`, `0 < k < count`.
+    /// Tick 0 is [`Self::begin`]'s: the formula gives it too, but rounded.
     #[inline(always)]
     pub(crate) fn drive(&self, hub: &mut Hub<T>, k: u32) {
         if self.is_cubic() {
@@ -168,6 +192,9 @@ impl<T: Scalar> Segment<T> {
     /// The hub any real number of ticks after the segment's first, for solvers that choose their
     /// own steps. May be negative down to the segment's true beginning.
     pub fn hub_at(&self, ticks: T) -> Hub<T> {
+        if ticks == T::ZERO {
+            return self.hub(0);
+        }
         let (angle, rate, acceleration) = match self.rest {
             Rest::Cruise { rate, step } => {
                 (self.origin.plus(T::from_fraction(step) * ticks), rate, T::ZERO)
@@ -214,16 +241,16 @@ impl<T: Scalar> Segment<T> {
         self.entry = entry;
     }
 
-    /// θ̈ of a cubic at its beginning, at its first tick and at its last.
-    pub(crate) fn accelerations(&self) -> [T; 3] {
+    /// θ̈ of a cubic at its first tick and at its last.
+    pub(crate) fn accelerations(&self) -> [T; 2] {
         if !self.is_cubic() {
-            return [T::ZERO; 3];
+            return [T::ZERO; 2];
         }
         let [_, c2, c3] = self.low;
         let scale = self.acceleration_scale;
         let (middle, slope) = (c2 * scale, (T::TWO + T::ONE) * c3 * scale);
         let last = self.offset + T::from_u32(self.count.saturating_sub(1)) * self.advance;
-        [-T::ONE, self.offset, last].map(|u| middle + slope * u)
+        [self.begin.acceleration, middle + slope * last]
     }
 
     /// Whether it is a cubic: its θ̈ is then a straight line.
@@ -250,6 +277,7 @@ impl<T: Scalar> Segment<T> {
     pub(crate) fn become_like(&mut self, other: &Self) {
         self.origin = other.origin;
         self.count = other.count;
+        self.begin = other.begin;
         self.offset = other.offset;
         self.advance = other.advance;
         self.rate_scale = other.rate_scale;
@@ -262,21 +290,6 @@ impl<T: Scalar> Segment<T> {
         } else {
             self.rest = other.rest;
         }
-    }
-
-    /// Ends it `count` ticks after its beginning.
-    pub(crate) fn cut(&mut self, count: u32) {
-        self.count = count;
-    }
-
-    /// The same segment, broken off `count` ticks after its beginning.
-    pub(crate) fn broken_off(self, count: u32) -> Self {
-        Self { count, landing: self.hub(count).acceleration, ..self }
-    }
-
-    /// The same cruise, beginning at another angle.
-    pub(crate) fn moved(self, origin: Angle<T>) -> Self {
-        Self { origin, ..self }
     }
 }
 

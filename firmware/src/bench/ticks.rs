@@ -5,7 +5,7 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use stillbeam::Stepper;
-use stillbeam::motion::{Limits, Peaks, Plan, Start};
+use stillbeam::motion::{Limits, Plan, Start};
 use stillbeam::{Damping, Error, Generator, Hub, Link, Move, Payload, Profile, Scene, Setpoint};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
@@ -41,8 +41,7 @@ const fn to(profile: Profile, duration: f64, to: f64) -> Move {
 
 /// Any bulge: what it costs does not depend on its size.
 const fn still(duration: f64, to: f64) -> Move {
-    let peaks = Peaks { rate: 10.0, acceleration: 60.0, jerk: 1e3 };
-    Move::Still { duration, to, bulge: [0.01, 0.1, 0.02, -0.1, 0.01, 0.05], peaks }
+    Move::Still { duration, to, bulge: [0.01, 0.1, 0.02, -0.1, 0.01, 0.05] }
 }
 
 /// The table's run: an S-curve, which is seven cubics, a cubic, and a rest. Both cross quarters of

@@ -2,7 +2,7 @@
 
 use rand::Rng;
 use rand::rngs::StdRng;
-use stillbeam::motion::{BULGE, Peaks};
+use stillbeam::motion::BULGE;
 use stillbeam::{Limits, Move, Payload, Profile};
 use stillbeam_protocol::Command;
 
@@ -119,14 +119,12 @@ fn nonsense(rng: &mut StdRng) -> Command {
             duration: any(rng),
             to: any(rng),
             bulge: core::array::from_fn(|_| any(rng)),
-            peaks: Peaks { rate: any(rng), acceleration: any(rng), jerk: any(rng) },
         }),
-        // Plausible, but for a bulge that its peaks do not tell of.
+        // Plausible, but for a bulge that makes it violent.
         _ => Command::Move(Move::Still {
             duration: rng.random_range(0.3..2.0),
             to: rng.random_range(-1.0..1.0),
             bulge: core::array::from_fn::<_, BULGE, _>(|_| rng.random_range(-2.0..2.0)),
-            peaks: Peaks { rate: 1.0, acceleration: 1.0, jerk: 1.0 },
         }),
     }
 }

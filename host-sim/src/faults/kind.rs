@@ -14,7 +14,7 @@ pub enum Fault {
     /// Frames come up to four times, at once or later.
     Duplicated,
     /// Frames are whole and their numbers are not: not finite, absurd, or of a still move whose
-    /// stated peaks are not its own.
+    /// bulge no drive could follow.
     Nonsense,
     /// Ticks come late by up to a period.
     LateTicks,

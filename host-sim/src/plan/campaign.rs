@@ -189,7 +189,7 @@ impl Case {
         let peaks = profile.peaks(to, duration);
         // For what the redirected move may need, see the limits below.
         let most = peaks.acceleration.max(0.5 / (self.period * self.period));
-        let bend = self.rod.bend(1.5 * most).clamp(0.05, 1.5);
+        let bend = self.rod.bend(1.5 * most).min(1.5);
         let stepper = Elastica::<f32, 2>::new(&self.rod, self.tick, Quality::Fine, bend)?;
         let mut generator = Generator::<_, 8>::new(stepper, 0.0)?;
         // A first move that the stepper itself refuses is nothing to interrupt.

@@ -4,7 +4,7 @@ use arbitrary::{Arbitrary, Result, Unstructured};
 use embedded_can::{Frame, StandardId};
 use stillbeam::axis::Mode;
 use stillbeam::drive::ClassicFrame;
-use stillbeam::motion::{BULGE, Peaks};
+use stillbeam::motion::BULGE;
 use stillbeam::{Move, Payload, Profile};
 use stillbeam_protocol::frame::{MAX, encode};
 use stillbeam_protocol::{Command, Request};
@@ -129,8 +129,7 @@ fn motion(u: &mut Unstructured<'_>) -> Result<Move> {
             for factor in &mut bulge {
                 *factor = double(u)? as _;
             }
-            let peaks = Peaks { rate: double(u)?, acceleration: double(u)?, jerk: double(u)? };
-            Move::Still { duration, to: double(u)?, bulge, peaks }
+            Move::Still { duration, to: double(u)?, bulge }
         }
         _ => Move::To { profile: *u.choose(&Profile::ALL)?, duration, to: double(u)? },
     })

@@ -1,6 +1,6 @@
 //! From a turning hub to rest, planned in the tick's own precision: a stop cannot wait for set-up.
 
-use super::{Hub, Rest, Segment};
+use super::{End, Hub, Rest, Segment};
 use crate::Error;
 use crate::math::Scalar;
 use crate::motion::{Angle, Limits};
@@ -26,8 +26,11 @@ const LONGEST: u32 = 1 << 20;
 impl<T: Scalar> Braking<T> {
     /// Needs a limit of acceleration; those of rate and jerk are kept where they are set. `tick` in
     /// s.
+    ///
+    /// # Errors
+    /// No limit of acceleration, or one of torque or moment, which a stop cannot check.
     pub fn new(limits: &Limits, tick: f64) -> Result<Self, Error> {
-        let limits = limits.validate()?;
+        let limits = limits.validate()?.of_motion()?;
         let unlimited = limits.acceleration.unwrap_or(f64::INFINITY);
         let acceleration = Error::check("limits.acceleration", unlimited, 1e-9, 1e12, "rad/s^2")?;
         Ok(Self {
@@ -116,6 +119,7 @@ impl<T: Scalar> Braking<T> {
         let segment = Segment {
             origin,
             count: ticks - 1,
+            begin: End { angle: origin, rate: T::ZERO, acceleration: T::ZERO },
             offset: T::TWO / n - T::ONE,
             advance: T::TWO / n,
             rate_scale: tau / half,
@@ -125,14 +129,7 @@ impl<T: Scalar> Braking<T> {
             low: [c1, c2, c3],
             rest: Rest::Quintic([c4, T::ZERO]),
         };
-        (segment, origin.plus(c1 + c2 + c3 + c4))
-    }
-}
-
-impl<T: Scalar> Segment<T> {
-    /// The same segment that many turns on.
-    pub(crate) fn shifted(self, by: T) -> Self {
-        Self { origin: self.origin.plus(by), ..self }
+        (segment.begun(), origin.plus(c1 + c2 + c3 + c4))
     }
 }
 

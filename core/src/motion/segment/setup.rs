@@ -2,13 +2,13 @@
 
 use core::f64::consts::TAU;
 
-use super::{Rest, Segment, Shape};
+use super::{End, Rest, Segment, Shape};
 use crate::math::Scalar;
 use crate::motion::Angle;
 
 impl<T: Scalar> Segment<T> {
     /// A segment of `length` ticks (not whole in general) that begins `before` ticks, 0 to 1,
-    /// before the first tick that belongs to it.
+    /// before the first tick that belongs to it. With `before = 0` its first angle is exact.
     pub(crate) fn new(
         start: Angle<f64>,
         shape: Shape<T>,
@@ -21,9 +21,11 @@ impl<T: Scalar> Segment<T> {
         let [begin, _, landing] = shape.ends();
         let rate_scale = T::from_f64(TAU) / half;
         let acceleration_scale = T::TWO * rate_scale / half;
-        Self {
+        let at_start = End { angle: start.cast(), rate: T::ZERO, acceleration: T::ZERO };
+        let segment = Self {
             origin: start.plus(-begin.to_f64()).cast(),
             count,
+            begin: at_start,
             offset: T::TWO * before / length - T::ONE,
             advance: T::TWO / length,
             rate_scale,
@@ -33,6 +35,12 @@ impl<T: Scalar> Segment<T> {
             low: shape.low(),
             rest: shape.rest(),
         }
+        .begun();
+        if before == T::ZERO {
+            let begin = End { angle: at_start.angle, ..segment.begin };
+            return Self { begin, ..segment };
+        }
+        segment
     }
 
     /// Constant `rate` (rad/s) for `count` ticks.
@@ -52,6 +60,7 @@ impl<T: Scalar> Segment<T> {
         Self {
             origin,
             count,
+            begin: End { angle: origin, rate, acceleration: T::ZERO },
             offset: T::ZERO,
             advance: T::ZERO,
             rate_scale: T::ZERO,
@@ -71,6 +80,11 @@ impl Segment<f64> {
         Segment {
             origin: self.origin.cast(),
             count: self.count,
+            begin: End {
+                angle: self.begin.angle.cast(),
+                rate: f(self.begin.rate),
+                acceleration: f(self.begin.acceleration),
+            },
             offset: f(self.offset),
             advance: f(self.advance),
             rate_scale: f(self.rate_scale),

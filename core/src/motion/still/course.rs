@@ -75,7 +75,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         flex: Option<&Flex<T, K>>,
         limits: &Limits,
     ) -> Result<(StillMove, Survey), Error> {
-        let limits = limits.validate()?;
+        let limits = self.with_own(limits)?;
         let (here, period) = (from.angle.radians(), self.first_period());
         let mut ticks = libm::ceil(0.9 * period / self.tick);
         loop {
@@ -86,8 +86,8 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             let mut found = Err(Error::TooShort { duration, shortest: 0.9 * period });
             for way in ways {
                 found = self.first_within(from, flex, here + way * even, ticks as u32, &limits);
-                if found.is_ok() {
-                    return found;
+                if let Ok(found) = found {
+                    return Ok(self.surveyed(found, flex, &limits));
                 }
             }
             if duration > LONGEST * period {

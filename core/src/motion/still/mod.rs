@@ -21,6 +21,7 @@ mod aiming;
 mod course;
 mod effort;
 mod flight;
+mod loads;
 mod path;
 mod plan;
 mod second;
@@ -39,6 +40,7 @@ use flight::{Arm, Stride};
 use crate::Error;
 use crate::beam::{Chain, Rod};
 use crate::math::Scalar;
+use crate::motion::Limits;
 use crate::scene::Scene;
 use crate::stepper::Flex;
 
@@ -74,6 +76,8 @@ pub struct Still<T, const K: usize> {
     robust: bool,
     scene: Scene,
     tick: f64,
+    /// Torque and moment that every move keeps.
+    loads: Limits,
 }
 
 impl<T: Scalar, const K: usize> Still<T, K> {
@@ -99,6 +103,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             robust,
             scene: *scene,
             tick,
+            loads: Limits::default(),
         })
     }
 

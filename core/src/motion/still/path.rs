@@ -76,7 +76,10 @@ impl Path {
     /// The curve with a bulge in rad.
     pub fn segment(&self, bulge: &[f64; BULGE]) -> Segment<f64> {
         let shape = Shape::Bulged { c: self.quintic(), d: bulge.map(|b| b / TAU) };
-        Segment::new(self.from.angle, shape, f64::from(self.ticks), 0.0, self.ticks, self.tick)
+        let length = f64::from(self.ticks);
+        Segment::new(self.from.angle, shape, length, 0.0, self.ticks, self.tick)
+            .beginning(self.from.rate, self.from.acceleration)
+            .landing_with(0.0)
     }
 }
 
@@ -88,7 +91,7 @@ const NODES: u32 = 128;
 
 /// Greatest magnitudes on the quintic `c` with the bulge `d`, both in turns, over `duration` s: the
 /// largest of 129 nodes, dense at the ends where a curve may be steep, refined by the parabola through
-/// its neighbours. Error 1e-4 of a peak.
+/// its neighbours. Error 1e-4 of a peak. Not finite where a coefficient is not.
 pub(crate) fn peaks<T: Scalar>(c: &[T; 5], d: &[T; BULGE], duration: f64) -> Peaks {
     let mut derivative = monomials(c, d);
     let mut scale = TAU;
@@ -141,7 +144,10 @@ fn greatest<T: Scalar>(c: &[T; DEGREE], skipped: usize) -> f64 {
             let (bend, tilt) = (before - T::TWO * here + after, after - before);
             peak = magnitude(here - tilt * tilt / (T::TWO * T::TWO * T::TWO * bend));
         }
-        most = if peak > most { peak } else { most };
+        // What is no number stays: whoever compares it then refuses.
+        if peak > most || !peak.is_finite() {
+            most = peak;
+        }
         (before, here) = (here, after);
     }
     most.to_f64()

@@ -53,7 +53,8 @@ pub struct StillMove {
     pub tick: f64,
     /// The bulge, rad.
     pub bulge: [f64; BULGE],
-    /// Greatest magnitudes of the motion, to 1e-4 of themselves.
+    /// Greatest magnitudes of the motion, to 1e-4 of themselves. For information: a generator finds
+    /// them anew from the curve before it takes the move.
     pub peaks: Peaks,
     /// Amplitude of the first two modes that is left by the planner's model, of L. A robust move leaves
     /// some where the frequency is right, so as to leave less where it is not.
@@ -70,13 +71,22 @@ impl StillMove {
 
     /// To be pushed behind moves that end where it begins, at rest.
     pub fn motion(&self) -> Move {
-        let Self { to, bulge, peaks, .. } = *self;
-        Move::Still { duration: self.duration(), to, bulge, peaks }
+        Move::Still { duration: self.duration(), to: self.to, bulge: self.bulge }
     }
 
     /// The curve.
     pub fn segment(&self) -> Segment<f64> {
         self.path().segment(&self.bulge)
+    }
+
+    /// Greatest magnitudes of the curve, in the tick's scalar: whatever [`Self::peaks`] says.
+    pub(crate) fn curve_peaks<T: Scalar>(&self) -> Peaks {
+        let path = self.path();
+        peaks::<T>(
+            &cast(&path.quintic()),
+            &self.bulge.map(|b| T::from_f64(b / TAU)),
+            path.duration(),
+        )
     }
 
     pub(super) fn path(&self) -> Path {
@@ -105,7 +115,8 @@ impl<T: Scalar, const K: usize> Still<T, K> {
     /// The move of [`Self::plan`] for an arm that bends by little: without a single correction.
     pub fn linear(&self, from: f64, to: f64, duration: f64) -> Result<StillMove, Error> {
         let from = Origin::at_rest(Angle::from_radians(from));
-        self.search(Manner::Acceleration, &from, None, to, duration, Search::None)
+        let plan = self.search(Manner::Acceleration, &from, None, to, duration, Search::None)?;
+        self.keeping_loads(plan, None)
     }
 
     /// [`Self::plan_from`], sparing something else than the acceleration.
@@ -117,7 +128,8 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         to: f64,
         duration: f64,
     ) -> Result<StillMove, Error> {
-        self.search(manner, from, flex, to, duration, Search::Second)
+        let plan = self.search(manner, from, flex, to, duration, Search::Second)?;
+        self.keeping_loads(plan, flex)
     }
 
     pub(super) fn search(

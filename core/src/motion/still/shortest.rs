@@ -4,7 +4,7 @@ use super::plan::Search;
 use super::{Flex, Manner, Origin, Still, StillMove, Survey};
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::{Angle, Limits, Move};
+use crate::motion::{Angle, Limits, Move, admit};
 
 /// A limit that this many first periods do not keep is one that no duration does, e.g. a torque
 /// below what the arm's weight needs.
@@ -35,7 +35,8 @@ impl<T: Scalar, const K: usize> Still<T, K> {
     /// [`Self::shortest`] from any state of hub and arm.
     ///
     /// The duration grows as the exceeded limit says, then is halved back: at most 90 plans. The
-    /// error is the limit that the longest of them exceeded.
+    /// error is the limit that the longest of them exceeded; where the arm's weight does so by itself,
+    /// it says so.
     pub fn shortest_from(
         &self,
         from: &Origin,
@@ -43,7 +44,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         to: f64,
         limits: &Limits,
     ) -> Result<(StillMove, Survey), Error> {
-        let limits = limits.validate()?;
+        let limits = self.with_own(limits)?;
         let attempt = |ticks| self.first_within(from, flex, to, ticks, &limits);
         let mut failing = libm::ceil(0.9 * self.first_period() / self.tick) as u32;
         let mut reach = failing;
@@ -60,7 +61,15 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             reach = (reach + 1).max(libm::ceil(f64::from(reach) * factor) as u32);
             best = attempt(reach);
         }
-        let mut found = best?;
+        let mut found = best.map_err(|error| match error {
+            Error::LimitExceeded { parameter, limit, .. } => {
+                match self.weight_beyond(parameter, limit, from, to) {
+                    Some(weight) => error.with_remedy(weight),
+                    None => error,
+                }
+            }
+            other => other,
+        })?;
         for _ in 0..BACK {
             let middle = failing + (reach - failing) / 2;
             if middle <= failing || middle >= reach {
@@ -74,7 +83,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         // With the second mode at rest too, if the limits leave room for it.
         let quiet =
             self.in_manner(Manner::Acceleration, from, flex, to, reach, &limits, Search::Second);
-        Ok(quiet.unwrap_or(found))
+        Ok(self.surveyed(quiet.unwrap_or(found), flex, &limits))
     }
 
     /// [`Self::plan_from`] within the limits, and its survey: the second mode is left ringing, and
@@ -87,10 +96,11 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         duration: f64,
         limits: &Limits,
     ) -> Result<(StillMove, Survey), Error> {
-        let limits = limits.validate()?;
+        let limits = self.with_own(limits)?;
         let ticks = Move::Dwell { duration }.ticks(self.tick)?;
         self.in_manner(Manner::Acceleration, from, flex, to, ticks, &limits, Search::Second)
             .or_else(|_| self.first_within(from, flex, to, ticks, &limits))
+            .map(|found| self.surveyed(found, flex, &limits))
     }
 
     /// With only the first mode looked after.
@@ -105,7 +115,9 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         let attempt = |manner| self.in_manner(manner, from, flex, to, ticks, limits, Search::First);
         // The same time may do if what is exceeded is spared.
         attempt(Manner::Acceleration).or_else(|error| match error {
-            Error::LimitExceeded { parameter: "limits.rate", .. } => attempt(Manner::Rate),
+            Error::LimitExceeded { parameter: "limits.rate", .. } | Error::TooFast { .. } => {
+                attempt(Manner::Rate)
+            }
             Error::LimitExceeded { parameter: "limits.jerk", .. } => attempt(Manner::Jerk),
             _ => Err(error),
         })
@@ -124,16 +136,36 @@ impl<T: Scalar, const K: usize> Still<T, K> {
     ) -> Result<(StillMove, Survey), Error> {
         let duration = f64::from(ticks) * self.tick;
         let plan = self.search(manner, from, flex, to, duration, search)?;
-        limits.admit(&plan.peaks)?;
-        let survey = self.survey(&plan, flex);
+        admit(limits, &plan.peaks, self.tick)?;
+        let survey =
+            if limits_loads(limits) { self.survey(&plan, flex) } else { self.glance(&plan, flex) };
         survey.admit(limits, self.scene.link.length)?;
         Ok((plan, survey))
     }
+
+    /// A plan with its survey in short steps, which a search does without where it limits no load.
+    pub(super) fn surveyed(
+        &self,
+        (plan, survey): (StillMove, Survey),
+        flex: Option<&Flex<T, K>>,
+        limits: &Limits,
+    ) -> (StillMove, Survey) {
+        (plan, if limits_loads(limits) { survey } else { self.survey(&plan, flex) })
+    }
 }
 
-/// How much longer a move has to be to keep a limit, if its shape does not change: 1.05 to 4 times.
+/// True if torque or bending moment is limited.
+fn limits_loads(limits: &Limits) -> bool {
+    limits.torque.is_some() || limits.moment.is_some()
+}
+
+/// How much longer a move has to be to keep a limit, if its shape does not change: 1.02 to 4 times.
 fn stretch(error: &Error) -> f64 {
-    let Error::LimitExceeded { parameter, limit, needed, .. } = *error else { return 1.1 };
+    let (parameter, limit, needed) = match *error {
+        Error::LimitExceeded { parameter, limit, needed, .. } => (parameter, limit, needed),
+        Error::TooFast { rate, max, .. } => ("limits.rate", max, rate),
+        _ => return 1.1,
+    };
     let excess = needed / limit;
     let factor = match parameter {
         "limits.rate" => excess,

@@ -130,11 +130,13 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// too little to matter within a move.
     pub const HELD: f64 = 0.1;
 
-    /// For steps of `tick` s and tip angles up to `bend` rad relative to the hub, in
-    /// [`Self::BEND`]: see [`Rod::bend`]. f64 inside.
+    /// For steps of `tick` s and tip angles up to `bend` rad relative to the hub, 0 to 2: see
+    /// [`Rod::bend`]. A smaller range than the least of [`Self::BEND`] is that one: a stiff arm or a
+    /// slow move bends by less, and an expansion fitted to nothing would be none. f64 inside.
     pub fn new(rod: &Rod<K>, tick: f64, quality: Quality, bend: f64) -> Result<Self, Error> {
         let tick = super::check_tick(tick)?;
-        let bend = Error::check("bend", bend, Self::BEND.0, Self::BEND.1, "rad")?;
+        let (least, most) = Self::BEND;
+        let bend = Error::check("bend", bend, 0.0, most, "rad")?.max(least);
         let damping = rod.scene().damping;
         check_turns(rod.frequency(), damping.alpha, damping.beta, tick)?;
         let stepper = Self::fitted(rod, tick, quality, bend, bend);

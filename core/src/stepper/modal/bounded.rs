@@ -8,6 +8,7 @@
 
 use super::{Modal, ModalState};
 use crate::Error;
+use crate::error::Remedy;
 use crate::math::{Band, Scalar, sqrt};
 use crate::motion::Hub;
 use crate::stepper::Stepper;
@@ -45,7 +46,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             }
             max /= RATIO;
         }
-        Err(Error::TooFast { rate, max })
+        Err(Error::TooFast { rate, max, remedy: Remedy::Longer })
     }
 
     /// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken

@@ -31,6 +31,7 @@ use super::terms::Terms;
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::Model;
+use crate::error::Remedy;
 use crate::math::{Band, HalfForm, Ldl, Scalar, dot};
 use crate::motion::{Hub, Kink, Peaks};
 
@@ -177,7 +178,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
             }
             max *= 0.99;
         }
-        Err(Error::TooFast { rate: peaks.rate, max })
+        Err(Error::TooFast { rate: peaks.rate, max, remedy: Remedy::Longer })
     }
 
     fn equilibrium(&self, hub: &Hub<T>) -> Vibration<T, N> {

@@ -1,0 +1,103 @@
+//! What a move asks of the drive, whatever time it is given, and what would keep the limits.
+
+use core::f64::consts::TAU;
+
+use super::profile::MAX_TICKS;
+use super::{Limits, Peaks, Profile};
+use crate::Error;
+use crate::error::Remedy;
+
+/// A move's motion but for its duration.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Demand {
+    /// Rest to rest, by an angle in rad.
+    Turn(Profile, f64),
+    /// A change of the rate, rad/s.
+    Spin { from: f64, to: f64 },
+    /// A rate that is held, rad/s.
+    Hold(f64),
+    /// A curve that is made for its duration; in another it is another move.
+    Curve(Peaks),
+}
+
+impl Demand {
+    /// Greatest magnitudes if the move takes `duration` s. For a spin-up by Δω: 2Δω/T of
+    /// acceleration, 2πΔω/T² of jerk.
+    fn peaks(&self, duration: f64) -> Peaks {
+        match *self {
+            Self::Turn(profile, angle) => profile.peaks(angle, duration),
+            Self::Spin { from, to } => {
+                let change = (to - from).abs() / duration;
+                Peaks {
+                    rate: from.abs().max(to.abs()),
+                    acceleration: 2.0 * change,
+                    jerk: TAU * change / duration,
+                }
+            }
+            Self::Hold(rate) => Peaks { rate: rate.abs(), acceleration: 0.0, jerk: 0.0 },
+            Self::Curve(peaks) => peaks,
+        }
+    }
+
+    /// The peaks in `ticks` ticks of `tick` s, if they keep the limits and a radian a tick.
+    pub fn admit(&self, limits: &Limits, ticks: u32, tick: f64) -> Result<Peaks, Error> {
+        let peaks = self.peaks(f64::from(ticks) * tick);
+        match admit(limits, &peaks, tick) {
+            Ok(()) => Ok(peaks),
+            Err(error) => Err(self.explain(error, limits, tick)),
+        }
+    }
+
+    /// The error with its remedy: the shortest duration in whole ticks that keeps every limit. Found
+    /// by halving, as no peak grows with the duration.
+    #[cold]
+    fn explain(&self, error: Error, limits: &Limits, tick: f64) -> Error {
+        let judge = |ticks: u32| {
+            let peaks = self.peaks(f64::from(ticks) * tick);
+            admit(limits, &peaks, tick).map_err(|error| (peaks, error))
+        };
+        if let Self::Curve(_) = self {
+            return error.with_remedy(Remedy::Longer);
+        }
+        let longest = f64::from(MAX_TICKS) * tick;
+        if let Err((peaks, last)) = judge(MAX_TICKS) {
+            // What stands in the way of the longest move stands in the way of all.
+            return last.with_remedy(match *self {
+                Self::Turn(..) if peaks.jerk.is_infinite() && limits.jerk.is_some() => {
+                    Remedy::Smoother
+                }
+                Self::Hold(rate) => Remedy::Slower(rate),
+                Self::Spin { from, to } if !slow(limits, &peaks, tick) => {
+                    Remedy::Slower(if to.abs() < from.abs() { from } else { to })
+                }
+                _ => Remedy::Nearer(longest),
+            });
+        }
+        let (mut fails, mut fits) = (0, MAX_TICKS);
+        while fits - fails > 1 {
+            let middle = fails + (fits - fails) / 2;
+            if judge(middle).is_ok() {
+                fits = middle;
+            } else {
+                fails = middle;
+            }
+        }
+        error.with_remedy(Remedy::Duration(f64::from(fits) * tick))
+    }
+}
+
+/// True if the rate alone is within what is allowed.
+fn slow(limits: &Limits, peaks: &Peaks, tick: f64) -> bool {
+    admit(limits, &Peaks { acceleration: 0.0, jerk: 0.0, ..*peaks }, tick).is_ok()
+}
+
+/// Refuses peaks above a limit, more than a radian a tick, and peaks that are no numbers.
+pub(crate) fn admit(limits: &Limits, peaks: &Peaks, tick: f64) -> Result<(), Error> {
+    limits.admit(peaks)?;
+    if peaks.rate * tick <= 1.0 {
+        Ok(())
+    } else {
+        let (rate, max) = (peaks.rate, 1.0 / tick);
+        Err(Error::TooFast { rate, max, remedy: Remedy::Longer })
+    }
+}

@@ -1,0 +1,58 @@
+//! Where a segment begins and ends: exactly, whatever its formula rounds to there.
+
+use super::{End, Segment};
+use crate::math::Scalar;
+use crate::motion::{Angle, Hub};
+
+impl<T: Scalar> Segment<T> {
+    /// Moves the hub, but for its sine and cosine, to the segment's tick 0.
+    #[inline(always)]
+    pub(crate) fn begin(&self, hub: &mut Hub<T>) {
+        let End { angle, rate, acceleration } = self.begin;
+        (hub.angle, hub.rate, hub.acceleration) = (angle, rate, acceleration);
+    }
+
+    /// The same segment with rate (rad/s) and acceleration (rad/s²) at its tick 0 as they are known,
+    /// in place of what the formula rounds to.
+    pub(crate) fn beginning(mut self, rate: T, acceleration: T) -> Self {
+        (self.begin.rate, self.begin.acceleration) = (rate, acceleration);
+        self
+    }
+
+    /// The same segment with the acceleration (rad/s²) that it ends with, from the left.
+    pub(crate) fn landing_with(self, landing: T) -> Self {
+        Self { landing, ..self }
+    }
+
+    /// Stores what the formula gives at tick 0.
+    pub(super) fn begun(mut self) -> Self {
+        let mut hub = Hub::ZERO;
+        self.drive_otherwise(&mut hub, 0);
+        self.begin = End { angle: hub.angle, rate: hub.rate, acceleration: hub.acceleration };
+        self
+    }
+
+    /// Ends a segment at constant rate `count` ticks after its beginning.
+    pub(crate) fn cut(&mut self, count: u32) {
+        self.count = count;
+    }
+
+    /// The same segment, broken off `count` ticks after its beginning.
+    pub(crate) fn broken_off(self, count: u32) -> Self {
+        Self { count, landing: self.hub(count).acceleration, ..self }
+    }
+
+    /// The same segment, beginning at the angle `start`, which lies `by` from where it began.
+    pub(crate) fn shifted(mut self, by: Angle<T>, start: Option<Angle<T>>) -> Self {
+        let on = |angle: Angle<T>| Angle { turns: angle.turns.wrapping_add(by.turns), ..angle };
+        self.origin = on(self.origin).plus(by.part);
+        self.begin.angle = start.unwrap_or(on(self.begin.angle).plus(by.part));
+        self
+    }
+
+    /// The same segment at constant rate, beginning at another angle.
+    pub(crate) fn moved(mut self, origin: Angle<T>) -> Self {
+        (self.origin, self.begin.angle) = (origin, origin);
+        self
+    }
+}

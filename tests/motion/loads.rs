@@ -1,0 +1,179 @@
+//! Torque and moment: refused where they cannot be checked, kept where they are taken.
+
+use std::f64::consts::PI;
+
+use stillbeam::axis::{Axis, Policy};
+use stillbeam::motion::{Braking, Origin, Plan, Start, Still, StillMove, Survey};
+use stillbeam::stepper::Rigid;
+use stillbeam::{Angle, Error, Generator, Limits, Link, Move, Profile, Remedy, Scene};
+
+use stillbeam_sim::plan::judge::Motion;
+
+const TICK: f64 = 0.01;
+
+/// Error of a surveyed torque, of itself.
+const SURVEYED: f64 = Survey::MARGIN;
+
+fn scene() -> Scene {
+    Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 })
+}
+
+fn rigid() -> Rigid<f32> {
+    Rigid::new(&scene(), TICK).expect("a stepper")
+}
+
+/// Every layer that takes limits and does not fly the arm.
+#[test]
+fn layers_that_cannot_check_a_load_refuse_its_limit() {
+    let base = Limits { acceleration: Some(100.0), ..Limits::default() };
+    for (name, limits) in [
+        ("limits.torque = 0.3 N m", Limits { torque: Some(0.3), ..base }),
+        ("limits.moment = 0.3 N m", Limits { moment: Some(0.3), ..base }),
+    ] {
+        let motion = Move::To { profile: Profile::Cubic, duration: 1.0, to: 1.0 };
+        let start = Start::at_rest(0.0).expect("an angle");
+        let policy = Policy { limits, patience: 0.0, missed: 0 };
+        let mut generator = Generator::<_, 8>::new(rigid(), 0.0).expect("a generator");
+        for refused in [
+            generator.limit(limits),
+            Axis::<_, 8>::new(rigid(), Angle::default(), policy).map(drop),
+            Braking::<f32>::new(&limits, TICK).map(drop),
+            Plan::new(&motion, start, &limits, TICK).map(drop),
+        ] {
+            let error = refused.expect_err("no means to check it").to_string();
+            assert!(error.starts_with(name) && error.contains("must be absent here"), "{error}");
+        }
+        // What was refused is not half in force.
+        assert_eq!(
+            generator.departure(),
+            Generator::<_, 8>::new(rigid(), 0.0).unwrap().departure()
+        );
+        generator.limit(limits.kinematic()).expect("none of the arm");
+    }
+}
+
+/// Handed in, or the planner's own, or both: the smaller.
+#[test]
+fn a_planners_own_load_limits_are_kept_by_all_its_moves() {
+    let free = Still::<f32, 2>::new(&scene(), TICK).expect("a planner");
+    let from = Origin::at_rest(Angle::default());
+    let strong = Limits { torque: Some(5.0), ..Limits::default() };
+    for weak in [
+        free.clone().with_load_limits(Some(0.4), None).expect("limits"),
+        free.clone().with_load_limits(None, Some(0.4)).expect("limits"),
+    ] {
+        let (plan, survey) = weak.shortest(0.0, PI, &strong).expect("a plan");
+        assert!(survey.torque <= 0.4 && survey.moment <= 0.4, "{survey:?}");
+        let short = plan.duration() - 2.0 * TICK;
+        let exceeded = |error: Error| {
+            assert!(error.to_string().contains(": the move needs "), "{error}");
+        };
+        exceeded(weak.plan(0.0, PI, short).expect_err("plan"));
+        exceeded(weak.plan_from(&from, None, PI, short).expect_err("plan from"));
+        exceeded(weak.linear(0.0, PI, 0.8 * short).expect_err("linear"));
+        exceeded(weak.within(&from, None, PI, short, &strong).expect_err("within"));
+        free.within(&from, None, PI, short, &strong).expect("a plan");
+        // The one that is handed in is the smaller.
+        let weaker = Limits { torque: Some(0.1), ..Limits::default() };
+        let (_, survey) = weak.shortest(0.0, PI, &weaker).expect("a plan");
+        assert!(survey.torque <= 0.1);
+        // On the target the generator's departure has none: the planner keeps its own.
+        let arm = Generator::<_, 8>::new(rigid(), 0.0).expect("a generator");
+        exceeded(arm.departure().plan_still(&weak, PI, Some(short)).expect_err("beyond"));
+        arm.departure().plan_still(&weak, PI, None).expect("a plan");
+    }
+    for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(free.clone().with_load_limits(Some(nonsense), None).is_err());
+    }
+}
+
+/// A stop begins with the torque that the moving arm takes: a limit below that has none.
+#[test]
+fn a_stop_keeps_the_planners_own_loads() {
+    let free = Still::<f32, 2>::new(&scene(), TICK).expect("a planner");
+    let from = Origin { angle: Angle::default(), rate: 3.0, acceleration: 0.0 };
+    let (_, Survey { torque, .. }) = free.stop(&from, None, &Limits::default()).expect("a stop");
+    let weak = free.with_load_limits(Some(0.3 * torque), None).expect("limits");
+    let (_, survey) = weak.stop(&from, None, &Limits::default()).expect("a slower stop");
+    assert!(survey.torque <= 0.3 * torque, "{survey:?}");
+    let course = weak.course(&from, None, 2.0, &Limits::default()).expect("a course");
+    assert!(course.survey.torque <= 0.3 * torque, "{:?}", course.survey);
+}
+
+/// The duration that an explained refusal names is taken, a tick less is not.
+#[test]
+fn a_refused_still_move_is_explained() {
+    let planner = Still::<f32, 2>::new(&scene(), TICK).expect("a planner");
+    let from = Origin::at_rest(Angle::default());
+    for limits in [
+        Limits { torque: Some(0.4), ..Limits::default() },
+        Limits { moment: Some(0.4), ..Limits::default() },
+        Limits { rate: Some(8.0), ..Limits::default() },
+        Limits { jerk: Some(5e3), acceleration: Some(200.0), ..Limits::default() },
+    ] {
+        let error = planner.within(&from, None, PI, 0.15, &limits).expect_err("too short");
+        let explained = planner.explain(error, &from, None, PI, &limits);
+        let Error::LimitExceeded { remedy: Remedy::Duration(duration), .. } = explained else {
+            panic!("{explained}")
+        };
+        planner.within(&from, None, PI, duration, &limits).expect("the duration that is named");
+        assert!(planner.within(&from, None, PI, duration - TICK, &limits).is_err(), "{explained}");
+    }
+}
+
+/// Holding the arm level takes more than the limit: no duration helps, and the refusal says so.
+#[test]
+fn a_limit_below_the_weight_is_explained_by_it() {
+    let mut heavy = scene();
+    heavy.gravity = 2.0;
+    heavy.payload.mass = 0.05;
+    let planner = Still::<f32, 2>::new(&heavy, TICK).expect("a planner");
+    // Level at the middle of the way: the payload and half the link at their lever arms.
+    let held = 2.0 * (0.05 * 0.4 + 0.0224 * 0.2);
+    let from = Origin::at_rest(Angle::from_radians(-0.5 * PI));
+    let limits = Limits { torque: Some(0.8 * held), ..Limits::default() };
+    let weight = |error: Error| match error {
+        Error::LimitExceeded {
+            parameter: "limits.torque", remedy: Remedy::Weight(held), ..
+        } => held,
+        other => panic!("{other}"),
+    };
+    let (up, period) = (0.5 * PI, planner.first_period());
+    let shortest = weight(planner.shortest_from(&from, None, up, &limits).expect_err("weak"));
+    let error = planner.within(&from, None, up, 3.0 * period, &limits).expect_err("weak");
+    let within = weight(planner.explain(error, &from, None, up, &limits));
+    for found in [shortest, within] {
+        assert!((found / held - 1.0).abs() < 0.02, "{found} {held}");
+    }
+    // Hanging to half-way up it is light enough.
+    let low = Limits { torque: Some(0.8 * held), ..Limits::default() };
+    planner.shortest_from(&from, None, -0.3 * PI, &low).expect("a plan");
+}
+
+/// Largest error of a survey's torque against the reference rod, over arms and moves that bend by
+/// up to half the length. The hub has neither radius nor inertia, so the moment is the torque.
+#[test]
+fn a_survey_peaks_as_the_reference_rod() {
+    let mut worst = 0.0_f64;
+    for payload in [0.0, 0.3, 1.0, 3.0] {
+        for ratio in [1.5, 2.0, 3.0] {
+            for to in [0.4, 1.5, PI] {
+                let mut arm = scene();
+                arm.payload.mass = payload * arm.link.mass;
+                let rough = Still::<f32, 2>::new(&arm, TICK).expect("a planner");
+                let tick = rough.first_period() / 20.0;
+                let planner = Still::<f32, 2>::new(&arm, tick).expect("a planner");
+                let plan = planner.plan(0.0, to, ratio * 20.0 * tick).expect("a plan");
+                let survey = planner.survey(&plan, None);
+                // The same curve, looked at forty times a tick.
+                let finer = StillMove { ticks: 20 * plan.ticks, tick: plan.tick / 20.0, ..plan };
+                let judged = Motion::of(0.0, finer.motion(), finer.tick);
+                let judged = judged.judge(&arm, 0.0).expect("a run");
+                let off = survey.torque / judged.torque - 1.0;
+                assert!((survey.moment / survey.torque - 1.0).abs() < 1e-5, "{survey:?}");
+                worst = worst.max(off.abs());
+            }
+        }
+    }
+    assert!(worst < SURVEYED, "{worst}");
+}

@@ -1,0 +1,125 @@
+//! What a refusal says would do does, and a tick less does not.
+
+use proptest::prelude::*;
+use stillbeam::motion::{Angle, Plan, Start};
+use stillbeam::{Error, Limits, Move, Profile, Remedy};
+
+fn start(rate: f64) -> Start {
+    Start { angle: Angle::from_radians(-0.2), rate }
+}
+
+/// The duration that a refusal prints, as a reader would type it.
+fn printed(error: &Error) -> f64 {
+    let text = error.to_string();
+    let words = text.split("a duration of ").nth(1).unwrap_or_else(|| panic!("{text}"));
+    words.split(" s fits").next().expect("a number").parse().expect("a number")
+}
+
+/// Refused moves name the shortest duration that fits.
+fn assert_mended(motion: Move, start: Start, limits: &Limits, tick: f64) {
+    let Err(error) = Plan::new(&motion, start, limits, tick) else { return };
+    let duration = printed(&error);
+    let ticks = motion.lasting(duration).ticks(tick).expect("ticks");
+    let plan = |ticks: u32| {
+        Plan::new(&motion.lasting(f64::from(ticks) * tick), start, limits, tick).is_ok()
+    };
+    assert!(Plan::new(&motion.lasting(duration), start, limits, tick).is_ok(), "{error}");
+    assert!(ticks < 2 || !plan(ticks - 1), "{error}: a tick less fits too");
+    let digits = duration.to_string();
+    assert!(digits.len() < 14, "{digits} in {error}");
+}
+
+fn limit() -> impl Strategy<Value = Option<f64>> {
+    proptest::option::of((-1.0..3.0_f64).prop_map(|power| 10_f64.powf(power)))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn a_turn_in_the_time_that_is_named_keeps_every_limit(
+        profile in proptest::sample::select(Profile::ALL.to_vec()),
+        tick in proptest::sample::select(vec![0.002, 0.005, 0.01]),
+        to in -6.0..6.0,
+        rate in limit(),
+        acceleration in limit(),
+        jerk in limit(),
+        duration in 0.01..2.0,
+    ) {
+        let jumps = matches!(profile, Profile::Cubic | Profile::Trapezoid);
+        let limits = Limits { rate, acceleration, jerk, ..Limits::default() };
+        let motion = Move::To { profile, duration, to };
+        if jumps && jerk.is_some() {
+            let error = Plan::new(&motion, start(0.0), &limits, tick).expect_err("a jump");
+            let smoother = matches!(error, Error::LimitExceeded {
+                parameter: "limits.jerk", remedy: Remedy::Smoother, ..
+            });
+            prop_assert!(smoother, "{}", error);
+        } else {
+            assert_mended(motion, start(0.0), &limits, tick);
+        }
+    }
+
+    #[test]
+    fn a_spin_up_in_the_time_that_is_named_keeps_every_limit(
+        tick in proptest::sample::select(vec![0.002, 0.005, 0.01]),
+        turning in -6.0..6.0,
+        rate in -6.0..6.0,
+        acceleration in limit(),
+        jerk in limit(),
+        duration in 0.01..2.0,
+    ) {
+        let limits = Limits { rate: Some(6.0), acceleration, jerk, ..Limits::default() };
+        assert_mended(Move::SpinUp { duration, rate }, start(turning), &limits, tick);
+    }
+}
+
+#[test]
+fn what_no_duration_mends_says_so() {
+    let limits = Limits { rate: Some(4.0), ..Limits::default() };
+    let refused = |motion: Move, turning| {
+        Plan::new(&motion, start(turning), &limits, 0.01).expect_err("too fast").to_string()
+    };
+    let spin = refused(Move::SpinUp { duration: 1.0, rate: -5.25 }, 0.0);
+    assert!(
+        spin.contains("the hub turns at -5.25 rad/s at an end, so no duration helps"),
+        "{spin}"
+    );
+    let braking = refused(Move::SpinUp { duration: 1.0, rate: 0.0 }, 7.1);
+    assert!(braking.contains("turns at 7.1 rad/s"), "{braking}");
+    let dwell = refused(Move::Dwell { duration: 1.0 }, 7.1);
+    assert!(dwell.contains("turns at 7.1 rad/s"), "{dwell}");
+    let still = refused(Move::Still { duration: 0.1, to: 1.0, bulge: [0.0; 6] }, 0.0);
+    assert!(still.contains("use a longer move or raise the limit"), "{still}");
+    // 1e6 rad at 1e-9 rad/s.
+    let never = Limits { rate: Some(1e-9), ..Limits::default() };
+    let motion = Move::To { profile: Profile::Quintic, duration: 1e5, to: 1e6 };
+    let refused = Plan::new(&motion, start(0.0), &never, 0.01).expect_err("slow").to_string();
+    assert!(refused.contains("no duration up to 167772.16 s helps"), "{refused}");
+}
+
+/// A radian a tick is a limit like the others.
+#[test]
+fn more_than_a_radian_a_tick_names_a_duration() {
+    let motion = Move::To { profile: Profile::Cubic, duration: 0.01, to: 100.0 };
+    assert_mended(motion, start(0.0), &Limits::default(), 0.01);
+    let error = Plan::new(&motion, start(0.0), &Limits::default(), 0.01).expect_err("too fast");
+    assert!(error.to_string().starts_with("move.duration: the move peaks at"), "{error}");
+}
+
+/// 0.71, not 0.7100000000000001.
+#[test]
+fn durations_are_printed_as_one_would_write_them() {
+    let limits = Limits { rate: Some(1.0), ..Limits::default() };
+    for (tick, ticks) in [(0.01, 71), (0.01, 57), (0.005, 1001), (0.002, 3), (0.001, 100_007)] {
+        // A cubic's rate peaks at 1.5 times the mean.
+        let to = -0.2 + f64::from(ticks) * tick / 1.5 * (1.0 - 1e-9);
+        let motion = Move::To { profile: Profile::Cubic, duration: tick, to };
+        let error = Plan::new(&motion, start(0.0), &limits, tick).expect_err("too fast");
+        let wanted = (f64::from(ticks) * tick * 1e6).round() / 1e6;
+        assert!(
+            error.to_string().ends_with(&format!("; a duration of {wanted} s fits")),
+            "{error}"
+        );
+    }
+}
