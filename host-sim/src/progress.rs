@@ -1,5 +1,8 @@
 //! Progress on the terminal; silent where standard error is none.
 
+use std::cell::OnceCell;
+use std::time::{Duration, Instant};
+
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// A bar over so many steps. It shows after the first.
@@ -16,4 +19,33 @@ pub fn bar(what: &str, steps: usize) -> ProgressBar {
 /// Percent of one long solution.
 pub fn percent(what: &str) -> ProgressBar {
     bar(what, 100)
+}
+
+/// Percent of a solution that is mostly short: the bar shows after a second.
+pub fn late(what: &str) -> Late {
+    Late { what: what.to_owned(), begun: Instant::now(), bar: OnceCell::new() }
+}
+
+/// A bar that waits for a second before it shows.
+#[derive(Debug)]
+pub struct Late {
+    what: String,
+    begun: Instant,
+    bar: OnceCell<ProgressBar>,
+}
+
+impl Late {
+    /// Shows the fraction that is done, 0 to 1.
+    pub fn set(&self, done: f64) {
+        if self.begun.elapsed() > Duration::from_secs(1) {
+            self.bar.get_or_init(|| percent(&self.what)).set_position((100.0 * done) as u64);
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn clear(&self) {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+    }
 }

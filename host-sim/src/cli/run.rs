@@ -7,7 +7,7 @@ use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::solver::{Method, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{model_choice, run, scenes, table};
+use stillbeam_sim::{model_choice, progress, run, scenes, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -40,7 +40,10 @@ impl RunArgs {
         for line in scene.roundings(solver.tick)? {
             eprintln!("note: {line}");
         }
-        let rows = run::run(&scene, &solver)?;
+        let late = progress::late("limits, by the rod");
+        let rows = run::run_with(&scene, &solver, &|done| late.set(done));
+        late.clear();
+        let rows = rows?;
         table::write(&self.csv, &rows)?;
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
@@ -62,9 +65,9 @@ impl RunArgs {
         if bent > 0.3 && matches!(solver.method, Method::Newmark | Method::Modal) {
             println!("  note: small-deflection kinematics; beyond 30 % of L they are a guess");
         }
-        if let Some(residual) = residual(&rows, &scene)? {
+        if let Some(residual) = residual(&rows, &scene, solver.tick)?.value() {
             println!(
-                "  residual         {:.2} mm ({:.2} % of L) after the move",
+                "  residual         {:.2} mm ({:.2} % of L) in a first period after arrival",
                 1e3 * residual * scene.arm.link.length,
                 100.0 * residual
             );
