@@ -29,10 +29,11 @@ pub struct Peak {
 }
 
 impl Peak {
-    /// Takes a magnitude over if it is greater. One that is no number counts as infinite.
+    /// Takes a magnitude over if it is greater by more than rounding, so that of equal ones the
+    /// earliest stays. One that is no number counts as infinite.
     pub fn raise(&mut self, value: f64, at: f64) {
         let value = if value.is_nan() { f64::INFINITY } else { value.abs() };
-        if value > self.value {
+        if value > self.value * (1.0 + 1e-12) {
             *self = Self { value, at };
         }
     }

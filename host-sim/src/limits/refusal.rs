@@ -115,5 +115,5 @@ fn number(value: f64) -> String {
 
 /// A time as it can be typed back: its decimals to a nanosecond.
 pub(super) fn seconds(time: f64) -> f64 {
-    (time * 1e9).round() / 1e9
+    (time * 1e9).round() / 1e9 + 0.0
 }

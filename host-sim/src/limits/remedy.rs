@@ -5,7 +5,7 @@ use stillbeam::{Limits, Move, Profile, Remedy};
 use super::refusal::seconds;
 use super::{Case, Excess, Quantity, Refusal, Way, holding, kinematic, load};
 use crate::error::Error;
-use crate::reference::rod;
+use crate::reference::rod::{self, Options, Resume};
 use crate::scene_file::Step;
 use crate::trajectory::{Side, Trajectory};
 
@@ -15,6 +15,13 @@ const MOST_TICKS: u32 = 1 << 24;
 /// Durations that are tried on the way up where a trial costs nothing, and where it is a flight.
 const TRIALS: u32 = 400;
 const FLIGHTS: u32 = 60;
+
+/// Durations that are tried above the one that a quick search has found.
+const CLOSER: u32 = 24;
+
+/// Share of the aimed duration that a search may leap to: there a load would be twice its limit, and
+/// the most that a vibration does to a load is to double it or to cancel half of it.
+const LEAP: f64 = 0.7;
 
 /// The refusal of a motion whose trajectory exceeds a kinematic limit.
 pub fn of_motion(
@@ -61,7 +68,7 @@ pub fn of_loads(
     let period = rod::first_period(case.arm)?;
     // A vibration that the move starts adds to the load or not, as its phase at the end is.
     let careful = (0.125 * period / case.tick).ceil().max(1.0) as u32;
-    let keeps = |ticks| {
+    let keeps_in = |options: &Options, state: &Option<Resume>, ticks| {
         let steps = lasting(case, excess.index, ticks);
         let case = case.with(&steps);
         let Ok(trajectory) = case.trajectory() else { return Ok(Some(1.5)) };
@@ -72,14 +79,27 @@ pub fn of_loads(
         let Some(window) = windows.iter().find(|window| window.index == excess.index) else {
             return Ok(None);
         };
-        let state = found.state.as_ref();
-        let (peaks, _) = load::fly(&case, &trajectory, window, &load::FINE, state, &|_| ())?;
-        if let Some(excess) = peaks.excess(limits, excess.index) {
-            return Ok(Some(excess.quantity.stretch(excess.ratio())));
-        }
-        Ok(if admit(&steps) { None } else { Some(1.01) })
+        let (peaks, _) = load::fly(&case, &trajectory, window, options, state.as_ref(), &|_| ())?;
+        Ok(peaks
+            .excess(limits, excess.index)
+            .map(|excess| excess.quantity.stretch(excess.ratio())))
     };
-    Ok(refusal(searched(case, &excess, FLIGHTS, careful, keeps)?))
+    let [fine, quick] = &found.states;
+    let way = searched(case, &excess, FLIGHTS, careful, |ticks| {
+        keeps_in(&load::QUICK, quick, ticks)
+    })?;
+    let Way::Remedy(Remedy::Duration(duration)) = way else { return Ok(refusal(way)) };
+    // By the finer flight, and by whoever commands it, a little more may be needed.
+    let least = (duration / case.tick).round() as u32;
+    for ticks in (0..CLOSER).map(|k| least + k.max(k * least / 200)) {
+        let taken = keeps_in(&load::FINE, fine, ticks)?.is_none()
+            && admit(&lasting(case, excess.index, ticks));
+        if taken {
+            let duration = seconds(f64::from(ticks) * case.tick);
+            return Ok(refusal(Way::Remedy(Remedy::Duration(duration))));
+        }
+    }
+    Ok(refusal(Way::Remedy(Remedy::Longer)))
 }
 
 /// What merely holding the arm takes between two hub angles, rad, if that exceeds the limit.
@@ -180,7 +200,7 @@ fn searched(
 /// The shortest duration beyond `failing`, whole ticks, that keeps the limits.
 ///
 /// `keeps` says how many times as long a duration would have to be, none if it does. The durations go
-/// up by that, but by no more than `careful` ticks or a twentieth at once, then are halved back to
+/// up to [`LEAP`] of that at once, then by no more than `careful` ticks or a twentieth, then are halved back to
 /// the last that failed. The error is the longest that was tried.
 pub fn shortest(
     failing: u32,
@@ -193,7 +213,8 @@ pub fn shortest(
     for _ in 0..trials {
         // Less than a tick in a million is rounding.
         let aimed = (f64::from(failing) * stretch - 1e-6).ceil().min(f64::from(MOST_TICKS)) as u32;
-        let cap = failing.saturating_add(careful.max(failing / 20));
+        let leap = (f64::from(failing) * stretch * LEAP).min(f64::from(MOST_TICKS)) as u32;
+        let cap = failing.saturating_add(careful.max(failing / 20)).max(leap);
         let mut reach = aimed.min(cap).max(failing + 1);
         if reach > MOST_TICKS {
             break;

@@ -99,7 +99,7 @@ impl Search<'_> {
             let peak = Peak { value: 0.0, at: 0.0 };
             let excess = Excess { quantity, peak, limit, index: before.steps.len() };
             if let Some(held) = remedy::too_heavy(before, limits, &excess, *from, *to)? {
-                let begin = before.steps.iter().flat_map(Step::motions).map(|m| m.duration()).sum();
+                let begin = before.steps.iter().flat_map(Step::motions).map(|m| m.duration()).sum::<f64>() + 0.0;
                 let excess = Excess { peak: Peak { value: held, at: begin }, ..excess };
                 return Err(self.refusal(excess, Way::Remedy(Remedy::Weight(held))));
             }
