@@ -37,9 +37,7 @@ pub fn run_with(
     admit_loads(scene, solver.tick, &commanded, progress)?;
     let rows = with_stepper(scene, solver, Rows { scene })?;
     match own_excess(scene, solver.tick, &rows)? {
-        Some(excess) => {
-            Err(Refusal { excess, count: scene.moves.len(), way: Way::Method }.into())
-        }
+        Some(excess) => Err(Refusal { excess, count: scene.moves.len(), way: Way::Method }.into()),
         None => Ok(rows),
     }
 }

@@ -176,7 +176,11 @@ impl SceneFile {
             let step = table.build(index, &mut at, &planning).map_err(|error| {
                 let place = place_of(index);
                 // A limit's refusal says itself which move it is.
-                if !many || error.to_string().contains(&place) { error } else { error.within(place) }
+                if !many || error.to_string().contains(&place) {
+                    error
+                } else {
+                    error.within(place)
+                }
             });
             moves.push(step?);
         }
@@ -199,9 +203,7 @@ impl SceneFile {
         let case = self.case(tick);
         let trajectory = case.trajectory()?;
         match limits::kinematic::excess(&case, &trajectory, &self.limits) {
-            Some(excess) => {
-                Err(remedy::of_motion(&case, &trajectory, &self.limits, excess).into())
-            }
+            Some(excess) => Err(remedy::of_motion(&case, &trajectory, &self.limits, excess).into()),
             None => Ok(trajectory),
         }
     }

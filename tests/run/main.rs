@@ -4,6 +4,8 @@ mod auto;
 mod convergence;
 mod energy;
 mod exact;
+mod limits;
+mod residual;
 mod scene_files;
 mod still;
 mod truth;

@@ -105,10 +105,7 @@ fn print(name: &str, request: &Request, planned: &Planned) {
         1e3 * survey.deflection,
         100.0 * survey.deflection / length
     );
-    println!(
-        "  residual           {:.4} % of L in the reference rod",
-        100.0 * judgement.residual
-    );
+    println!("  residual           {:.4} % of L in the reference rod", 100.0 * judgement.residual);
     println!(
         "  planner\u{2019}s bound    {:.4} % of L by its model, all modes in step",
         100.0 * survey.residual / length

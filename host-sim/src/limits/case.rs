@@ -66,8 +66,7 @@ impl<'a> Case<'a> {
 
     /// Ticks of rest that the scene's own moves lack after the last arrival.
     fn missing_rest(&self, trajectory: &Trajectory) -> Result<u64, Error> {
-        let turning =
-            trajectory.plans().last().is_none_or(|plan| plan.outline.end.rate != 0.0);
+        let turning = trajectory.plans().last().is_none_or(|plan| plan.outline.end.rate != 0.0);
         let Some(arrival) = trajectory.arrivals().last().filter(|_| !turning) else {
             return Ok(0);
         };
@@ -84,9 +83,11 @@ impl<'a> Case<'a> {
                     .is_err()
             });
             let motion = refused.unwrap_or(motions.len()) - 1;
-            let mut owners = self.steps.iter().enumerate().flat_map(|(index, step)| {
-                step.motions().map(move |_| index)
-            });
+            let mut owners = self
+                .steps
+                .iter()
+                .enumerate()
+                .flat_map(|(index, step)| step.motions().map(move |_| index));
             // What is added behind the moves belongs to the last.
             let index = owners.nth(motion).unwrap_or(self.steps.len().saturating_sub(1));
             let error = Error::from(error);

@@ -64,11 +64,7 @@ pub fn excess(case: &Case<'_>, trajectory: &Trajectory, limits: &Limits) -> Opti
 }
 
 /// [`excess`] in one window only.
-pub fn excess_in(
-    window: &Window,
-    trajectory: &Trajectory,
-    limits: &Limits,
-) -> Option<Excess> {
+pub fn excess_in(window: &Window, trajectory: &Trajectory, limits: &Limits) -> Option<Excess> {
     excess_within(window, &Stretches::of(trajectory), limits, trajectory.tick())
 }
 
@@ -84,12 +80,12 @@ fn excess_within(
     tick: f64,
 ) -> Option<Excess> {
     let peaks = stretches.peaks(window.begin, window.end);
-    [Quantity::Rate, Quantity::Turn, Quantity::Acceleration, Quantity::Jerk]
-        .into_iter()
-        .find_map(|quantity| {
+    [Quantity::Rate, Quantity::Turn, Quantity::Acceleration, Quantity::Jerk].into_iter().find_map(
+        |quantity| {
             let limit = quantity.limit(limits, tick)?;
             Excess::of(quantity, peaks.of(quantity)?, limit, window.index)
-        })
+        },
+    )
 }
 
 /// A motion between its breaks.
@@ -123,7 +119,11 @@ impl<'a> Stretches<'a> {
             stretch.raise(&mut peaks.jerk, &|t| stretch.jerk(t));
         }
         // The window's own end is the next one's beginning; that of the run is nobody's.
-        let cuts = if end >= self.trajectory.duration() - eps { &cuts[..] } else { &cuts[..cuts.len() - 1] };
+        let cuts = if end >= self.trajectory.duration() - eps {
+            &cuts[..]
+        } else {
+            &cuts[..cuts.len() - 1]
+        };
         for &t in cuts {
             let [left, right] = [Side::Left, Side::Right].map(|side| self.acceleration(t, side));
             let scale = left.abs().max(right.abs()).max(peaks.acceleration.value);

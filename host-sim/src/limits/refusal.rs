@@ -71,7 +71,12 @@ impl fmt::Display for Refusal {
         if self.count > 1 {
             write!(f, " (move {} of {})", index + 1, self.count)?;
         }
-        write!(f, " needs {} {unit} at {} s, must be at most ", number(peak.value), seconds(peak.at))?;
+        write!(
+            f,
+            " needs {} {unit} at {} s, must be at most ",
+            number(peak.value),
+            seconds(peak.at)
+        )?;
         write!(f, "{} {unit}", significant(limit, 9))?;
         if quantity == Quantity::Turn {
             write!(f, ", one radian a tick")?;

@@ -32,9 +32,9 @@ pub fn of_motion(
 ) -> Refusal {
     let way = plain_way(case, trajectory, limits, &excess).unwrap_or_else(|| {
         // Behind a shaper, copies of a move get in and out of step as it grows: small steps.
-        let careful = case.shaper.map_or(u32::MAX, |shaper| {
-            (shaper.delay() / case.tick / 32.0).ceil().max(1.0) as u32
-        });
+        let careful = case
+            .shaper
+            .map_or(u32::MAX, |shaper| (shaper.delay() / case.tick / 32.0).ceil().max(1.0) as u32);
         let keeps = |ticks| {
             let steps = lasting(case, excess.index, ticks);
             let case = case.with(&steps);
@@ -60,8 +60,8 @@ pub fn of_loads(
     if let Some(way) = plain_way(case, trajectory, limits, &excess) {
         return Ok(refusal(way));
     }
-    let [begin, end] =
-        [found.window.begin, found.window.end].map(|t| trajectory.at(t, Side::Left).angle.radians());
+    let [begin, end] = [found.window.begin, found.window.end]
+        .map(|t| trajectory.at(t, Side::Left).angle.radians());
     if let Some(held) = too_heavy(case, limits, &excess, begin, end)? {
         return Ok(refusal(Way::Remedy(Remedy::Weight(held))));
     }
@@ -80,14 +80,11 @@ pub fn of_loads(
             return Ok(None);
         };
         let (peaks, _) = load::fly(&case, &trajectory, window, options, state.as_ref(), &|_| ())?;
-        Ok(peaks
-            .excess(limits, excess.index)
-            .map(|excess| excess.quantity.stretch(excess.ratio())))
+        Ok(peaks.excess(limits, excess.index).map(|excess| excess.quantity.stretch(excess.ratio())))
     };
     let [fine, quick] = &found.states;
-    let way = searched(case, &excess, FLIGHTS, careful, |ticks| {
-        keeps_in(&load::QUICK, quick, ticks)
-    })?;
+    let way =
+        searched(case, &excess, FLIGHTS, careful, |ticks| keeps_in(&load::QUICK, quick, ticks))?;
     let Way::Remedy(Remedy::Duration(duration)) = way else { return Ok(refusal(way)) };
     // By the finer flight, and by whoever commands it, a little more may be needed.
     let least = (duration / case.tick).round() as u32;
@@ -187,9 +184,7 @@ fn searched(
     let failing = step.motion.ticks(case.tick).unwrap_or(1);
     let first = excess.quantity.stretch(excess.ratio());
     Ok(match shortest(failing, first, trials, careful, keeps)? {
-        Ok(ticks) => {
-            Way::Remedy(Remedy::Duration(seconds(f64::from(ticks) * case.tick)))
-        }
+        Ok(ticks) => Way::Remedy(Remedy::Duration(seconds(f64::from(ticks) * case.tick))),
         Err(_) if case.shaper.is_some() && excess.index > 0 => {
             Way::Pulses(case.shaper.map_or(0.0, |shaper| shaper.delay()))
         }

@@ -99,7 +99,9 @@ impl Search<'_> {
             let peak = Peak { value: 0.0, at: 0.0 };
             let excess = Excess { quantity, peak, limit, index: before.steps.len() };
             if let Some(held) = remedy::too_heavy(before, limits, &excess, *from, *to)? {
-                let begin = before.steps.iter().flat_map(Step::motions).map(|m| m.duration()).sum::<f64>() + 0.0;
+                let begin =
+                    before.steps.iter().flat_map(Step::motions).map(|m| m.duration()).sum::<f64>()
+                        + 0.0;
                 let excess = Excess { peak: Peak { value: held, at: begin }, ..excess };
                 return Err(self.refusal(excess, Way::Remedy(Remedy::Weight(held))));
             }
@@ -236,15 +238,13 @@ impl Search<'_> {
                     let mut state = None;
                     for window in earlier {
                         let at = state.as_ref();
-                        state =
-                            load::fly(&case, &trajectory, window, &load::FINE, at, &|_| ())?.1;
+                        state = load::fly(&case, &trajectory, window, &load::FINE, at, &|_| ())?.1;
                     }
                     self.state.get_or_init(|| state)
                 }
             };
             let state = state.as_ref();
-            let (loads, _) =
-                load::fly(&case, &trajectory, window, &load::FINE, state, &|_| ())?;
+            let (loads, _) = load::fly(&case, &trajectory, window, &load::FINE, state, &|_| ())?;
             peaks.push((Quantity::Torque, loads.torque));
             peaks.push((Quantity::Moment, loads.moment));
         }

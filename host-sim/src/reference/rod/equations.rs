@@ -185,9 +185,8 @@ impl<const N: usize> Rod<N> {
             moment += self.masses[s] * ((x - self.scene.hub.radius) * ay - y * ax);
             shear += self.masses[s] * ay;
         }
-        let torque = moment
-            + self.scene.hub.radius * shear
-            + self.scene.hub.inertia * hub.acceleration;
+        let torque =
+            moment + self.scene.hub.radius * shear + self.scene.hub.inertia * hub.acceleration;
         [torque, moment]
     }
 }

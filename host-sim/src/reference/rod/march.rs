@@ -102,11 +102,8 @@ pub(super) fn watch<const N: usize>(
     let begin = resume.map_or(0.0, |resume| resume.t);
     let close = 1e-6 * schedule.tick();
     for stretch in schedule.stretches() {
-        let stretch = Stretch {
-            begin: stretch.begin.max(begin),
-            end: stretch.end.min(until),
-            times: &[],
-        };
+        let stretch =
+            Stretch { begin: stretch.begin.max(begin), end: stretch.end.min(until), times: &[] };
         if stretch.end - stretch.begin <= close {
             continue;
         }
@@ -137,10 +134,8 @@ fn go<const N: usize>(
 ) -> Result<State<N>, ReferenceError> {
     match integrator {
         Integrator::Explicit => {
-            let method = ExplicitRungeKutta::dop853()
-                .rtol(tolerance)
-                .atol(tolerance)
-                .max_steps(usize::MAX);
+            let method =
+                ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
             march(method, motion, start, visit, each_step)
         }
         Integrator::Implicit => {
