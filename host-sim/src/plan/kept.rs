@@ -25,6 +25,10 @@ const ROUNDS: u32 = 8;
 const LONGER: u32 = 40;
 const GROWTH: f64 = 1.03;
 
+/// Fraction of a duration below which no shorter one is looked for, and how often the rest is halved.
+const SHORTER: f64 = 0.8;
+const HALVINGS: u32 = 5;
+
 /// A still move as it is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
@@ -115,7 +119,7 @@ impl Search<'_> {
 
     /// The move of a given duration, or the refusal that says which would do.
     fn lasting(&self, duration: f64) -> Result<Found, Error> {
-        let excess = match self.attempt(duration)? {
+        let excess = match self.attempt(duration, self.asked.limits)? {
             Ok(found) => return Ok(found),
             Err(Failure::Core(error)) => return Err(error.into()),
             Err(Failure::Exceeds(excess)) => excess,
@@ -124,7 +128,7 @@ impl Search<'_> {
             let longest = plan.ticks + plan.ticks / 10 + 10;
             (plan.ticks..longest)
                 .map(|ticks| f64::from(ticks) * plan.tick)
-                .find(|&duration| matches!(self.attempt(duration), Ok(Ok(_))))
+                .find(|&duration| matches!(self.attempt(duration, self.asked.limits), Ok(Ok(_))))
         });
         let way = fits.map_or(Way::Remedy(Remedy::Longer), |fits| {
             Way::Remedy(Remedy::Duration((fits * 1e9).round() / 1e9))
@@ -133,16 +137,16 @@ impl Search<'_> {
     }
 
     /// A move of that duration, s, within the limits in truth.
-    fn attempt(&self, duration: f64) -> Result<Result<Found, Failure>, Error> {
+    fn attempt(&self, duration: f64, limits: &Limits) -> Result<Result<Found, Failure>, Error> {
         let (from, to) = (Origin::at_rest(Angle::from_radians(self.asked.from)), self.asked.to);
         let within = |limits: &Limits| self.planner.within(&from, None, to, duration, limits);
         // The planner's own idea of the loads is not asked: the rod's counts.
-        let unloaded = Limits { torque: None, moment: None, ..*self.asked.limits };
+        let unloaded = Limits { torque: None, moment: None, ..*limits };
         let first = match within(&unloaded) {
             Ok(found) => found,
             Err(CoreError::LimitExceeded { .. }) => match within(&Limits::default()) {
                 Ok(found) => {
-                    let over = self.over(&found.0, self.asked.limits)?;
+                    let over = self.over(&found.0, limits)?;
                     let kinematic = over.into_iter().next();
                     return match kinematic {
                         Some(excess) => Ok(Err(Failure::Exceeds(excess))),
@@ -153,10 +157,10 @@ impl Search<'_> {
             },
             Err(error) => return Ok(Err(Failure::Core(error))),
         };
-        let over = self.over(&first.0, self.asked.limits)?;
+        let over = self.over(&first.0, limits)?;
         let Some(&excess) = over.first() else { return Ok(Ok(first)) };
         // Without its second mode looked after the move may take less.
-        match self.tightened(self.asked.limits, within)? {
+        match self.tightened(limits, within)? {
             Ok(found) => Ok(Ok(found)),
             Err(_) => Ok(Err(Failure::Exceeds(excess))),
         }
@@ -168,18 +172,39 @@ impl Search<'_> {
         let goal = Limits { torque: limits.torque.map(|torque| GOAL * torque), ..*limits };
         let found = self.tightened(&goal, |limits| self.planner.shortest(from, to, limits))?;
         let (excess, from_ticks) = match found {
-            Ok(found) => return Ok(found),
+            Ok(found) => return self.shortened(found, &goal),
             Err((Failure::Core(error), _)) => return Err(error.into()),
             Err((Failure::Exceeds(excess), ticks)) => (excess, ticks),
         };
         let mut ticks = f64::from(from_ticks);
         for _ in 0..LONGER {
             ticks = (ticks * GROWTH).ceil();
-            if let Ok(found) = self.attempt(ticks * self.asked.before.tick)? {
+            if let Ok(found) = self.attempt(ticks * self.asked.before.tick, &goal)? {
                 return Ok(found);
             }
         }
         Err(self.refusal(excess, Way::None(ticks * self.asked.before.tick)))
+    }
+
+    /// Halves a duration back that tightened load limits made too long: they take the weight's share
+    /// of a load for the motion's.
+    fn shortened(&self, found: Found, goal: &Limits) -> Result<Found, Error> {
+        let mut found = found;
+        if !load::limited(goal) {
+            return Ok(found);
+        }
+        let mut failing = (SHORTER * f64::from(found.0.ticks)) as u32;
+        for _ in 0..HALVINGS {
+            let middle = failing + (found.0.ticks - failing) / 2;
+            if middle <= failing {
+                break;
+            }
+            match self.attempt(f64::from(middle) * self.asked.before.tick, goal)? {
+                Ok(shorter) => found = shorter,
+                Err(_) => failing = middle,
+            }
+        }
+        Ok(found)
     }
 
     /// Plans, looks at the truth, and plans again within limits that are tighter by what it exceeds.
