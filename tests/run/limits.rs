@@ -70,16 +70,15 @@ fn dense(scene: &SceneFile, tick: f64) -> [f64; 3] {
         if step <= 0.0 {
             continue;
         }
-        let mut before: Option<f64> = None;
         for k in 0..=points {
-            let side = if k == points { Side::Left } else { Side::Right };
-            let hub = trajectory.at(pair[0] + f64::from(k) * step, side);
+            let (side, beside) =
+                if k == points { (Side::Left, -1e-2 * step) } else { (Side::Right, 1e-2 * step) };
+            let t = pair[0] + f64::from(k) * step;
+            let hub = trajectory.at(t, side);
+            let slope = (trajectory.at(t + beside, side).acceleration - hub.acceleration) / beside;
             most[0] = most[0].max(hub.rate.abs());
             most[1] = most[1].max(hub.acceleration.abs());
-            if let Some(before) = before {
-                most[2] = most[2].max(((hub.acceleration - before) / step).abs());
-            }
-            before = Some(hub.acceleration);
+            most[2] = most[2].max(slope.abs());
         }
     }
     most
@@ -202,7 +201,7 @@ fn torque_is_what_the_arm_takes_whatever_the_method() {
 fn a_method_that_commands_more_than_the_limit_is_refused() {
     let text = |limits: &str, duration: f64| {
         format!(
-            "{LINK}{PAYLOAD}{limits}[move]\nprofile = \"cubic\"\nduration = {duration}\nto = 1.0\n"
+            "{LINK}{PAYLOAD}{limits}[move]\nprofile = \"cubic\"\nduration = {duration}\nto = 0.3\n"
         )
     };
     let commanded_by = |duration: f64, method| {

@@ -140,25 +140,20 @@ impl Search<'_> {
     fn attempt(&self, duration: f64, limits: &Limits) -> Result<Result<Found, Failure>, Error> {
         let (from, to) = (Origin::at_rest(Angle::from_radians(self.asked.from)), self.asked.to);
         let within = |limits: &Limits| self.planner.within(&from, None, to, duration, limits);
-        // The planner's own idea of the loads is not asked: the rod's counts.
-        let unloaded = Limits { torque: None, moment: None, ..*limits };
-        let first = match within(&unloaded) {
+        // The planner's own idea of the peaks is not asked first: the truth counts, behind the shaper and
+        // by the rod.
+        let free = match within(&Limits::default()) {
             Ok(found) => found,
-            Err(CoreError::LimitExceeded { .. }) => match within(&Limits::default()) {
-                Ok(found) => {
-                    let over = self.over(&found.0, limits)?;
-                    let kinematic = over.into_iter().next();
-                    return match kinematic {
-                        Some(excess) => Ok(Err(Failure::Exceeds(excess))),
-                        None => Ok(Ok(found)),
-                    };
-                }
-                Err(error) => return Ok(Err(Failure::Core(error))),
-            },
             Err(error) => return Ok(Err(Failure::Core(error))),
         };
-        let over = self.over(&first.0, limits)?;
-        let Some(&excess) = over.first() else { return Ok(Ok(first)) };
+        let over = self.over(&free.0, limits)?;
+        let Some(&excess) = over.first() else { return Ok(Ok(free)) };
+        let unloaded = Limits { torque: None, moment: None, ..*limits };
+        if let Ok(found) = within(&unloaded)
+            && self.over(&found.0, limits)?.is_empty()
+        {
+            return Ok(Ok(found));
+        }
         // Without its second mode looked after the move may take less.
         match self.tightened(limits, within)? {
             Ok(found) => Ok(Ok(found)),
