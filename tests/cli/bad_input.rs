@@ -202,3 +202,22 @@ fn files_that_are_not_there() {
     run(&["compare", "a.csv", "b.csv", "--scene", "d-fast", "--tolerance", "-1"]);
     assert_eq!(fs::read_dir(folder.path()).expect("folder").count(), 0);
 }
+
+#[test]
+fn a_reference_keeps_limits_as_a_run_does() {
+    let folder = tempfile::tempdir().expect("folder");
+    let scene = GOOD.replace("rate = 10.0", "moment = 0.0001");
+    fs::write(folder.path().join("scene.toml"), scene).expect("scene");
+    for command in ["run", "reference"] {
+        let output = sim()
+            .current_dir(folder.path())
+            .args([command, "scene.toml", "--csv", "out.csv"])
+            .output()
+            .expect("program");
+        let text = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(2), "{command}: {text}");
+        let last = text.lines().last().expect("a line");
+        assert!(last.contains("limits.moment: move needs"), "{command}: {text}");
+        assert!(!folder.path().join("out.csv").exists());
+    }
+}
