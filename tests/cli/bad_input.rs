@@ -216,8 +216,8 @@ fn a_reference_keeps_limits_as_a_run_does() {
             .expect("program");
         let text = String::from_utf8(output.stderr).expect("text");
         assert_eq!(output.status.code(), Some(2), "{command}: {text}");
-        let last = text.lines().last().expect("a line");
-        assert!(last.contains("limits.moment: move needs"), "{command}: {text}");
+        assert_eq!(text.lines().count(), 1, "{command}: {text}");
+        assert!(text.contains("limits.moment: move needs"), "{command}: {text}");
         assert!(!folder.path().join("out.csv").exists());
     }
 }

@@ -27,9 +27,7 @@ impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let scene = scenes::open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
-        for line in scene.roundings(tick)? {
-            eprintln!("note: {line}");
-        }
+        let notes = scene.roundings(tick)?;
         let trajectory = scene.trajectory(tick)?;
         let every = self.every.unwrap_or(tick);
         if !(1e-6..=trajectory.duration()).contains(&every) {
@@ -49,6 +47,10 @@ impl ReferenceArgs {
         });
         bar.finish_and_clear();
         let rows = rows?;
+        // A refusal is one line.
+        for line in notes {
+            eprintln!("note: {line}");
+        }
         table::write(&self.csv, &rows)?;
         let peak = |of: fn(&table::Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         let bent = peak(|row| row.deflection_m.abs());

@@ -32,18 +32,19 @@ impl RunArgs {
         if let Some(line) = typed.unread(solver.method).into_iter().next() {
             return Err(Error::new(line));
         }
+        // Printed once the run is accepted: a refusal is one line.
+        let mut notes = Vec::new();
         if typed.method.is_none() {
-            for line in scene.solver.unread(solver.method) {
-                eprintln!("note: {line}");
-            }
+            notes.extend(scene.solver.unread(solver.method));
         }
-        for line in scene.roundings(solver.tick)? {
-            eprintln!("note: {line}");
-        }
+        notes.extend(scene.roundings(solver.tick)?);
         let late = progress::late("limits, by the rod");
         let rows = run::run_with(&scene, &solver, &|done| late.set(done));
         late.clear();
         let rows = rows?;
+        for line in notes {
+            eprintln!("note: {line}");
+        }
         table::write(&self.csv, &rows)?;
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
