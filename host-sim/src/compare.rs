@@ -20,8 +20,8 @@ pub struct Comparison {
     /// Largest torque difference away from the jumps of the commanded acceleration, fraction of
     /// `b`'s peak torque; rows less than one and a half row intervals from a jump are left out.
     pub torque: f64,
-    /// [`residual`] of `a` and of `b`, fraction of L; none where the run does not end at rest.
-    pub residual: Option<(f64, f64)>,
+    /// [`residual`] of `a` and of `b`.
+    pub residual: [Residual; 2],
     /// L, m.
     pub length: f64,
 }
@@ -60,28 +60,75 @@ pub fn compare(a: &[Row], b: &[Row], scene: &SceneFile) -> Result<Comparison, Er
         tip_rms: (squares / pairs.len() as f64).sqrt(),
         tip_max_at,
         torque: if peak > 0.0 { torque / peak } else { torque },
-        residual: residual(a, scene)?.zip(residual(b, scene)?),
+        residual: [residual_of_table(a, scene, tick)?, residual_of_table(b, scene, tick)?],
         length,
     })
 }
 
-/// Residual vibration, fraction of L: the largest |deflection − static equilibrium at the final
-/// angle| from the end of the last move on. None where the hub does not end at rest.
-pub fn residual(rows: &[Row], scene: &SceneFile) -> Result<Option<f64>, Error> {
-    let trajectory = scene.trajectory(scene.solver.resolve()?.tick)?;
-    let last = trajectory.plans().last();
-    if last.is_none_or(|plan| plan.outline.end.rate != 0.0) {
-        return Ok(None);
+/// What a run's table says of its residual vibration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Residual {
+    /// The residual, fraction of L.
+    Of(f64),
+    /// The hub does not end at rest.
+    Turning,
+    /// The table ends before a first period after the last arrival has passed.
+    Cut {
+        /// Its last time, s.
+        ends: f64,
+        /// What it should reach, s.
+        needed: f64,
+    },
+}
+
+impl Residual {
+    /// The residual, fraction of L, if there is one.
+    pub fn value(self) -> Option<f64> {
+        if let Self::Of(value) = self { Some(value) } else { None }
     }
-    let end = trajectory.arrivals().last().unwrap_or(0.0);
-    let still = rod::rest_deflection(&scene.arm, trajectory.at(end, Side::Right).angle)?;
+}
+
+/// Residual vibration: the largest deflection of the tip from its rest, the static equilibrium at the
+/// final angle, over a first period after the last arrival. See [`crate::residual`].
+///
+/// `rows` at intervals of `tick` s, the setpoint interval of the run.
+pub fn residual(rows: &[Row], scene: &SceneFile, tick: f64) -> Result<Residual, Error> {
+    residual_along(rows, scene, &scene.trajectory(tick)?)
+}
+
+fn residual_along(
+    rows: &[Row],
+    scene: &SceneFile,
+    trajectory: &Trajectory,
+) -> Result<Residual, Error> {
+    let turning = trajectory.plans().last().is_none_or(|plan| plan.outline.end.rate != 0.0);
+    let Some(end) = trajectory.arrivals().last().filter(|_| !turning) else {
+        return Ok(Residual::Turning);
+    };
     let length = scene.arm.link.length;
-    let largest = rows
-        .iter()
-        .filter(|row| row.t_s >= end - 1e-9)
-        .map(|row| (row.deflection_m - still).abs() / length)
-        .fold(None, |most: Option<f64>, x| Some(most.map_or(x, |most| most.max(x))));
-    Ok(largest)
+    let still = rod::rest_deflection(&scene.arm, trajectory.at(end, Side::Right).angle)?;
+    let interval = interval(rows);
+    let span = crate::residual::span(&scene.arm, trajectory.tick())?;
+    let (ends, needed) = (rows.last().map_or(0.0, |row| row.t_s), end + span);
+    if ends < needed - interval.max(trajectory.tick()) {
+        return Ok(Residual::Cut { ends, needed });
+    }
+    let samples: Vec<(f64, f64)> =
+        rows.iter().map(|row| (row.t_s, (row.deflection_m - still) / length)).collect();
+    Ok(Residual::Of(crate::residual::largest(&samples, end, span)))
+}
+
+/// [`residual`] of a table whose run may have had another tick than the scene says: its rows'
+/// interval. The later arrival counts: at both the hub is at rest.
+fn residual_of_table(rows: &[Row], scene: &SceneFile, tick: f64) -> Result<Residual, Error> {
+    let by_scene = scene.trajectory(tick)?;
+    let rounded = (interval(rows) * 1e9).round() * 1e-9;
+    let last = |trajectory: &Trajectory| trajectory.arrivals().last();
+    let other = (1e-6..=1.0).contains(&rounded).then(|| scene.trajectory(rounded));
+    match other {
+        Some(Ok(other)) if last(&other) > last(&by_scene) => residual_along(rows, scene, &other),
+        _ => residual_along(rows, scene, &by_scene),
+    }
 }
 
 /// Times at which the commanded acceleration jumps, the beginning of the run included.

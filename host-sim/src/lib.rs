@@ -3,7 +3,8 @@
 //!
 //! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
 //! motion ([`trajectory`]), the core's run ([`run`], [`model_choice`]), its table ([`table`],
-//! [`output`]), and how far two tables are apart ([`compare`]).
+//! [`output`]), and how far two tables are apart ([`compare`]). What a motion may ask of the drive is
+//! held against its [`limits`]; what it leaves behind is its [`residual`] vibration.
 //!
 //! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core in [`sweep`], run time
 //! against error; its run time is compared with that of [`textbook`]. The paper's figures are
@@ -23,6 +24,7 @@ pub mod error;
 #[cfg(feature = "faults")]
 pub mod faults;
 mod flight;
+pub mod limits;
 pub mod model_choice;
 pub mod output;
 pub mod plan;
@@ -30,6 +32,7 @@ pub mod plot;
 pub mod progress;
 pub mod reference;
 pub mod report;
+pub mod residual;
 pub mod run;
 pub mod scene_file;
 pub mod scenes;

@@ -187,9 +187,9 @@ fn modal<T: Real, const K: usize, const N: usize, const W: usize>(
 /// The scene's moves are refused, whatever the method.
 pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoChoice>, Error> {
     let tolerance = Tolerance { tip: solver.tolerance, torque: solver.torque_tolerance };
-    let mut progress = progress::after_a_second("choosing a method");
+    let late = progress::late("choosing a method");
     along(scene, solver.tick, |motion| {
-        Ok(stepper::choose(&scene.arm, solver.tick, motion, &tolerance, &mut progress))
+        Ok(stepper::choose(&scene.arm, solver.tick, motion, &tolerance, &mut |part| late.set(part)))
     })
 }
 
@@ -207,9 +207,9 @@ impl StepperVisitor for Assess<'_> {
 
     fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Assessment, Error> {
         let arm = &self.scene.arm;
-        let mut progress = progress::after_a_second("judging the method");
+        let late = progress::late("judging the method");
         along(self.scene, stepper.tick(), |motion| {
-            Ok(stepper::assess(arm, stepper, motion, &mut progress)?)
+            Ok(stepper::assess(arm, stepper, motion, &mut |part| late.set(part))?)
         })
     }
 }

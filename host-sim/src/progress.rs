@@ -1,5 +1,6 @@
 //! Progress on the terminal; silent where standard error is none.
 
+use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -20,24 +21,32 @@ pub fn percent(what: &str) -> ProgressBar {
     bar(what, 100)
 }
 
-/// Takes the part of one long task that is done, 0 to 1, and shows it once the task has taken a second.
-/// What it shows is gone when it is dropped.
-pub fn after_a_second(what: &'static str) -> impl FnMut(f64) {
-    let began = Instant::now();
-    let mut shown: Option<Shown> = None;
-    move |part| {
-        if began.elapsed() > Duration::from_secs(1) {
-            let Shown(bar) = shown.get_or_insert_with(|| Shown(percent(what)));
-            bar.set_position((100.0 * part) as u64);
+/// Percent of a task that is mostly short: the bar shows after a second and goes away when dropped.
+pub fn late(what: &str) -> Late {
+    Late { what: what.to_owned(), begun: Instant::now(), bar: OnceCell::new() }
+}
+
+/// A bar that waits for a second before it shows.
+#[derive(Debug)]
+pub struct Late {
+    what: String,
+    begun: Instant,
+    bar: OnceCell<ProgressBar>,
+}
+
+impl Late {
+    /// Shows the fraction that is done, 0 to 1.
+    pub fn set(&self, done: f64) {
+        if self.begun.elapsed() > Duration::from_secs(1) {
+            self.bar.get_or_init(|| percent(&self.what)).set_position((100.0 * done) as u64);
         }
     }
 }
 
-/// A bar that goes away with its task.
-struct Shown(ProgressBar);
-
-impl Drop for Shown {
+impl Drop for Late {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
     }
 }

@@ -7,8 +7,9 @@ use stillbeam::stepper::{Choice, Response, Stepper};
 use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
 use crate::error::Error;
+use crate::limits::{self, Excess, Peak, Quantity, Refusal, Way, remedy};
 use crate::model_choice::{StepperVisitor, with_chosen, with_stepper};
-use crate::scene_file::SceneFile;
+use crate::scene_file::{SceneFile, Step};
 use crate::solver::Solver;
 use crate::table::Row;
 
@@ -17,25 +18,71 @@ pub const QUEUE: usize = 14;
 
 /// Runs a scene from its beginning to the end of the last rest: a row every tick, from t = 0.
 ///
-/// At the end of a move the row holds the left-hand acceleration and torque.
+/// The scene's limits are kept by what is commanded, whatever the method: see [`limits`]. At the end
+/// of a move the row holds the left-hand acceleration and torque.
 pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
-    admitted(scene, with_stepper(scene, solver, Rows { scene })?)
+    run_with(scene, solver, None, &|_| ())
 }
 
-/// [`run`] where it is known what `auto` has chosen, if that is the method.
-pub fn run_chosen(
+/// [`run`] where it is known what `auto` has chosen, if that is the method. `progress` is called with
+/// the fraction of the limits' check that is done, 0 to 1.
+pub fn run_with(
     scene: &SceneFile,
     solver: &Solver,
     choice: Option<&Choice>,
+    progress: &dyn Fn(f64),
 ) -> Result<Vec<Row>, Error> {
-    admitted(scene, with_chosen(scene, solver, choice, Rows { scene })?)
+    let commanded = |steps: &[Step]| {
+        let scene = SceneFile { moves: steps.to_vec(), ..scene.clone() };
+        let rows = with_stepper(&scene, solver, Rows { scene: &scene });
+        rows.is_ok_and(|rows| own_excess(&scene, solver.tick, &rows).is_ok_and(|own| own.is_none()))
+    };
+    admit_loads(scene, solver.tick, &commanded, progress)?;
+    let rows = match choice {
+        Some(_) => with_chosen(scene, solver, choice, Rows { scene }),
+        None => with_stepper(scene, solver, Rows { scene }),
+    }?;
+    match own_excess(scene, solver.tick, &rows)? {
+        Some(excess) => Err(Refusal { excess, count: scene.moves.len(), way: Way::Method }.into()),
+        None => Ok(rows),
+    }
 }
 
-/// The rows if their torque keeps the scene's limit.
-fn admitted(scene: &SceneFile, rows: Vec<Row>) -> Result<Vec<Row>, Error> {
-    let torque = rows.iter().map(|row| row.torque_nm.abs()).fold(0.0, f64::max);
-    scene.limits.admit_torque(torque)?;
-    Ok(rows)
+/// Refuses a scene along whose motion the reference rod exceeds a limit of torque or clamp moment.
+/// `commanded` says whether a method that is to make the setpoints keeps the limits with other
+/// moves.
+pub fn admit_loads(
+    scene: &SceneFile,
+    tick: f64,
+    commanded: &dyn Fn(&[Step]) -> bool,
+    progress: &dyn Fn(f64),
+) -> Result<(), Error> {
+    if !limits::load::limited(&scene.limits) {
+        return Ok(());
+    }
+    let case = scene.case(tick);
+    let trajectory = scene.trajectory(tick)?;
+    match limits::load::excess(&case, &trajectory, &scene.limits, progress)? {
+        Some(found) => {
+            let limits = &scene.limits;
+            Err(remedy::of_loads(&case, &trajectory, limits, &found, commanded)?.into())
+        }
+        None => Ok(()),
+    }
+}
+
+/// The first move during which the setpoints themselves exceed the limit of torque.
+fn own_excess(scene: &SceneFile, tick: f64, rows: &[Row]) -> Result<Option<Excess>, Error> {
+    let Some(limit) = scene.limits.torque else { return Ok(None) };
+    let windows = scene.case(tick).windows(&scene.trajectory(tick)?);
+    Ok(windows.iter().find_map(|window| {
+        let within = |row: &&Row| row.t_s >= window.begin - 1e-9 && row.t_s <= window.end + 1e-9;
+        let mut peak = Peak::default();
+        for row in rows.iter().filter(within) {
+            peak.raise(row.torque_nm, row.t_s);
+        }
+        Excess::of(Quantity::Torque, peak, limit, window.index)
+    }))
 }
 
 struct Rows<'a> {
@@ -56,8 +103,14 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
         return drive_shaped(&stepper, scene, shaper);
     }
     let tick = stepper.tick();
+    // The moves' own, and the rest that is added to show what they leave behind.
+    let mut motions = scene.motions();
+    let planned = scene.trajectory(tick)?;
+    if let Some(rest) = planned.plans().get(motions.len()) {
+        motions.push(Move::Dwell { duration: f64::from(rest.outline.ticks) * tick });
+    }
     let mut rows = Vec::new();
-    each_tick(stepper, scene, |generator, k, ends| {
+    each_tick_of(stepper, scene.from, &motions, |generator, k, ends| {
         let setpoint = generator.tick();
         let shown = if ends { generator.setpoint_before() } else { setpoint };
         rows.push(row(k as f64 * tick, &shown));
@@ -94,22 +147,31 @@ fn drive_shaped<S: Stepper>(
     Ok(rows)
 }
 
-/// Feeds the moves to a generator as its queue takes them, and has `each` tick it through all of
-/// them: `each(generator, k, ends)` calls [`Generator::tick`] once, for tick `k`, at which a move
-/// ends if `ends`.
+/// Feeds the scene's moves to a generator as its queue takes them, and has `each` tick it through
+/// all of them: `each(generator, k, ends)` calls [`Generator::tick`] once, for tick `k`, at which a
+/// move ends if `ends`. The scene's motion keeps its kinematic limits.
 pub fn each_tick<S: Stepper>(
     stepper: S,
     scene: &SceneFile,
-    mut each: impl FnMut(&mut Generator<S, QUEUE>, u64, bool),
+    each: impl FnMut(&mut Generator<S, QUEUE>, u64, bool),
 ) -> Result<(), Error> {
     if scene.shaper.is_some() {
         return Err(Error::new(
             "shaper: a generator has none; use run, reference, compare or sweep",
         ));
     }
-    let mut generator = Generator::<S, QUEUE>::new(stepper, scene.from)?;
-    generator.limit(scene.limits.kinematic())?;
-    let motions = scene.motions();
+    scene.trajectory(stepper.tick())?;
+    each_tick_of(stepper, scene.from, &scene.motions(), each)
+}
+
+/// [`each_tick`] of moves from rest at `from` rad.
+fn each_tick_of<S: Stepper>(
+    stepper: S,
+    from: f64,
+    motions: &[Move],
+    mut each: impl FnMut(&mut Generator<S, QUEUE>, u64, bool),
+) -> Result<(), Error> {
+    let mut generator = Generator::<S, QUEUE>::new(stepper, from)?;
     let mut waiting = motions.iter().peekable();
     let mut ends = Vec::new();
     let mut total = 0;

@@ -18,6 +18,7 @@ use self::shaper::ShaperTable;
 pub use self::units::angle as angle_remark;
 use crate::document::Document;
 use crate::error::Error;
+use crate::limits::{self, Case, remedy};
 use crate::solver::SolverKeys;
 use crate::trajectory::Trajectory;
 
@@ -49,6 +50,14 @@ pub struct Step {
     pub motion: Move,
     /// Time after it, s; 0 for none.
     pub settle: f64,
+}
+
+impl Step {
+    /// The move and the dwell after it, if there is one.
+    pub fn motions(&self) -> impl Iterator<Item = Move> + use<> {
+        let dwell = (self.settle > 0.0).then_some(Move::Dwell { duration: self.settle });
+        std::iter::once(self.motion).chain(dwell)
+    }
 }
 
 #[derive(Deserialize)]
@@ -173,41 +182,51 @@ impl SceneFile {
         };
         let from = tables[0].from.unwrap_or(0.0);
         let mut at = Some(from);
-        let planning = Planning { arm: &arm, limits: &limits, tick: file.solver.resolve()?.tick };
-        let mut moves = Vec::new();
+        let tick = file.solver.resolve()?.tick;
+        let shaper = file.shaper.as_ref().map(|table| table.build(&arm)).transpose()?;
+        let mut moves: Vec<Step> = Vec::new();
         for (index, table) in tables.iter().enumerate() {
-            let step = table.build(index, &mut at, &planning);
-            let step = if many { step.map_err(|e| e.within(place_of(index))) } else { step };
+            let (steps, shaper) = (&moves[..], shaper.as_ref());
+            let before = Case { arm: &arm, from, steps, shaper, tick };
+            let planning = Planning { before, limits: &limits, count: tables.len() };
+            let step = table.build(index, &mut at, &planning).map_err(|error| {
+                let place = place_of(index);
+                // A limit's refusal says itself which move it is.
+                if !many || error.to_string().contains(&place) {
+                    error
+                } else {
+                    error.within(place)
+                }
+            });
             moves.push(step.map_err(remarked)?);
         }
-        let shaper = file.shaper.as_ref().map(|table| table.build(&arm)).transpose()?;
         let (name, solver) = (name.to_owned(), file.solver);
         let scene = Self { name, arm, from, moves, shaper, limits, solver, remarks: Vec::new() };
-        scene.trajectory(planning.tick).map_err(remarked)?;
+        scene.trajectory(tick).map_err(remarked)?;
         Ok(Self { remarks, ..scene })
     }
 
-    /// The commanded motion with every duration rounded to whole ticks, its shaper passed.
+    /// The moves and what they pass, to be held against limits.
+    pub fn case(&self, tick: f64) -> Case<'_> {
+        let Self { arm, from, moves, shaper, .. } = self;
+        Case { arm, from: *from, steps: moves, shaper: shaper.as_ref(), tick }
+    }
+
+    /// The commanded motion with every duration rounded to whole ticks, its shaper passed, within
+    /// the limits of rate, acceleration and jerk. A first period of rest at least follows the last
+    /// arrival.
     pub fn trajectory(&self, tick: f64) -> Result<Trajectory, Error> {
-        let trajectory =
-            Trajectory::plan(self.from, &self.motions(), &self.limits.kinematic(), tick)?;
-        let Some(shaper) = &self.shaper else { return Ok(trajectory) };
-        let rate = trajectory.plans().last().map_or(0.0, |plan| plan.outline.end.rate);
-        if rate != 0.0 {
-            return Err(Error::new(format_args!(
-                "shaper: the hub turns on with {rate} rad/s after the last move; the motion must be at rest at its end"
-            )));
+        let case = self.case(tick);
+        let trajectory = case.trajectory()?;
+        match limits::kinematic::excess(&case, &trajectory, &self.limits) {
+            Some(excess) => Err(remedy::of_motion(&case, &trajectory, &self.limits, excess).into()),
+            None => Ok(trajectory),
         }
-        Ok(trajectory.shaped(shaper.clone()))
     }
 
     /// The moves with their dwells, as the generator's queue takes them.
     pub fn motions(&self) -> Vec<Move> {
-        let with_dwell = |step: &Step| {
-            let dwell = (step.settle > 0.0).then_some(Move::Dwell { duration: step.settle });
-            std::iter::once(step.motion).chain(dwell)
-        };
-        self.moves.iter().flat_map(with_dwell).collect()
+        self.moves.iter().flat_map(Step::motions).collect()
     }
 }
 

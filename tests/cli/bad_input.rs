@@ -228,3 +228,22 @@ fn the_image_is_looked_for_in_cargos_target_folder() {
     assert!(error.contains(&image.display().to_string()), "{error}");
     assert!(error.contains("--features mps2") && error.contains("--image"), "{error}");
 }
+
+#[test]
+fn a_reference_keeps_limits_as_a_run_does() {
+    let folder = tempfile::tempdir().expect("folder");
+    let scene = GOOD.replace("rate = 10.0", "moment = 0.0001");
+    fs::write(folder.path().join("scene.toml"), scene).expect("scene");
+    for command in ["run", "reference"] {
+        let output = sim()
+            .current_dir(folder.path())
+            .args([command, "scene.toml", "--csv", "out.csv"])
+            .output()
+            .expect("program");
+        let text = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(2), "{command}: {text}");
+        assert_eq!(text.lines().count(), 1, "{command}: {text}");
+        assert!(text.contains("limits.moment: move needs"), "{command}: {text}");
+        assert!(!folder.path().join("out.csv").exists());
+    }
+}

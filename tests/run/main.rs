@@ -5,6 +5,8 @@ mod auto_bits;
 mod convergence;
 mod energy;
 mod exact;
+mod limits;
+mod residual;
 mod scene_files;
 mod shaped;
 mod still;

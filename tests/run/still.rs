@@ -37,7 +37,7 @@ fn a_scene_file_plans_its_still_moves() {
     let times = truth::times(&trajectory, 0.01);
     let rows =
         truth::solve(truth::Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("a run");
-    let left = compare::residual(&rows, &scene).expect("a rest").expect("at rest");
+    let left = compare::residual(&rows, &scene, 0.01).expect("a rest").value().expect("at rest");
     assert!(left < 0.02, "{left}");
     // After the first two, nothing is left: neither is robust.
     let first = trajectory.arrivals().next().expect("an arrival");
@@ -101,7 +101,7 @@ fn a_scene_file_shapes_its_moves() {
         let ours = run::run(&scene, &solver).expect("a run");
         let apart = compare::compare(&ours, &rod.expect("a run"), &scene).expect("one scene");
         assert!(apart.tip_max < 1e-3, "{shaper}: {apart:?}");
-        (trajectory.duration(), apart.residual.expect("at rest").1)
+        (trajectory.duration(), apart.residual[1].value().expect("at rest"))
     };
     let (duration, rings) = run_of("");
     for (shaper, periods) in

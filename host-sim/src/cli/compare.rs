@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use stillbeam_sim::compare::{Comparison, compare};
+use stillbeam_sim::compare::{Comparison, Residual, compare};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::table;
 
@@ -53,11 +53,15 @@ fn print(result: &Comparison) {
     );
     println!("  tip error, rms   {:.6} L  {:.4} mm", result.tip_rms, result.tip_rms * mm);
     println!("  torque error     {:.3} % of the peak, away from jumps", 100.0 * result.torque);
-    if let Some((a, b)) = result.residual {
-        println!(
-            "  residual         {a:.6} L  {:.4} mm  against {b:.6} L  {:.4} mm",
-            a * mm,
-            b * mm
-        );
+    if result.residual.contains(&Residual::Turning) {
+        return;
     }
+    let words = result.residual.map(|residual| match residual {
+        Residual::Of(left) => format!("{left:.6} L  {:.4} mm", left * mm),
+        Residual::Turning => "none".to_owned(),
+        Residual::Cut { ends, needed } => format!(
+            "unknown (the table ends at {ends:.4} s, must reach {needed:.4} s: a first period after arrival)"
+        ),
+    });
+    println!("  residual         {}  against {}", words[0], words[1]);
 }

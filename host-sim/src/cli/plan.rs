@@ -101,17 +101,20 @@ fn print(name: &str, request: &Request, planned: &Planned) {
     println!("  peak rate          {:.4} rad/s", plan.peaks.rate);
     println!("  peak acceleration  {:.3} rad/s\u{b2}", plan.peaks.acceleration);
     println!("  peak jerk          {:.1} rad/s\u{b3}", plan.peaks.jerk);
-    println!("  peak torque        {:.4} N m", survey.torque);
-    println!("  peak bending       {:.4} N m at the clamp", survey.moment);
+    println!("  peak torque        {:.4} N m in the reference rod", planned.loads.torque.value);
+    println!(
+        "  peak bending       {:.4} N m at the clamp, in the reference rod",
+        planned.loads.moment.value
+    );
     println!(
         "  peak deflection    {:.2} mm ({:.1} % of L)",
         1e3 * survey.deflection,
         100.0 * survey.deflection / length
     );
+    println!("  residual           {:.4} % of L in the reference rod", 100.0 * judgement.residual);
     println!(
-        "  residual           {:.4} % of L predicted, {:.4} % in the reference rod",
-        100.0 * survey.residual / length,
-        100.0 * judgement.residual
+        "  planner\u{2019}s bound    {:.4} % of L by its model, all modes in step",
+        100.0 * survey.residual / length
     );
     let at = |error: f64| 100.0 * planned.residual_at(error);
     println!(

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::truth::{self, Reference};
-use stillbeam_sim::{progress, table};
+use stillbeam_sim::{progress, run, table};
 
 #[derive(clap::Args)]
 pub struct ReferenceArgs {
@@ -26,9 +27,7 @@ impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let scene = super::open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
-        for line in scene.roundings(tick)? {
-            super::note(&line);
-        }
+        let notes = scene.roundings(tick)?;
         let trajectory = scene.trajectory(tick)?;
         let every = self.every.unwrap_or(tick);
         if !(1e-6..=trajectory.duration()).contains(&every) {
@@ -37,6 +36,10 @@ impl ReferenceArgs {
                 trajectory.duration()
             )));
         }
+        let late = progress::late("limits, by the rod");
+        let kept = run::admit_loads(&scene, tick, &|_| true, &|done| late.set(done));
+        drop(late);
+        kept?;
         let bar = progress::percent(&scene.name);
         let times = truth::times(&trajectory, every);
         let rows = truth::solve(self.solver, &scene, &trajectory, &times, &|done| {
@@ -44,6 +47,10 @@ impl ReferenceArgs {
         });
         bar.finish_and_clear();
         let rows = rows?;
+        // A refusal is one line.
+        for line in notes {
+            super::note(&line);
+        }
         table::write(&self.csv, &rows)?;
         let peak = |of: fn(&table::Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         let bent = peak(|row| row.deflection_m.abs());
@@ -55,6 +62,14 @@ impl ReferenceArgs {
             1e3 * bent,
             100.0 * bent / scene.arm.link.length
         );
+        // Rows far apart cannot tell how much a vibration leaves.
+        if let Some(residual) = residual(&rows, &scene, tick)?.value() {
+            println!(
+                "  residual         {:.2} mm ({:.2} % of L) in a first period after arrival",
+                1e3 * residual * scene.arm.link.length,
+                100.0 * residual
+            );
+        }
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -9,7 +9,7 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{model_choice, run, table};
+use stillbeam_sim::{model_choice, progress, run, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -34,7 +34,7 @@ impl RunArgs {
         if let Some(line) = typed.unread(solver.method).into_iter().next() {
             return Err(Error::new(line));
         }
-        // Told once it has run: what is refused is refused in one line.
+        // Printed once the run is accepted: a refusal is one line.
         let mut notes = Vec::new();
         if typed.method.is_none() {
             notes.extend(scene.solver.unread(solver.method));
@@ -45,7 +45,10 @@ impl RunArgs {
             Method::Auto => Some(chosen(&scene, &solver, &keys, &mut notes)?),
             _ => None,
         };
-        let rows = run::run_chosen(&scene, &solver, choice.as_ref())?;
+        let rows = {
+            let late = progress::late("limits, by the rod");
+            run::run_with(&scene, &solver, choice.as_ref(), &|done| late.set(done))?
+        };
         if choice.is_none() {
             notes.extend(remark(&scene, &solver));
         }
@@ -69,9 +72,9 @@ impl RunArgs {
         if bent > 0.3 && matches!(solver.method, Method::Newmark | Method::Modal) {
             println!("  note: small-deflection kinematics; beyond 30 % of L they are a guess");
         }
-        if let Some(residual) = residual(&rows, &scene)? {
+        if let Some(residual) = residual(&rows, &scene, solver.tick)?.value() {
             println!(
-                "  residual         {:.2} mm ({:.2} % of L) after the move",
+                "  residual         {:.2} mm ({:.2} % of L) in a first period after arrival",
                 1e3 * residual * scene.arm.link.length,
                 100.0 * residual
             );

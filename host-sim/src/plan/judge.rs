@@ -6,6 +6,7 @@ use stillbeam::{Limits, Move, Scene};
 use crate::error::Error;
 use crate::reference::Sample;
 use crate::reference::rod::{self, Options};
+use crate::residual;
 use crate::trajectory::{Side, Trajectory};
 
 /// A residual changes by less than 1e-6 of L with finer ones.
@@ -21,8 +22,7 @@ const LOOKS: usize = 120;
 /// What a motion does to an arm.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// Largest deflection of the tip from where it rests, over a first period after the motion;
-    /// fraction of L.
+    /// Residual vibration, fraction of L: see [`crate::residual`].
     pub residual: f64,
     /// Largest deflection, fraction of L.
     pub deflection: f64,
@@ -98,12 +98,13 @@ impl Motion {
         let samples = rod::solve(&arm, &trajectory, &times, options)?;
         let rest = rod::rest_deflection(&arm, trajectory.at(end, Side::Right).angle)?;
         let length = arm.link.length;
+        let after: Vec<(f64, f64)> = samples[before..]
+            .iter()
+            .map(|sample| (sample.t, (sample.deflection - rest) / length))
+            .collect();
         let most = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(of).fold(0.0, f64::max);
         Ok(Judgement {
-            residual: samples[before..]
-                .iter()
-                .map(|sample| (sample.deflection - rest).abs() / length)
-                .fold(0.0, f64::max),
+            residual: residual::largest(&after, end, period),
             deflection: most(&|sample| sample.deflection.abs() / length),
             torque: most(&|sample| sample.torque.abs()),
             rate: most(&|sample| sample.rate.abs()),

@@ -6,6 +6,7 @@ pub mod contest;
 pub mod document;
 pub mod duration;
 pub mod judge;
+pub mod kept;
 pub mod page;
 pub mod picture;
 pub mod request;

@@ -1,11 +1,14 @@
 //! A still move as it is asked for, and all that is found out about it.
 
 use rayon::prelude::*;
-use stillbeam::motion::{Angle, Origin, Still, StillMove, Survey};
+use stillbeam::motion::{StillMove, Survey};
 use stillbeam::{Limits, Scene};
 
 use super::judge::{Judgement, Motion};
+use super::kept::{Asked, Kept};
 use crate::error::Error;
+use crate::limits::{Case, Window, load};
+use crate::scene_file::Step;
 
 /// Frequency errors of a sensitivity curve.
 pub const ERRORS: [f64; 17] = [
@@ -43,30 +46,34 @@ pub struct Planned {
     pub first_period: f64,
     /// What the reference rod does.
     pub judgement: Judgement,
+    /// Peak loads of the reference rod, over the move and a first period after it.
+    pub loads: load::Peaks,
     /// `(frequency error, residual)`, fractions.
     pub sensitivity: Vec<(f64, f64)>,
 }
 
 impl Request {
-    /// Plans, in f32 as the target does.
-    pub fn plan(&self) -> Result<(StillMove, Survey, f64), Error> {
-        let planner = match self.robust {
-            Some(spread) => Still::<f32, 2>::robust(&self.arm, self.tick, spread)?,
-            None => Still::<f32, 2>::new(&self.arm, self.tick)?,
-        };
-        let (plan, survey) = match self.duration {
-            None => planner.shortest(self.from, self.to, &self.limits)?,
-            Some(duration) => {
-                let from = Origin::at_rest(Angle::from_radians(self.from));
-                planner.within(&from, None, self.to, duration, &self.limits)?
-            }
-        };
-        Ok((plan, survey, planner.first_period()))
+    /// Plans, in f32 as the target does; within the limits in truth.
+    pub fn plan(&self) -> Result<Kept, Error> {
+        let Self { arm, from, to, duration, limits, robust, tick } = self;
+        let before = Case { arm, from: *from, steps: &[], shaper: None, tick: *tick };
+        let (from, to, duration, robust) = (*from, *to, *duration, *robust);
+        Asked { before, limits, from, to, duration, robust, settle: 0.0, count: 1 }.plan()
+    }
+
+    /// The rod's peak loads along a plan.
+    fn loads(&self, plan: &StillMove) -> Result<load::Peaks, Error> {
+        let steps = [Step { motion: plan.motion(), settle: 0.0 }];
+        let (arm, from, tick) = (&self.arm, self.from, self.tick);
+        let case = Case { arm, from, steps: &steps, shaper: None, tick };
+        let trajectory = case.trajectory()?;
+        let window = Window { index: 0, begin: 0.0, end: trajectory.duration() };
+        Ok(load::fly(&case, &trajectory, &window, &load::FINE, None, &|_| ())?.0)
     }
 
     /// Plans and judges; `tick` is called once for each of [`ERRORS`].
     pub fn carry_out(&self, tick: &(dyn Fn() + Sync)) -> Result<Planned, Error> {
-        let (plan, survey, first_period) = self.plan()?;
+        let Kept { plan, survey, first_period } = self.plan()?;
         let motion = Motion::of(self.from, plan.motion(), self.tick);
         let judgements = ERRORS
             .par_iter()
@@ -79,7 +86,8 @@ impl Request {
         let residuals = judgements.iter().map(|judgement| judgement.residual);
         let sensitivity = ERRORS.into_iter().zip(residuals).collect();
         let judgement = judgements[ERRORS.len() / 2].clone();
-        Ok(Planned { plan, survey, first_period, judgement, sensitivity })
+        let loads = self.loads(&plan)?;
+        Ok(Planned { plan, survey, first_period, judgement, loads, sensitivity })
     }
 }
 

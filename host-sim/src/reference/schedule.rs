@@ -77,6 +77,11 @@ impl<'a> Schedule<'a> {
         self.trajectory.at(t, if first_half { Side::Right } else { Side::Left })
     }
 
+    /// h, s.
+    pub fn tick(&self) -> f64 {
+        self.trajectory.tick()
+    }
+
     /// Length of the run, s.
     pub fn duration(&self) -> f64 {
         self.trajectory.duration()

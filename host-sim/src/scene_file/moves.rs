@@ -1,11 +1,12 @@
 //! The moves of a scene file.
 
 use serde::Deserialize;
-use stillbeam::motion::{Angle, Origin, Still};
-use stillbeam::{Limits, Move, Profile, Scene};
+use stillbeam::{Limits, Move, Profile};
 
 use super::Step;
 use crate::error::Error;
+use crate::limits::Case;
+use crate::plan::kept::Asked;
 
 /// A `[move]` table.
 #[derive(Deserialize)]
@@ -23,34 +24,11 @@ pub(super) struct MoveTable {
 
 /// What a still move is planned with.
 pub(super) struct Planning<'a> {
-    pub arm: &'a Scene,
+    /// The moves before it.
+    pub before: Case<'a>,
     pub limits: &'a Limits,
-    /// s.
-    pub tick: f64,
-}
-
-impl Planning<'_> {
-    /// A move after which the arm is at rest; without a duration the shortest within the limits.
-    fn still(
-        &self,
-        from: f64,
-        to: f64,
-        duration: Option<f64>,
-        robust: Option<f64>,
-    ) -> Result<Move, Error> {
-        // As on the target, where plans are made in f32.
-        let planner = match robust {
-            Some(spread) => Still::<f32, 2>::robust(self.arm, self.tick, spread)?,
-            None => Still::<f32, 2>::new(self.arm, self.tick)?,
-        };
-        Ok(match duration {
-            Some(duration) => {
-                let from = Origin::at_rest(Angle::from_radians(from));
-                planner.within(&from, None, to, duration, self.limits)?.0.motion()
-            }
-            None => planner.shortest(from, to, self.limits)?.0.motion(),
-        })
-    }
+    /// Moves of the scene.
+    pub count: usize,
 }
 
 impl MoveTable {
@@ -100,7 +78,10 @@ impl MoveTable {
                      rate = 0 and a move to an angle before it",
                 )
             })?;
-            let motion = planning.still(from, to, self.duration, self.robust)?;
+            let Planning { before, limits, count } = *planning;
+            let Self { duration, robust, settle, .. } = *self;
+            let asked = Asked { before, limits, from, to, duration, robust, settle, count };
+            let motion = asked.plan()?.plan.motion();
             return Ok(Step { motion, settle: self.settle });
         }
         refuse("robust", self.robust)?;

@@ -2,6 +2,7 @@
 
 use super::SceneFile;
 use crate::error::Error;
+use crate::trajectory::Trajectory;
 
 /// Lines of one kind that are printed; the rest is counted.
 const MOST: usize = 4;
@@ -35,7 +36,20 @@ impl SceneFile {
             let (delay, pulses) = (shaper.delay(), shaper.pulses().len());
             format!("the shaper\u{2019}s {pulses} pulses add {delay:.4} s to the motion")
         });
-        Ok(rounded.lines(self.moves.len()).into_iter().chain(shaped).collect())
+        let lines = rounded.lines(self.moves.len()).into_iter();
+        Ok(lines.chain(shaped).chain(self.longer_rest(&trajectory)).collect())
+    }
+
+    /// A line on the rest that is added behind the moves, if any is.
+    fn longer_rest(&self, trajectory: &Trajectory) -> Option<String> {
+        let added = trajectory.plans().get(self.motions().len())?;
+        let rest = trajectory.duration() - trajectory.arrivals().last()?;
+        Some(format!(
+            "the run goes on at rest for {} s after the last arrival, {} s longer than the moves say: \
+             over a first period its residual vibration shows",
+            (rest * 1e9).round() / 1e9,
+            (f64::from(added.outline.ticks) * trajectory.tick() * 1e9).round() / 1e9
+        ))
     }
 }
 

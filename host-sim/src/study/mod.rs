@@ -108,7 +108,8 @@ impl Run {
 
     /// [`compare::residual`] of a run that ends at rest, fraction of L.
     pub fn residual(&self) -> Result<f64, Error> {
-        compare::residual(&self.rows, &self.scene)?
+        compare::residual(&self.rows, &self.scene, self.solver.tick)?
+            .value()
             .ok_or_else(|| Error::new(format_args!("{}: does not end at rest", self.scene.name)))
     }
 

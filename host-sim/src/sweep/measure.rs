@@ -1,7 +1,7 @@
 //! How wrong a case is.
 
 use super::row::Errors;
-use crate::compare::{common, compare};
+use crate::compare::{Residual, common, compare};
 use crate::error::Error;
 use crate::run;
 use crate::scene_file::SceneFile;
@@ -30,10 +30,11 @@ pub fn errors(scene: &SceneFile, keys: SolverKeys, reference: &[Row]) -> Result<
     if comparison.tip_max > LOST {
         return Ok(Errors::DIVERGED);
     }
+    let [run, truth] = comparison.residual.map(Residual::value);
     let errors = Errors {
         tip_max: comparison.tip_max,
         tip_rms: comparison.tip_rms,
-        residual: comparison.residual.map(|(run, truth)| (run - truth).abs()),
+        residual: run.zip(truth).map(|(run, truth)| (run - truth).abs()),
         torque: comparison.torque,
     };
     Ok(errors.rounded())

@@ -160,19 +160,21 @@ impl<const N: usize> Rod<N> {
         alpha * (spin + hub.rate) + hub.acceleration
     }
 
-    /// Hub torque, N m: `J_h θ̈` and the moment of all inertia forces, drag and weight about the
-    /// axis, `∫(X a_Y − Y a_X) dm`.
-    pub fn torque(
+    /// Hub torque and bending moment at the clamp, N m.
+    ///
+    /// Torque: `J_h θ̈` and the moment of all inertia forces, drag and weight about the axis,
+    /// `∫(X a_Y − Y a_X) dm`. Moment: the same about the clamp at `(r, 0)`, without the hub's own.
+    pub fn loads(
         &self,
         at: &Configuration<N>,
         v: &SVector<f64, N>,
         acceleration: &SVector<f64, N>,
         hub: &Hub<f64>,
-    ) -> f64 {
+    ) -> [f64; 2] {
         let tip = &self.basis.tip;
         let spin: f64 = (0..N).map(|k| tip[k] * acceleration[k]).sum();
-        let mut torque = self.scene.hub.inertia * hub.acceleration
-            + self.scene.payload.inertia * (spin + self.turning(v, hub));
+        let mut moment = self.scene.payload.inertia * (spin + self.turning(v, hub));
+        let mut shear = 0.0;
         for s in 0..STATIONS {
             let [mut ax, mut ay] = self.bias(at, s, v, hub);
             for k in 0..N {
@@ -180,9 +182,12 @@ impl<const N: usize> Rod<N> {
                 ay += at.ay[s][k] * acceleration[k];
             }
             let [x, y, ..] = at.rest[s];
-            torque += self.masses[s] * (x * ay - y * ax);
+            moment += self.masses[s] * ((x - self.scene.hub.radius) * ay - y * ax);
+            shear += self.masses[s] * ay;
         }
-        torque
+        let torque =
+            moment + self.scene.hub.radius * shear + self.scene.hub.inertia * hub.acceleration;
+        [torque, moment]
     }
 }
 

@@ -7,7 +7,7 @@ use differential_equations::status::Status;
 use nalgebra::{SMatrix, SVector};
 
 use super::equations::Rod;
-use super::{Integrator, Options};
+use super::{Integrator, Load, Options, Resume};
 use crate::reference::schedule::{Schedule, Stretch};
 use crate::reference::{ReferenceError, Sample};
 
@@ -68,28 +68,87 @@ pub(super) fn run<const N: usize>(
             samples.push(sample(rod, schedule, scale, t, y));
             progress(t / schedule.duration());
         };
-        let tolerance = options.tolerance;
-        y = match integrator {
-            Integrator::Explicit => {
-                let method = ExplicitRungeKutta::dop853()
-                    .rtol(tolerance)
-                    .atol(tolerance)
-                    .max_steps(usize::MAX);
-                march(method, &motion, y, &mut visit)?
-            }
-            Integrator::Implicit => {
-                let method = DiagonallyImplicitRungeKutta::kvaerno745()
-                    .rtol(tolerance)
-                    .atol(tolerance)
-                    .newton_tol(0.1 * tolerance)
-                    .max_steps(usize::MAX)
-                    // The library counts all rejections, not those in a row.
-                    .max_rejects(usize::MAX);
-                march(method, &motion, y, &mut visit)?
-            }
-        };
+        y = go(integrator, options.tolerance, &motion, y, &mut visit, &mut |_, _| ())?;
     }
     Ok(samples)
+}
+
+/// Flies the rod from `resume`, or from rest at the run's beginning, to `until` s. `visit` sees the loads at both ends of every stretch, from within, and
+/// after every step between. Returns where it got to.
+pub(super) fn watch<const N: usize>(
+    rod: &Rod<N>,
+    schedule: &Schedule<'_>,
+    options: &Options,
+    resume: Option<&Resume>,
+    until: f64,
+    visit: &mut dyn FnMut(Load),
+) -> Result<Resume, ReferenceError> {
+    let frequencies = rod.frequencies();
+    let scale = frequencies[0];
+    let integrator =
+        options.integrator.unwrap_or_else(|| choose(frequencies[N - 1], rod.scene.damping.beta));
+    let mut y = match resume {
+        Some(resume) => State::<N>::from_column_slice(&resume.state),
+        None => {
+            let start = schedule.hub(0.0);
+            let rest = rod
+                .equilibrium(start.sin, start.cos)
+                .ok_or(ReferenceError::NoEquilibrium { angle: start.angle.radians() })?;
+            let mut y = State::<N>::zeros();
+            y.set_column(0, &rest);
+            y
+        }
+    };
+    let begin = resume.map_or(0.0, |resume| resume.t);
+    let close = 1e-6 * schedule.tick();
+    for stretch in schedule.stretches() {
+        let stretch =
+            Stretch { begin: stretch.begin.max(begin), end: stretch.end.min(until), times: &[] };
+        if stretch.end - stretch.begin <= close {
+            continue;
+        }
+        let motion = Motion { rod, schedule, stretch, scale };
+        let mut first = true;
+        let mut see = |t: f64, y: &State<N>| {
+            let hub = schedule.hub_within(&stretch, t);
+            let (a, v) = split(y, scale);
+            let at = rod.configuration(&a, &v);
+            let acceleration = rod.acceleration(&at, &a, &v, &hub);
+            let [torque, moment] = rod.loads(&at, &v, &acceleration, &hub);
+            visit(Load { t, torque, moment, jumped: std::mem::take(&mut first) });
+        };
+        see(stretch.begin, &y);
+        y = go(integrator, options.tolerance, &motion, y, &mut |_, _| (), &mut see)?;
+    }
+    Ok(Resume { t: until, state: y.as_slice().to_vec() })
+}
+
+/// One stretch by an integrator; see [`march`].
+fn go<const N: usize>(
+    integrator: Integrator,
+    tolerance: f64,
+    motion: &Motion<'_, N>,
+    start: State<N>,
+    visit: &mut dyn FnMut(f64, &State<N>),
+    each_step: &mut dyn FnMut(f64, &State<N>),
+) -> Result<State<N>, ReferenceError> {
+    match integrator {
+        Integrator::Explicit => {
+            let method =
+                ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
+            march(method, motion, start, visit, each_step)
+        }
+        Integrator::Implicit => {
+            let method = DiagonallyImplicitRungeKutta::kvaerno745()
+                .rtol(tolerance)
+                .atol(tolerance)
+                .newton_tol(0.1 * tolerance)
+                .max_steps(usize::MAX)
+                // The library counts all rejections, not those in a row.
+                .max_rejects(usize::MAX);
+            march(method, motion, start, visit, each_step)
+        }
+    }
 }
 
 /// Stiffness-proportional damping makes the highest polynomial decay at βω², and an explicit step
@@ -100,21 +159,22 @@ fn choose(highest: f64, beta: f64) -> Integrator {
 }
 
 /// Integrates one stretch and calls `visit` at its sample times, each the end of a step: no
-/// interpolation. Returns the state at the end.
+/// interpolation; and `each_step` after every step. Returns the state at the end.
 fn march<const N: usize>(
     mut method: impl OrdinaryNumericalMethod<f64, State<N>>,
     motion: &Motion<'_, N>,
     start: State<N>,
     visit: &mut dyn FnMut(f64, &State<N>),
+    each_step: &mut dyn FnMut(f64, &State<N>),
 ) -> Result<State<N>, ReferenceError> {
     let Stretch { begin, end, times } = motion.stretch;
     method.init(motion, begin, end, &start).map_err(|error| failure(begin, error))?;
     let (inside, at_end) = times.split_at(times.partition_point(|&t| t < end));
     for &t in inside {
-        advance(&mut method, motion, t)?;
+        advance(&mut method, motion, t, each_step)?;
         visit(t, method.y());
     }
-    advance(&mut method, motion, end)?;
+    advance(&mut method, motion, end, each_step)?;
     for &t in at_end {
         visit(t, method.y());
     }
@@ -126,6 +186,7 @@ fn advance<const N: usize>(
     method: &mut impl OrdinaryNumericalMethod<f64, State<N>>,
     motion: &Motion<'_, N>,
     stop: f64,
+    each_step: &mut dyn FnMut(f64, &State<N>),
 ) -> Result<(), ReferenceError> {
     // Rounding may leave a sliver before a stop; a step that small is none.
     while stop - method.t() > 1e-13 * stop.max(1.0) {
@@ -140,8 +201,11 @@ fn advance<const N: usize>(
             method.set_h(left);
         }
         method.step(motion).map_err(|error| failure(motion.stretch.begin, error))?;
-        if cut && !matches!(method.status(), Status::RejectedStep) {
-            method.set_h(proposed.max(method.h()));
+        if !matches!(method.status(), Status::RejectedStep) {
+            each_step(method.t(), method.y());
+            if cut {
+                method.set_h(proposed.max(method.h()));
+            }
         }
     }
     Ok(())
@@ -177,6 +241,6 @@ fn sample<const N: usize>(
         acceleration: hub.acceleration,
         tip: [x * hub.cos - deflection * hub.sin, x * hub.sin + deflection * hub.cos],
         deflection,
-        torque: rod.torque(&at, &v, &acceleration, &hub),
+        torque: rod.loads(&at, &v, &acceleration, &hub)[0],
     }
 }

@@ -12,6 +12,7 @@ mod march;
 mod statics;
 
 use equations::Rod;
+use stillbeam::motion::Hub;
 use stillbeam::{Angle, Scene};
 
 use super::schedule::Schedule;
@@ -83,6 +84,67 @@ pub fn solve_with(
             wanted: "5 to 8 polynomials",
         }),
     }
+}
+
+/// What the arm does to its hub at one instant of a flight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// s.
+    pub t: f64,
+    /// τ at the hub, J_h θ̈ included, N m.
+    pub torque: f64,
+    /// M, bending moment at the clamp, N m.
+    pub moment: f64,
+    /// True for the first of a stretch with one formula: the loads may jump before it.
+    pub jumped: bool,
+}
+
+/// A state of the rod in the middle of a flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Resume {
+    /// s.
+    t: f64,
+    /// Unknowns and scaled rates.
+    state: Vec<f64>,
+}
+
+/// Flies the arm from `resume`, or else from rest at the beginning, to `until` s, and has `visit` see the loads at every step of the integrator and on both
+/// sides of every break. The steps resolve the fastest vibration of the rod.
+///
+/// Returns where the flight got to, to be resumed from with the same options.
+pub fn watch(
+    scene: &Scene,
+    trajectory: &Trajectory,
+    options: &Options,
+    resume: Option<&Resume>,
+    until: f64,
+    visit: &mut dyn FnMut(Load),
+) -> Result<Resume, ReferenceError> {
+    let scene = scene.validate()?;
+    let schedule = Schedule::new(trajectory, &[])?;
+    match options.order {
+        5 => march::watch(&Rod::<5>::new(&scene), &schedule, options, resume, until, visit),
+        6 => march::watch(&Rod::<6>::new(&scene), &schedule, options, resume, until, visit),
+        7 => march::watch(&Rod::<7>::new(&scene), &schedule, options, resume, until, visit),
+        8 => march::watch(&Rod::<8>::new(&scene), &schedule, options, resume, until, visit),
+        order => Err(ReferenceError::Options {
+            given: format!("order = {order}"),
+            wanted: "5 to 8 polynomials",
+        }),
+    }
+}
+
+/// Hub torque and bending moment at the clamp, N m, of the arm at rest under its own weight with the
+/// hub at `angle`.
+pub fn rest_loads(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], ReferenceError> {
+    let rod = Rod::<7>::new(&scene.validate()?);
+    let (sin, cos) = angle.sin_cos();
+    let a = rod
+        .equilibrium(sin, cos)
+        .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
+    let still = a.map(|_| 0.0);
+    let hub = Hub { angle, rate: 0.0, acceleration: 0.0, sin, cos };
+    Ok(rod.loads(&rod.configuration(&a, &still), &still, &still, &hub))
 }
 
 /// First natural period of the straight clamped arm, s.

@@ -1,0 +1,198 @@
+//! Rate, acceleration and jerk of a commanded motion, at any time of it.
+//!
+//! Between two breaks the motion is smooth: there it is sampled, and the largest samples are
+//! refined. At a break both sides count.
+
+use stillbeam::Limits;
+
+use super::{Case, Excess, Peak, Quantity, Window};
+use crate::trajectory::{Side, Trajectory};
+
+/// Samples between two breaks. A still move's acceleration, a polynomial of degree nine, has eight
+/// extremes, and up to five copies of moves overlap behind a shaper.
+const SAMPLES: u32 = 96;
+
+/// Samples below this fraction of the largest are not refined: between samples, a smooth motion
+/// rises by less.
+const CLOSE: f64 = 0.97;
+
+/// Thirds that a bracket is narrowed by: to 1e-5 of it, a peak to 1e-10 of itself.
+const NARROWINGS: u32 = 28;
+
+/// Step of the difference that the jerk is, fraction of the stretch.
+const DIFFERENCE: f64 = 1e-4;
+
+/// A jump of the acceleration that is no rounding, fraction of its peak.
+const JUMP: f64 = 1e-7;
+
+/// Greatest magnitudes in a window. Error 1e-6 of each; the jerk is infinite where the commanded
+/// acceleration jumps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Peaks {
+    /// |θ̇|, rad/s.
+    pub rate: Peak,
+    /// |θ̈|, rad/s².
+    pub acceleration: Peak,
+    /// |d³θ/dt³|, rad/s³.
+    pub jerk: Peak,
+}
+
+impl Peaks {
+    /// The peak of a quantity, none of a load.
+    pub fn of(&self, quantity: Quantity) -> Option<Peak> {
+        match quantity {
+            Quantity::Rate | Quantity::Turn => Some(self.rate),
+            Quantity::Acceleration => Some(self.acceleration),
+            Quantity::Jerk => Some(self.jerk),
+            Quantity::Torque | Quantity::Moment => None,
+        }
+    }
+}
+
+/// The first window in which the motion exceeds a limit, or turns by more than a radian a tick.
+pub fn excess(case: &Case<'_>, trajectory: &Trajectory, limits: &Limits) -> Option<Excess> {
+    if limits.rate.is_none() && limits.acceleration.is_none() && limits.jerk.is_none()
+        // Without a shaper the moves themselves have been held against the tick.
+        && case.shaper.is_none()
+    {
+        return None;
+    }
+    let stretches = Stretches::of(trajectory);
+    case.windows(trajectory)
+        .iter()
+        .find_map(|window| excess_within(window, &stretches, limits, case.tick))
+}
+
+/// [`excess`] in one window only.
+pub fn excess_in(window: &Window, trajectory: &Trajectory, limits: &Limits) -> Option<Excess> {
+    excess_within(window, &Stretches::of(trajectory), limits, trajectory.tick())
+}
+
+/// Greatest magnitudes from `begin` to `end`, s.
+pub fn peaks(trajectory: &Trajectory, begin: f64, end: f64) -> Peaks {
+    Stretches::of(trajectory).peaks(begin, end)
+}
+
+fn excess_within(
+    window: &Window,
+    stretches: &Stretches<'_>,
+    limits: &Limits,
+    tick: f64,
+) -> Option<Excess> {
+    let peaks = stretches.peaks(window.begin, window.end);
+    [Quantity::Rate, Quantity::Turn, Quantity::Acceleration, Quantity::Jerk].into_iter().find_map(
+        |quantity| {
+            let limit = quantity.limit(limits, tick)?;
+            Excess::of(quantity, peaks.of(quantity)?, limit, window.index)
+        },
+    )
+}
+
+/// A motion between its breaks.
+struct Stretches<'a> {
+    trajectory: &'a Trajectory,
+    /// Breaks, the beginning and the end included.
+    borders: Vec<f64>,
+}
+
+impl<'a> Stretches<'a> {
+    fn of(trajectory: &'a Trajectory) -> Self {
+        let mut borders = vec![0.0];
+        borders.extend(trajectory.breaks());
+        borders.push(trajectory.duration());
+        Self { trajectory, borders }
+    }
+
+    fn peaks(&self, begin: f64, end: f64) -> Peaks {
+        let eps = 1e-9 * self.trajectory.tick();
+        let inside = |t: f64| t > begin + eps && t < end - eps;
+        let first = self.borders.partition_point(|&t| t <= begin + eps);
+        let last = self.borders.partition_point(|&t| t < end - eps).max(first);
+        let mut cuts = vec![begin];
+        cuts.extend(self.borders[first..last].iter().filter(|&&t| inside(t)));
+        cuts.push(end);
+        let mut peaks = Peaks::default();
+        for pair in cuts.windows(2).filter(|pair| pair[1] - pair[0] > eps) {
+            let stretch = Stretch { trajectory: self.trajectory, begin: pair[0], end: pair[1] };
+            stretch.raise(&mut peaks.rate, &|t| stretch.hub(t).0);
+            stretch.raise(&mut peaks.acceleration, &|t| stretch.hub(t).1);
+            stretch.raise(&mut peaks.jerk, &|t| stretch.jerk(t));
+        }
+        // The window's own end is the next one's beginning; that of the run is nobody's.
+        let cuts = if end >= self.trajectory.duration() - eps {
+            &cuts[..]
+        } else {
+            &cuts[..cuts.len() - 1]
+        };
+        for &t in cuts {
+            let [left, right] = [Side::Left, Side::Right].map(|side| self.acceleration(t, side));
+            let scale = left.abs().max(right.abs()).max(peaks.acceleration.value);
+            if (left - right).abs() > JUMP * scale {
+                peaks.jerk.raise(f64::INFINITY, t);
+            }
+        }
+        peaks
+    }
+
+    /// θ̈ beside a break; before the beginning and after the end of a run that ends at rest, none.
+    fn acceleration(&self, t: f64, side: Side) -> f64 {
+        let eps = 1e-9 * self.trajectory.tick();
+        let before = t <= eps && side == Side::Left;
+        let after = t >= self.trajectory.duration() - eps && side == Side::Right;
+        if before || after { 0.0 } else { self.trajectory.at(t, side).acceleration }
+    }
+}
+
+/// A part of a motion with one formula.
+struct Stretch<'a> {
+    trajectory: &'a Trajectory,
+    begin: f64,
+    end: f64,
+}
+
+impl Stretch<'_> {
+    /// θ̇ and θ̈, from within at the ends.
+    fn hub(&self, t: f64) -> (f64, f64) {
+        let early = t < 0.5 * (self.begin + self.end);
+        let hub = self.trajectory.at(t, if early { Side::Right } else { Side::Left });
+        (hub.rate, hub.acceleration)
+    }
+
+    /// The slope of θ̈ by a difference, one-sided at the ends. Error 1e-7 of the peak.
+    fn jerk(&self, t: f64) -> f64 {
+        let step = DIFFERENCE * (self.end - self.begin);
+        let a = |t: f64| self.hub(t).1;
+        if t - step < self.begin {
+            (4.0 * a(t + step) - 3.0 * a(t) - a(t + 2.0 * step)) / (2.0 * step)
+        } else if t + step > self.end {
+            (3.0 * a(t) - 4.0 * a(t - step) + a(t - 2.0 * step)) / (2.0 * step)
+        } else {
+            (a(t + step) - a(t - step)) / (2.0 * step)
+        }
+    }
+
+    /// Raises a peak to the greatest magnitude of `of`.
+    fn raise(&self, peak: &mut Peak, of: &dyn Fn(f64) -> f64) {
+        let step = (self.end - self.begin) / f64::from(SAMPLES);
+        let at = |k: u32| if k == SAMPLES { self.end } else { self.begin + f64::from(k) * step };
+        let values: Vec<f64> = (0..=SAMPLES).map(|k| of(at(k)).abs()).collect();
+        for (k, &value) in (0..).zip(&values) {
+            peak.raise(value, at(k));
+        }
+        let close = CLOSE * peak.value;
+        for k in 1..SAMPLES {
+            let [before, here, after] = [k - 1, k, k + 1].map(|k| values[k as usize]);
+            if here < close || here < before || here < after || (here == before && here == after) {
+                continue;
+            }
+            let (mut low, mut high) = (at(k - 1), at(k + 1));
+            for _ in 0..NARROWINGS {
+                let third = (high - low) / 3.0;
+                let (left, right) = (low + third, high - third);
+                if of(left).abs() < of(right).abs() { low = left } else { high = right }
+            }
+            let t = 0.5 * (low + high);
+            peak.raise(of(t), t);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! The quantities that a drive limits.
+
+use stillbeam::Limits;
+
+/// A quantity that a drive limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Hub rate.
+    Rate,
+    /// Hub rate again, held against one radian a tick.
+    Turn,
+    /// Hub acceleration.
+    Acceleration,
+    /// Hub jerk.
+    Jerk,
+    /// Hub torque.
+    Torque,
+    /// Bending moment at the clamp.
+    Moment,
+}
+
+impl Quantity {
+    /// Field of a scene file.
+    pub fn parameter(self) -> &'static str {
+        match self {
+            Self::Rate => "limits.rate",
+            Self::Turn => "solver.tick",
+            Self::Acceleration => "limits.acceleration",
+            Self::Jerk => "limits.jerk",
+            Self::Torque => "limits.torque",
+            Self::Moment => "limits.moment",
+        }
+    }
+
+    /// Unit of the quantity.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Rate | Self::Turn => "rad/s",
+            Self::Acceleration => "rad/s^2",
+            Self::Jerk => "rad/s^3",
+            Self::Torque | Self::Moment => "N m",
+        }
+    }
+
+    /// The limit, none where there is none. `tick` in s.
+    pub fn limit(self, limits: &Limits, tick: f64) -> Option<f64> {
+        match self {
+            Self::Rate => limits.rate,
+            Self::Turn => Some(1.0 / tick),
+            Self::Acceleration => limits.acceleration,
+            Self::Jerk => limits.jerk,
+            Self::Torque => limits.torque,
+            Self::Moment => limits.moment,
+        }
+    }
+
+    /// The limit's field, to be changed.
+    pub fn of_mut(self, limits: &mut Limits) -> Option<&mut f64> {
+        match self {
+            Self::Rate => limits.rate.as_mut(),
+            Self::Turn => None,
+            Self::Acceleration => limits.acceleration.as_mut(),
+            Self::Jerk => limits.jerk.as_mut(),
+            Self::Torque => limits.torque.as_mut(),
+            Self::Moment => limits.moment.as_mut(),
+        }
+    }
+
+    /// How many times as long a move has to be that exceeds its limit `ratio` times, if its shape
+    /// stays: rates fall with 1/T, accelerations and what they load with 1/T², jerks with 1/T³.
+    pub fn stretch(self, ratio: f64) -> f64 {
+        match self {
+            Self::Rate | Self::Turn => ratio,
+            Self::Acceleration | Self::Torque | Self::Moment => ratio.sqrt(),
+            Self::Jerk => ratio.cbrt(),
+        }
+    }
+}

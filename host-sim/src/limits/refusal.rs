@@ -1,0 +1,124 @@
+//! A motion that exceeds a limit, in one line: the move, the limit, the need, and what would do.
+
+use std::fmt;
+
+use stillbeam::Remedy;
+
+use super::case::place;
+use super::{Peak, Quantity};
+use crate::error::Error;
+use crate::table::significant;
+
+/// Rounding that a limit takes, as in the core.
+const ROUNDING: f64 = 1e-9;
+
+/// A limit that is exceeded during a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excess {
+    /// What is limited.
+    pub quantity: Quantity,
+    /// What the move needs, and when.
+    pub peak: Peak,
+    /// The limit.
+    pub limit: f64,
+    /// Index of the move in its scene.
+    pub index: usize,
+}
+
+impl Excess {
+    /// The excess, none where the peak keeps the limit.
+    pub fn of(quantity: Quantity, peak: Peak, limit: f64, index: usize) -> Option<Self> {
+        let exceeds = peak.value > limit * (1.0 + ROUNDING);
+        exceeds.then_some(Self { quantity, peak, limit, index })
+    }
+
+    /// How many times the limit is needed.
+    pub fn ratio(&self) -> f64 {
+        self.peak.value / self.limit
+    }
+}
+
+/// What would keep the limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// As the core says it.
+    Remedy(Remedy),
+    /// No duration of this move: pulses of the shaper that come this late, s, still carry an
+    /// earlier one.
+    Pulses(f64),
+    /// No duration up to this one, s.
+    None(f64),
+    /// The method's own setpoints exceed the limit, which the arm itself keeps.
+    Method,
+}
+
+/// A motion that is not accepted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refusal {
+    /// The limit.
+    pub excess: Excess,
+    /// Moves of the scene.
+    pub count: usize,
+    /// What would do.
+    pub way: Way,
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Excess { quantity, peak, limit, index } = self.excess;
+        let unit = quantity.unit();
+        write!(f, "{}: {}", quantity.parameter(), place(index, self.count))?;
+        if self.count > 1 {
+            write!(f, " (move {} of {})", index + 1, self.count)?;
+        }
+        write!(
+            f,
+            " needs {} {unit} at {} s, must be at most ",
+            number(peak.value),
+            seconds(peak.at)
+        )?;
+        write!(f, "{} {unit}", significant(limit, 9))?;
+        if quantity == Quantity::Turn {
+            write!(f, ", one radian a tick")?;
+        }
+        match self.way {
+            Way::Remedy(remedy) => write!(f, "; {remedy}"),
+            Way::Pulses(delay) => write!(
+                f,
+                "; no duration of this move helps: the shaper\u{2019}s pulses still carry the move \
+                 before; let that one settle for {} s at least, or make it longer",
+                seconds(delay)
+            ),
+            Way::None(most) => write!(
+                f,
+                "; no duration of this move up to {} s helps; raise the limit",
+                seconds(most)
+            ),
+            Way::Method => write!(
+                f,
+                "; that is the method\u{2019}s own torque, the arm itself keeps the limit; use another \
+                 method, a longer move or a shorter tick"
+            ),
+        }
+    }
+}
+
+impl From<Refusal> for Error {
+    fn from(refusal: Refusal) -> Self {
+        Self::new(refusal)
+    }
+}
+
+/// A need: as many decimals as tell it from a limit that is close by.
+fn number(value: f64) -> String {
+    match value {
+        _ if value.is_infinite() => "an infinite value of".to_owned(),
+        _ if value >= 0.01 => format!("{value:.6}"),
+        _ => format!("{value:.6e}"),
+    }
+}
+
+/// A time as it can be typed back: its decimals to a nanosecond.
+pub(super) fn seconds(time: f64) -> f64 {
+    (time * 1e9).round() / 1e9 + 0.0
+}

@@ -1,0 +1,228 @@
+//! What would keep a limit: the shortest duration of the move, or why none does.
+
+use stillbeam::{Limits, Move, Profile, Remedy};
+
+use super::refusal::seconds;
+use super::{Case, Excess, Quantity, Refusal, Way, holding, kinematic, load};
+use crate::error::Error;
+use crate::reference::rod::{self, Options, Resume};
+use crate::scene_file::Step;
+use crate::trajectory::{Side, Trajectory};
+
+/// Longest duration that is tried: ticks.
+const MOST_TICKS: u32 = 1 << 24;
+
+/// Durations that are tried on the way up where a trial costs nothing, and where it is a flight.
+const TRIALS: u32 = 400;
+const FLIGHTS: u32 = 60;
+
+/// Durations that are tried above the one that a quick search has found.
+const CLOSER: u32 = 24;
+
+/// Share of the aimed duration that a search may leap to: there a load would be twice its limit, and
+/// the most that a vibration does to a load is to double it or to cancel half of it.
+const LEAP: f64 = 0.7;
+
+/// The refusal of a motion whose trajectory exceeds a kinematic limit.
+pub fn of_motion(
+    case: &Case<'_>,
+    trajectory: &Trajectory,
+    limits: &Limits,
+    excess: Excess,
+) -> Refusal {
+    let way = plain_way(case, trajectory, limits, &excess).unwrap_or_else(|| {
+        // Behind a shaper, copies of a move get in and out of step as it grows: small steps.
+        let careful = case
+            .shaper
+            .map_or(u32::MAX, |shaper| (shaper.delay() / case.tick / 32.0).ceil().max(1.0) as u32);
+        let keeps = |ticks| {
+            let steps = lasting(case, excess.index, ticks);
+            let case = case.with(&steps);
+            let Ok(trajectory) = case.trajectory() else { return Ok(Some(1.5)) };
+            Ok(excess_during(&case, &trajectory, limits, excess.index))
+        };
+        searched(case, &excess, TRIALS, careful, keeps).unwrap_or(Way::Remedy(Remedy::Longer))
+    });
+    Refusal { excess, count: case.steps.len(), way }
+}
+
+/// The refusal of a motion along which the rod exceeds a load limit. `admit` is asked of the moves
+/// with a duration that the rod takes, and says whether whoever commands the motion takes it too.
+pub fn of_loads(
+    case: &Case<'_>,
+    trajectory: &Trajectory,
+    limits: &Limits,
+    found: &load::Found,
+    admit: &dyn Fn(&[Step]) -> bool,
+) -> Result<Refusal, Error> {
+    let excess = found.excess;
+    let refusal = |way| Refusal { excess, count: case.steps.len(), way };
+    if let Some(way) = plain_way(case, trajectory, limits, &excess) {
+        return Ok(refusal(way));
+    }
+    let [begin, end] = [found.window.begin, found.window.end]
+        .map(|t| trajectory.at(t, Side::Left).angle.radians());
+    if let Some(held) = too_heavy(case, limits, &excess, begin, end)? {
+        return Ok(refusal(Way::Remedy(Remedy::Weight(held))));
+    }
+    let period = rod::first_period(case.arm)?;
+    // A vibration that the move starts adds to the load or not, as its phase at the end is.
+    let careful = (0.125 * period / case.tick).ceil().max(1.0) as u32;
+    let keeps_in = |options: &Options, state: &Option<Resume>, ticks| {
+        let steps = lasting(case, excess.index, ticks);
+        let case = case.with(&steps);
+        let Ok(trajectory) = case.trajectory() else { return Ok(Some(1.5)) };
+        if let Some(stretch) = excess_during(&case, &trajectory, limits, excess.index) {
+            return Ok(Some(stretch));
+        }
+        let windows = case.windows(&trajectory);
+        let Some(window) = windows.iter().find(|window| window.index == excess.index) else {
+            return Ok(None);
+        };
+        let (peaks, _) = load::fly(&case, &trajectory, window, options, state.as_ref(), &|_| ())?;
+        Ok(peaks.excess(limits, excess.index).map(|excess| excess.quantity.stretch(excess.ratio())))
+    };
+    let [fine, quick] = &found.states;
+    let way =
+        searched(case, &excess, FLIGHTS, careful, |ticks| keeps_in(&load::QUICK, quick, ticks))?;
+    let Way::Remedy(Remedy::Duration(duration)) = way else { return Ok(refusal(way)) };
+    // By the finer flight, and by whoever commands it, a little more may be needed.
+    let least = (duration / case.tick).round() as u32;
+    for ticks in (0..CLOSER).map(|k| least + k.max(k * least / 200)) {
+        let taken = keeps_in(&load::FINE, fine, ticks)?.is_none()
+            && admit(&lasting(case, excess.index, ticks));
+        if taken {
+            let duration = seconds(f64::from(ticks) * case.tick);
+            return Ok(refusal(Way::Remedy(Remedy::Duration(duration))));
+        }
+    }
+    Ok(refusal(Way::Remedy(Remedy::Longer)))
+}
+
+/// What merely holding the arm takes between two hub angles, rad, if that exceeds the limit.
+pub fn too_heavy(
+    case: &Case<'_>,
+    limits: &Limits,
+    excess: &Excess,
+    begin: f64,
+    end: f64,
+) -> Result<Option<f64>, Error> {
+    let [torque, moment] = holding(case.arm, begin, end)?;
+    let held = match excess.quantity {
+        Quantity::Torque => torque,
+        Quantity::Moment => moment,
+        _ => return Ok(None),
+    };
+    let limit = excess.quantity.limit(limits, case.tick).unwrap_or(f64::INFINITY);
+    Ok((held > limit).then_some(held))
+}
+
+/// What is clear without trying a duration.
+fn plain_way(
+    case: &Case<'_>,
+    trajectory: &Trajectory,
+    limits: &Limits,
+    excess: &Excess,
+) -> Option<Way> {
+    let motion = case.steps.get(excess.index)?.motion;
+    match (motion, excess.quantity) {
+        (Move::SpinUp { .. }, Quantity::Rate | Quantity::Turn) => {
+            let limit = excess.quantity.limit(limits, case.tick)?;
+            let windows = case.windows(trajectory);
+            let window = windows.iter().find(|window| window.index == excess.index)?;
+            let rate = [(window.begin, Side::Right), (window.end, Side::Left)]
+                .map(|(t, side)| trajectory.at(t, side).rate)
+                .into_iter()
+                .find(|rate| rate.abs() > limit)?;
+            Some(Way::Remedy(Remedy::Slower(rate)))
+        }
+        (_, Quantity::Jerk) if excess.peak.value.is_infinite() => Some(match motion {
+            Move::To { profile: Profile::Cubic | Profile::Trapezoid, .. } => {
+                Way::Remedy(Remedy::Smoother)
+            }
+            _ => Way::Pulses(case.shaper.map_or(0.0, |shaper| shaper.delay())),
+        }),
+        // A still move in another time is another move, which only its planner knows.
+        (Move::Still { .. } | Move::Dwell { .. }, _) => Some(Way::Remedy(Remedy::Longer)),
+        _ => None,
+    }
+}
+
+/// How many times as long the move has to be by its kinematics, none where it keeps the limits.
+fn excess_during(
+    case: &Case<'_>,
+    trajectory: &Trajectory,
+    limits: &Limits,
+    index: usize,
+) -> Option<f64> {
+    let windows = case.windows(trajectory);
+    let window = windows.iter().find(|window| window.index == index)?;
+    let excess = kinematic::excess_in(window, trajectory, limits)?;
+    Some(excess.quantity.stretch(excess.ratio()))
+}
+
+/// The moves, one of them in another time.
+fn lasting(case: &Case<'_>, index: usize, ticks: u32) -> Vec<Step> {
+    let mut steps = case.steps.to_vec();
+    if let Some(step) = steps.get_mut(index) {
+        step.motion = step.motion.lasting(seconds(f64::from(ticks) * case.tick));
+    }
+    steps
+}
+
+/// Searches the shortest duration of the exceeding move with [`shortest`].
+fn searched(
+    case: &Case<'_>,
+    excess: &Excess,
+    trials: u32,
+    careful: u32,
+    keeps: impl FnMut(u32) -> Result<Option<f64>, Error>,
+) -> Result<Way, Error> {
+    let Some(step) = case.steps.get(excess.index) else {
+        return Ok(Way::Remedy(Remedy::Longer));
+    };
+    let failing = step.motion.ticks(case.tick).unwrap_or(1);
+    let first = excess.quantity.stretch(excess.ratio());
+    Ok(match shortest(failing, first, trials, careful, keeps)? {
+        Ok(ticks) => Way::Remedy(Remedy::Duration(seconds(f64::from(ticks) * case.tick))),
+        Err(_) if case.shaper.is_some() && excess.index > 0 => {
+            Way::Pulses(case.shaper.map_or(0.0, |shaper| shaper.delay()))
+        }
+        Err(most) => Way::None(f64::from(most) * case.tick),
+    })
+}
+
+/// The shortest duration beyond `failing`, whole ticks, that keeps the limits.
+///
+/// `keeps` says how many times as long a duration would have to be, none if it does. The durations go
+/// up to [`LEAP`] of that at once, then by no more than `careful` ticks or a twentieth, then are halved back to
+/// the last that failed. The error is the longest that was tried.
+pub fn shortest(
+    failing: u32,
+    first: f64,
+    trials: u32,
+    careful: u32,
+    mut keeps: impl FnMut(u32) -> Result<Option<f64>, Error>,
+) -> Result<Result<u32, u32>, Error> {
+    let (mut failing, mut stretch) = (failing, first);
+    for _ in 0..trials {
+        // Less than a tick in a million is rounding.
+        let aimed = (f64::from(failing) * stretch - 1e-6).ceil().min(f64::from(MOST_TICKS)) as u32;
+        let leap = (f64::from(failing) * stretch * LEAP).min(f64::from(MOST_TICKS)) as u32;
+        let cap = failing.saturating_add(careful.max(failing / 20)).max(leap);
+        let mut reach = aimed.min(cap).max(failing + 1);
+        if reach > MOST_TICKS {
+            break;
+        }
+        if let Some(longer) = keeps(reach)? {
+            (failing, stretch) = (reach, longer.max(1.0));
+            continue;
+        }
+        while reach - failing > 1 {
+            let middle = failing + (reach - failing) / 2;
+            if keeps(middle)?.is_some() { failing = middle } else { reach = middle }
+        }
+        return Ok(Ok(reach));
+    }
+    Ok(Err(failing))
+}

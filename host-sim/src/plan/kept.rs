@@ -1,0 +1,276 @@
+//! Still moves that keep their limits in truth.
+//!
+//! The planner knows the arm in two modes and from rest. What it plans is held against the limits as
+//! every motion is, torque and clamp moment by the reference rod, which still rings from the move
+//! before. Where that shows more than the planner saw, it plans again within tighter limits.
+
+use std::cell::OnceCell;
+
+use stillbeam::motion::{Angle, Origin, Still, StillMove, Survey};
+use stillbeam::{Error as CoreError, Limits, Remedy};
+
+use crate::error::Error;
+use crate::limits::{Case, Excess, Peak, Quantity, Refusal, Way, kinematic, load, remedy};
+use crate::reference::rod::Resume;
+use crate::scene_file::Step;
+
+/// Fraction of the torque limit that a shortest move is planned for: a method's own setpoints, good
+/// to a hundredth of the peak, then keep the limit too.
+const GOAL: f64 = 0.985;
+
+/// Times that limits are tightened.
+const ROUNDS: u32 = 8;
+
+/// Durations that are tried where tightened limits do not converge, and how they grow.
+const LONGER: u32 = 40;
+const GROWTH: f64 = 1.03;
+
+/// Fraction of a duration below which no shorter one is looked for, and how often the rest is halved.
+const SHORTER: f64 = 0.8;
+const HALVINGS: u32 = 5;
+
+/// A still move as it is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// The moves before it, the arm, the shaper and the tick.
+    pub before: Case<'a>,
+    /// Limits of the drive.
+    pub limits: &'a Limits,
+    /// Hub angle at the beginning, rad.
+    pub from: f64,
+    /// Hub angle at the end, rad.
+    pub to: f64,
+    /// s; the shortest within the limits where there is none.
+    pub duration: Option<f64>,
+    /// The fraction to which the arm's frequencies are known, for a robust move.
+    pub robust: Option<f64>,
+    /// Time after it, s.
+    pub settle: f64,
+    /// Moves of the scene.
+    pub count: usize,
+}
+
+/// A plan and what its planner expects.
+#[derive(Clone, Copy, Debug)]
+pub struct Kept {
+    /// The plan.
+    pub plan: StillMove,
+    /// What its planner expects.
+    pub survey: Survey,
+    /// `2π/ω₁`, s.
+    pub first_period: f64,
+}
+
+impl Asked<'_> {
+    /// Plans the move, in f32 as the target does.
+    pub fn plan(&self) -> Result<Kept, Error> {
+        let tick = self.before.tick;
+        let planner = match self.robust {
+            Some(spread) => Still::<f32, 2>::robust(self.before.arm, tick, spread)?,
+            None => Still::<f32, 2>::new(self.before.arm, tick)?,
+        };
+        let search = Search { asked: self, planner, state: OnceCell::new() };
+        search.weight()?;
+        let (plan, survey) = match self.duration {
+            Some(duration) => search.lasting(duration)?,
+            None => search.shortest()?,
+        };
+        Ok(Kept { plan, survey, first_period: search.planner.first_period() })
+    }
+}
+
+type Found = (StillMove, Survey);
+
+/// Why a plan is none.
+enum Failure {
+    Exceeds(Excess),
+    Core(CoreError),
+}
+
+struct Search<'a> {
+    asked: &'a Asked<'a>,
+    planner: Still<f32, 2>,
+    /// The rod where the move begins; none at rest.
+    state: OnceCell<Option<Resume>>,
+}
+
+impl Search<'_> {
+    /// Refuses a move on the way of which merely holding the arm exceeds a limit.
+    fn weight(&self) -> Result<(), Error> {
+        let Asked { before, limits, from, to, .. } = self.asked;
+        for quantity in [Quantity::Torque, Quantity::Moment] {
+            let Some(limit) = quantity.limit(limits, before.tick) else { continue };
+            let peak = Peak { value: 0.0, at: 0.0 };
+            let excess = Excess { quantity, peak, limit, index: before.steps.len() };
+            if let Some(held) = remedy::too_heavy(before, limits, &excess, *from, *to)? {
+                let begin =
+                    before.steps.iter().flat_map(Step::motions).map(|m| m.duration()).sum::<f64>()
+                        + 0.0;
+                let excess = Excess { peak: Peak { value: held, at: begin }, ..excess };
+                return Err(self.refusal(excess, Way::Remedy(Remedy::Weight(held))));
+            }
+        }
+        Ok(())
+    }
+
+    fn refusal(&self, excess: Excess, way: Way) -> Error {
+        Refusal { excess, count: self.asked.count, way }.into()
+    }
+
+    /// The move of a given duration, or the refusal that says which would do.
+    fn lasting(&self, duration: f64) -> Result<Found, Error> {
+        let excess = match self.attempt(duration, self.asked.limits)? {
+            Ok(found) => return Ok(found),
+            Err(Failure::Core(error)) => return Err(error.into()),
+            Err(Failure::Exceeds(excess)) => excess,
+        };
+        let fits = self.shortest().ok().and_then(|(plan, _)| {
+            let longest = plan.ticks + plan.ticks / 10 + 10;
+            (plan.ticks..longest)
+                .map(|ticks| f64::from(ticks) * plan.tick)
+                .find(|&duration| matches!(self.attempt(duration, self.asked.limits), Ok(Ok(_))))
+        });
+        let way = fits.map_or(Way::Remedy(Remedy::Longer), |fits| {
+            Way::Remedy(Remedy::Duration((fits * 1e9).round() / 1e9))
+        });
+        Err(self.refusal(excess, way))
+    }
+
+    /// A move of that duration, s, within the limits in truth.
+    fn attempt(&self, duration: f64, limits: &Limits) -> Result<Result<Found, Failure>, Error> {
+        let (from, to) = (Origin::at_rest(Angle::from_radians(self.asked.from)), self.asked.to);
+        let within = |limits: &Limits| self.planner.within(&from, None, to, duration, limits);
+        // The planner's own idea of the peaks is not asked first: the truth counts, behind the shaper and
+        // by the rod.
+        let free = match within(&Limits::default()) {
+            Ok(found) => found,
+            Err(error) => return Ok(Err(Failure::Core(error))),
+        };
+        let over = self.over(&free.0, limits)?;
+        let Some(&excess) = over.first() else { return Ok(Ok(free)) };
+        let unloaded = Limits { torque: None, moment: None, ..*limits };
+        if let Ok(found) = within(&unloaded)
+            && self.over(&found.0, limits)?.is_empty()
+        {
+            return Ok(Ok(found));
+        }
+        // Without its second mode looked after the move may take less.
+        match self.tightened(limits, within)? {
+            Ok(found) => Ok(Ok(found)),
+            Err(_) => Ok(Err(Failure::Exceeds(excess))),
+        }
+    }
+
+    /// The shortest move within the limits in truth.
+    fn shortest(&self) -> Result<Found, Error> {
+        let Asked { from, to, limits, .. } = *self.asked;
+        let goal = Limits { torque: limits.torque.map(|torque| GOAL * torque), ..*limits };
+        let found = self.tightened(&goal, |limits| self.planner.shortest(from, to, limits))?;
+        let (excess, from_ticks) = match found {
+            Ok(found) => return self.shortened(found, &goal),
+            Err((Failure::Core(error), _)) => return Err(error.into()),
+            Err((Failure::Exceeds(excess), ticks)) => (excess, ticks),
+        };
+        let mut ticks = f64::from(from_ticks);
+        for _ in 0..LONGER {
+            ticks = (ticks * GROWTH).ceil();
+            if let Ok(found) = self.attempt(ticks * self.asked.before.tick, &goal)? {
+                return Ok(found);
+            }
+        }
+        Err(self.refusal(excess, Way::None(ticks * self.asked.before.tick)))
+    }
+
+    /// Halves a duration back that tightened load limits made too long: they take the weight's share
+    /// of a load for the motion's.
+    fn shortened(&self, found: Found, goal: &Limits) -> Result<Found, Error> {
+        let mut found = found;
+        if !load::limited(goal) {
+            return Ok(found);
+        }
+        let mut failing = (SHORTER * f64::from(found.0.ticks)) as u32;
+        for _ in 0..HALVINGS {
+            let middle = failing + (found.0.ticks - failing) / 2;
+            if middle <= failing {
+                break;
+            }
+            match self.attempt(f64::from(middle) * self.asked.before.tick, goal)? {
+                Ok(shorter) => found = shorter,
+                Err(_) => failing = middle,
+            }
+        }
+        Ok(found)
+    }
+
+    /// Plans, looks at the truth, and plans again within limits that are tighter by what it exceeds.
+    /// The failure comes with the ticks of the last plan.
+    fn tightened(
+        &self,
+        goal: &Limits,
+        plan: impl Fn(&Limits) -> Result<Found, CoreError>,
+    ) -> Result<Result<Found, (Failure, u32)>, Error> {
+        let mut limits = *goal;
+        let mut last = None;
+        for _ in 0..ROUNDS {
+            let found = match plan(&limits) {
+                Ok(found) => found,
+                Err(error) => {
+                    let failure = last.map_or((Failure::Core(error), 0), |(excess, ticks)| {
+                        (Failure::Exceeds(excess), ticks)
+                    });
+                    return Ok(Err(failure));
+                }
+            };
+            let over = self.over(&found.0, goal)?;
+            let Some(&excess) = over.first() else { return Ok(Ok(found)) };
+            last = Some((excess, found.0.ticks));
+            for excess in over {
+                if let Some(limit) = excess.quantity.of_mut(&mut limits) {
+                    // A little more, so that rounding does not take another round.
+                    *limit *= (1.0 - 1e-5) / excess.ratio();
+                }
+            }
+        }
+        let failure = last.map(|(excess, ticks)| (Failure::Exceeds(excess), ticks));
+        Ok(Err(failure.unwrap_or((Failure::Core(CoreError::NotAtRest { rate: 0.0 }), 0))))
+    }
+
+    /// Every limit that a plan exceeds in truth.
+    fn over(&self, plan: &StillMove, limits: &Limits) -> Result<Vec<Excess>, Error> {
+        let Asked { before, settle, .. } = self.asked;
+        let mut steps = before.steps.to_vec();
+        steps.push(Step { motion: plan.motion(), settle: *settle });
+        let case = before.with(&steps);
+        let trajectory = case.trajectory()?;
+        let windows = case.windows(&trajectory);
+        let Some((window, earlier)) = windows.split_last() else { return Ok(Vec::new()) };
+        let kinematic = kinematic::peaks(&trajectory, window.begin, window.end);
+        let mut peaks = vec![
+            (Quantity::Rate, kinematic.rate),
+            (Quantity::Turn, kinematic.rate),
+            (Quantity::Acceleration, kinematic.acceleration),
+            (Quantity::Jerk, kinematic.jerk),
+        ];
+        if load::limited(limits) {
+            let state = match self.state.get() {
+                Some(state) => state,
+                None => {
+                    let mut state = None;
+                    for window in earlier {
+                        let at = state.as_ref();
+                        state = load::fly(&case, &trajectory, window, &load::FINE, at, &|_| ())?.1;
+                    }
+                    self.state.get_or_init(|| state)
+                }
+            };
+            let state = state.as_ref();
+            let (loads, _) = load::fly(&case, &trajectory, window, &load::FINE, state, &|_| ())?;
+            peaks.push((Quantity::Torque, loads.torque));
+            peaks.push((Quantity::Moment, loads.moment));
+        }
+        let over = peaks.into_iter().filter_map(|(quantity, peak)| {
+            Excess::of(quantity, peak, quantity.limit(limits, before.tick)?, window.index)
+        });
+        Ok(over.collect())
+    }
+}

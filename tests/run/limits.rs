@@ -1,0 +1,341 @@
+//! Limits on what is commanded: shaped or not, between the ticks, by the arm that the motor feels.
+
+use stillbeam_sim::limits::{Quantity, kinematic, load};
+use stillbeam_sim::reference::rod;
+use stillbeam_sim::run::run;
+use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::solver::{Method, Solver};
+use stillbeam_sim::trajectory::Side;
+use stillbeam_tests::assert_near;
+
+const LINK: &str = "[link]\nlength = 0.4\nmass = 0.0224\nbending_stiffness = 0.46\n";
+const PAYLOAD: &str = "[payload]\nmass = 0.03\n";
+
+fn parse(text: &str) -> Result<SceneFile, String> {
+    SceneFile::parse("test", text).map_err(|error| error.to_string())
+}
+
+/// The number behind a word of a message.
+fn number_after(text: &str, word: &str) -> f64 {
+    let rest = text.split(word).nth(1).unwrap_or_else(|| panic!("{word} is not in: {text}"));
+    let end = rest.find(|c: char| !"0123456789.e-".contains(c)).unwrap_or(rest.len());
+    rest[..end].parse().unwrap_or_else(|_| panic!("no number after {word} in: {text}"))
+}
+
+fn elastica(tick: f64) -> Solver {
+    Solver { method: Method::Elastica, tick, ..Solver::default() }
+}
+
+/// By hand: −36 of the move's own ramp and −60 of the second pulse at 0.08 s.
+#[test]
+fn a_shaper_of_negative_pulses_asks_for_more_than_its_move() {
+    let scene = format!(
+        "{LINK}{PAYLOAD}[limits]\nrate = 1.6\nacceleration = 60.0\n[move]\nprofile = \"cubic\"\n\
+         duration = 0.1\nto = 0.1\nsettle = 0.3\n[shaper]\npulses = [[1.0, 0.0], [-1.0, 0.08], [1.0, 0.16]]\n"
+    );
+    for tick in ["0.001", "0.01", "0.02"] {
+        let error = parse(&format!("{scene}[solver]\ntick = {tick}\n")).expect_err("too fast");
+        assert_near("needs", number_after(&error, "needs "), 96.0, 1e-9);
+        assert_near("time", number_after(&error, " at "), 0.08, 1e-9);
+    }
+}
+
+#[test]
+fn a_shaper_spares_what_its_move_alone_exceeds() {
+    let scene = |limit: f64| {
+        format!(
+            "{LINK}{PAYLOAD}[limits]\nrate = 4.0\nacceleration = {limit}\n[move]\nprofile = \"cubic\"\n\
+             duration = 0.4\nto = 1.0\nsettle = 0.3\n[shaper]\nkind = \"zv\"\n"
+        )
+    };
+    assert!(parse(&scene(30.0)).is_ok());
+    let error = parse(&scene(25.0)).expect_err("too fast");
+    // By hand, as the second pulse comes at d: 18.75 (2 − 2d/0.4).
+    let delay = 0.5 * rod::first_period(&parse(&scene(30.0)).expect("a scene").arm).expect("a rod");
+    let needed = 18.75 * (2.0 - 2.0 * delay / 0.4);
+    assert_near("needs", number_after(&error, "needs ") / needed, 1.0, 1e-6);
+}
+
+/// The densest look at a trajectory that is affordable, both sides of its breaks included.
+fn dense(scene: &SceneFile, tick: f64) -> [f64; 3] {
+    let trajectory = scene.case(tick).trajectory().expect("a motion");
+    let end = trajectory.duration();
+    let mut most = [0.0_f64; 3];
+    let mut borders = vec![0.0];
+    borders.extend(trajectory.breaks());
+    borders.push(end);
+    for pair in borders.windows(2) {
+        let points = 4000;
+        let step = (pair[1] - pair[0]) / f64::from(points);
+        if step <= 0.0 {
+            continue;
+        }
+        for k in 0..=points {
+            let (side, beside) =
+                if k == points { (Side::Left, -1e-2 * step) } else { (Side::Right, 1e-2 * step) };
+            let t = pair[0] + f64::from(k) * step;
+            let hub = trajectory.at(t, side);
+            let slope = (trajectory.at(t + beside, side).acceleration - hub.acceleration) / beside;
+            most[0] = most[0].max(hub.rate.abs());
+            most[1] = most[1].max(hub.acceleration.abs());
+            most[2] = most[2].max(slope.abs());
+        }
+    }
+    most
+}
+
+/// Every profile behind every shaper at several ticks: 0.2 % below the densest look's peak is
+/// refused, 0.2 % above it accepted, and the duration that the refusal names is accepted.
+#[test]
+fn kinematic_limits_are_right_to_a_thousandth() {
+    let shapers = [
+        "",
+        "kind = \"zv\"",
+        "kind = \"ei\"",
+        "pulses = [[1.0, 0.0], [-1.0, 0.0611], [1.0, 0.1222]]",
+    ];
+    let mut turn = 1u32;
+    for profile in ["cubic", "quintic", "cycloid", "trapezoid", "s-curve", "still"] {
+        for shaper in shapers {
+            for tick in [0.002, 0.005, 0.01] {
+                turn = turn.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let share = f64::from(turn >> 8) / f64::from(1 << 24);
+                let duration = ((0.27 + 0.4 * share) / tick).round() * tick;
+                let scene = |limits: &str, duration: f64| {
+                    let shaper = if shaper.is_empty() {
+                        String::new()
+                    } else {
+                        format!("[shaper]\n{shaper}\n")
+                    };
+                    parse(&format!(
+                        "{LINK}{PAYLOAD}{shaper}[limits]\n{limits}\n[move]\nprofile = \"{profile}\"\n\
+                         duration = {duration}\nto = {}\n[solver]\ntick = {tick}\n",
+                        0.4 + share
+                    ))
+                };
+                let free = scene("", duration).expect("a scene without limits");
+                let peaks = dense(&free, tick);
+                for (name, peak) in ["rate", "acceleration", "jerk"].into_iter().zip(peaks) {
+                    let what = format!("{profile}, {shaper}, {tick} s, {duration} s, {name}");
+                    let jumps = matches!(profile, "cubic" | "trapezoid") && name == "jerk";
+                    let limited = |factor: f64, duration: f64| {
+                        scene(&format!("{name} = {}", factor * peak), duration)
+                    };
+                    if jumps {
+                        let error = scene("jerk = 1e9", duration).expect_err(&what);
+                        assert!(error.contains("no duration helps"), "{what}: {error}");
+                        continue;
+                    }
+                    // A planner may find another still move within the limit, or none.
+                    if profile != "still" {
+                        let error = limited(0.998, duration).expect_err(&what);
+                        let way = number_after(&error, "a duration of ");
+                        assert!(way > duration, "{what}: {error}");
+                        limited(0.998, way).unwrap_or_else(|error| panic!("{what}: {error}"));
+                        if shaper.is_empty() {
+                            let shorter = way - tick;
+                            assert!(limited(0.998, shorter).is_err(), "{what}: {shorter} fits too");
+                        }
+                    }
+                    let above = limited(1.002, duration);
+                    above.unwrap_or_else(|error| panic!("{what}: {error}"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_refusal_names_the_move_during_which_it_happens() {
+    let moves = "[[moves]]\nprofile = \"quintic\"\nduration = 1.0\nto = 1.5\nsettle = 0.05\n\
+                 [[moves]]\nprofile = \"quintic\"\nduration = 0.5\nto = 0.0\nsettle = 0.05\n";
+    let scene = format!("{LINK}[limits]\nrate = 4.0\n{moves}");
+    let error = parse(&scene).expect_err("too fast");
+    assert!(error.contains("moves[1] (move 2 of 2) needs 5.625"), "{error}");
+    assert_near("way", number_after(&error, "a duration of "), 0.71, 1e-12);
+    assert_near("time", number_after(&error, " at "), 1.3, 1e-6);
+}
+
+#[test]
+fn a_spin_beyond_the_rate_has_no_duration_that_helps() {
+    let scene = format!(
+        "{LINK}[limits]\nrate = 4.0\n[move]\nprofile = \"spin-up\"\nduration = 2.0\nrate = 5.0\n"
+    );
+    let error = parse(&scene).expect_err("too fast");
+    assert!(error.contains("no duration helps"), "{error}");
+}
+
+/// The rod's own peak, sampled at a twentieth of a millisecond: no code of the check's but the rod.
+fn sampled_torque(scene: &SceneFile, tick: f64) -> f64 {
+    let trajectory = scene.case(tick).trajectory().expect("a motion");
+    let count = (trajectory.duration() / 5e-5) as u32;
+    let times: Vec<f64> = (0..=count).map(|k| f64::from(k) * 5e-5).collect();
+    let options = rod::Options { order: 6, tolerance: 1e-8, integrator: None };
+    let samples = rod::solve(&scene.arm, &trajectory, &times, &options).expect("a rod");
+    samples.iter().map(|sample| sample.torque.abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn torque_is_what_the_arm_takes_whatever_the_method() {
+    let rest = "[move]\nprofile = \"cubic\"\nduration = 0.25\nto = 1.0\nsettle = 0.05\n";
+    let bar = "[link]\nlength = 0.3\nmaterial = \"steel\"\nwidth = 0.025\nthickness = 0.012\n\
+               [payload]\nmass = 0.2\n";
+    let soft = format!("{LINK}{PAYLOAD}[hub]\nradius = 0.03\ninertia = 1e-4\n");
+    for (arm, tick) in [(bar, 0.01), (soft.as_str(), 0.01), (soft.as_str(), 0.005)] {
+        let free = parse(&format!("{arm}{rest}")).expect("a scene");
+        let peak = sampled_torque(&free, tick);
+        let limited = |factor: f64, method| {
+            let limits = format!("[limits]\ntorque = {}\n", factor * peak);
+            let scene = parse(&format!("{arm}{limits}{rest}")).expect("a scene");
+            run(&scene, &Solver { method, ..elastica(tick) }).map_err(|error| error.to_string())
+        };
+        for method in [Method::Rigid, Method::Newmark, Method::Modal, Method::Elastica] {
+            let error = limited(0.998, method).expect_err("above the limit");
+            assert_near("needs", number_after(&error, "needs ") / peak, 1.0, 1e-3);
+        }
+        limited(1.002, Method::Elastica).expect("within the limit");
+    }
+}
+
+#[test]
+fn a_method_that_commands_more_than_the_limit_is_refused() {
+    let text = |limits: &str, duration: f64| {
+        format!(
+            "{LINK}{PAYLOAD}{limits}[move]\nprofile = \"cubic\"\nduration = {duration}\nto = 0.3\n"
+        )
+    };
+    let commanded_by = |duration: f64, method| {
+        let free = parse(&text("", duration)).expect("a scene");
+        let solver = Solver { tick: 0.01, method, ..Solver::default() };
+        let rows = run(&free, &solver).expect("a run");
+        let commanded = rows.iter().map(|row| row.torque_nm.abs()).fold(0.0, f64::max);
+        (duration, solver, commanded, sampled_torque(&free, 0.01))
+    };
+    // Where the arm yields to the jump at the beginning, a rigid one takes more.
+    let (duration, solver, commanded, arm) = [0.1, 0.14, 0.2, 0.25]
+        .into_iter()
+        .flat_map(|duration| [Method::Rigid, Method::Newmark].map(|m| commanded_by(duration, m)))
+        .find(|&(.., commanded, arm)| commanded > 1.05 * arm)
+        .expect("a method that commands too much");
+    let limit = 0.5 * (commanded + arm);
+    let scene = parse(&text(&format!("[limits]\ntorque = {limit}\n"), duration)).expect("a scene");
+    let error = run(&scene, &solver).expect_err("commands too much").to_string();
+    assert!(error.contains("method") && error.contains("another method"), "{error}");
+    if commanded > 1.1 * arm {
+        run(&scene, &elastica(0.01)).expect("within the limit");
+    }
+}
+
+#[test]
+fn the_clamp_moment_is_limited_and_is_not_the_hub_torque() {
+    let text = |moment: f64, duration: f64| {
+        parse(&format!(
+            "{LINK}{PAYLOAD}[limits]\nmoment = {moment}\n[move]\nprofile = \"cubic\"\n\
+             duration = {duration}\nto = 1.0\nsettle = 0.3\n"
+        ))
+        .expect("a scene")
+    };
+    for method in [Method::Rigid, Method::Newmark, Method::Auto, Method::Elastica] {
+        let solver = Solver { method, ..elastica(0.01) };
+        let error = run(&text(0.1, 0.4), &solver).expect_err("above the limit").to_string();
+        assert!(error.contains("limits.moment: move needs 0.32"), "{error}");
+        let way = number_after(&error, "a duration of ");
+        run(&text(0.1, way), &solver).expect("the duration that the refusal names");
+    }
+    // At rest and level: g (m L/2 + m_p L) at the clamp, r further in at the axis.
+    let arm = parse(
+        "[link]\nlength = 0.9\nmass = 0.6\nbending_stiffness = 1.8e7\n[hub]\nradius = 0.05\n\
+         [payload]\nmass = 1.5\n[gravity]\nacceleration = 9.81\n[move]\nprofile = \"cubic\"\n\
+         duration = 1.0\nto = 1.0\n",
+    )
+    .expect("a scene")
+    .arm;
+    let [torque, moment] =
+        rod::rest_loads(&arm, stillbeam::Angle::from_radians(0.0)).expect("rest");
+    assert_near("torque", torque, 9.81 * (0.6 * 0.5 + 1.5 * 0.95), 1e-6);
+    assert_near("moment", moment, 9.81 * (0.6 * 0.45 + 1.5 * 0.9), 1e-6);
+}
+
+const HEAVY: &str = "[link]\nlength = 0.9\nmass = 0.6\nbending_stiffness = 180.0\n[hub]\n\
+                     radius = 0.05\n[payload]\nmass = 1.5\n[gravity]\nacceleration = 9.81\n";
+
+#[test]
+fn a_weight_is_told_from_a_motion_that_is_too_fast() {
+    for profile in ["still", "quintic"] {
+        let moves = format!(
+            "[limits]\ntorque = 15.0\nrate = 2.0\n[move]\nprofile = \"{profile}\"\nto = 1.5708\n\
+             settle = 0.5\n"
+        );
+        let moves =
+            if profile == "still" { moves } else { moves.replace("to =", "duration = 3.0\nto =") };
+        let run_of = |text: &str| {
+            let scene = parse(text)?;
+            run(&scene, &elastica(0.01)).map_err(|error| error.to_string())
+        };
+        let error = run_of(&format!("{HEAVY}{moves}")).expect_err("too heavy");
+        assert!(error.contains("16.92") && error.contains("no duration helps"), "{error}");
+    }
+}
+
+/// A still move within a torque limit: the rod keeps it, and a twentieth less time does not.
+#[test]
+fn still_moves_keep_loads_in_truth() {
+    let second = "[[moves]]\nprofile = \"still\"\nto = 0.0\nsettle = 0.3\n";
+    let cases = [
+        (format!("{LINK}{PAYLOAD}"), "torque = 0.4", String::new()),
+        (LINK.to_owned(), "torque = 0.2\nacceleration = 60.0", String::new()),
+        (HEAVY.to_owned(), "torque = 22.0", String::new()),
+        // Begins while the arm still rings.
+        (
+            format!("{LINK}{PAYLOAD}"),
+            "torque = 0.4",
+            "[[moves]]\nprofile = \"cubic\"\nduration = 0.6\nto = -1.0\nsettle = 0.02\n".to_owned(),
+        ),
+        (format!("{LINK}{PAYLOAD}[hub]\nradius = 0.05\n"), "moment = 0.3", String::new()),
+    ];
+    for (arm, limits, first) in cases {
+        let text = format!("{arm}[limits]\n{limits}\n{first}{second}")
+            .replace("to = 0.0", if first.is_empty() { "to = 1.2" } else { "to = 0.0" });
+        let scene = parse(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+        run(&scene, &elastica(0.01)).unwrap_or_else(|error| panic!("{error}: {text}"));
+        let case = scene.case(0.01);
+        let trajectory = case.trajectory().expect("a motion");
+        if let Some(torque) = scene.limits.torque {
+            let peak = sampled_torque(&scene, 0.01);
+            assert!(peak < 1.001 * torque, "{peak}: {text}");
+        }
+        let found = load::excess(&case, &trajectory, &scene.limits, &|_| ()).expect("a rod");
+        assert!(found.is_none(), "{found:?}: {text}");
+        let duration = scene.moves.last().expect("a move").motion.duration();
+        let shorter = format!("profile = \"still\"\nduration = {}", 0.95 * duration);
+        let error = parse(&text.replace("profile = \"still\"", &shorter)).expect_err(&text);
+        assert!(error.contains("limits."), "{error}");
+        let way = number_after(&error, "a duration of ");
+        let typed = format!("profile = \"still\"\nduration = {way}");
+        let again = parse(&text.replace("profile = \"still\"", &typed));
+        again.unwrap_or_else(|error| panic!("{error}: {text}"));
+    }
+}
+
+#[test]
+fn peaks_of_a_window_are_those_of_its_profile() {
+    for profile in stillbeam::Profile::ALL {
+        let text =
+            format!("{LINK}[move]\nprofile = \"{}\"\nduration = 0.7\nto = -1.3\n", profile.name());
+        let trajectory = parse(&text).expect("a scene").case(0.01).trajectory().expect("a motion");
+        let peaks = kinematic::peaks(&trajectory, 0.0, trajectory.duration());
+        let exact = profile.peaks(1.3, 0.7);
+        for (quantity, exact) in [
+            (Quantity::Rate, exact.rate),
+            (Quantity::Acceleration, exact.acceleration),
+            (Quantity::Jerk, exact.jerk),
+        ] {
+            let peak = peaks.of(quantity).expect("a peak").value;
+            if exact.is_infinite() {
+                assert!(peak.is_infinite(), "{profile:?} {quantity:?}");
+            } else {
+                assert_near("peak", peak / exact, 1.0, 1e-6);
+            }
+        }
+    }
+}
