@@ -18,9 +18,9 @@ const MOST_TICKS: u32 = 1 << 24;
 const TRIALS: u32 = 400;
 const FLIGHTS: u32 = 60;
 
-/// First periods that a search flies in all: a few seconds. A limit a thousand times too low takes
+/// First periods that a search flies in all: up to ten seconds. A limit a thousand times too low takes
 /// moves so long that a search would not end; the refusal then says only that it takes a longer one.
-const BUDGET: f64 = 250.0;
+const BUDGET: f64 = 1000.0;
 
 /// Durations that are tried above the one that a quick search has found.
 const CLOSER: u32 = 24;
@@ -95,9 +95,16 @@ pub fn of_loads(
         Ok(peaks.excess(limits, excess.index).map(|excess| excess.quantity.stretch(excess.ratio())))
     };
     let [fine, quick] = &found.states;
-    let way =
-        searched(case, &excess, FLIGHTS, careful, |ticks| keeps_in(&load::QUICK, quick, ticks))?;
-    let Way::Remedy(Remedy::Duration(duration)) = way else { return Ok(refusal(way)) };
+    let way = searched(case, &excess, FLIGHTS, careful, |ticks| {
+        // Beyond the budget nothing is flown any more, and nothing fits.
+        if affords(ticks) { keeps_in(&load::QUICK, quick, ticks) } else { Ok(Some(1.0)) }
+    })?;
+    let longer = Way::Remedy(Remedy::Longer);
+    let Way::Remedy(Remedy::Duration(duration)) = way else {
+        return Ok(refusal(if flown.get() < BUDGET { way } else { longer }));
+    };
+    // The finer flights have a budget of their own.
+    flown.set(0.0);
     // By the finer flight, and by whoever commands it, a little more may be needed.
     let least = (duration / case.tick).round() as u32;
     for ticks in (0..CLOSER).map(|k| least + k.max(k * least / 200)) {
