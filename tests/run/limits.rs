@@ -238,7 +238,7 @@ fn the_clamp_moment_is_limited_and_is_not_the_hub_torque() {
     for method in [Method::Rigid, Method::Newmark, Method::Auto, Method::Elastica] {
         let solver = Solver { method, ..elastica(0.01) };
         let error = run(&text(0.1, 0.4), &solver).expect_err("above the limit").to_string();
-        assert!(error.contains("limits.moment: move needs 0.32"), "{error}");
+        assert!(error.contains("limits.moment = 0.1: move needs 0.32"), "{error}");
         let way = number_after(&error, "a duration of ");
         run(&text(0.1, way), &solver).expect("the duration that the refusal names");
     }

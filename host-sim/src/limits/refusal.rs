@@ -67,7 +67,10 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Excess { quantity, peak, limit, index } = self.excess;
         let unit = quantity.unit();
-        write!(f, "{}: {}", quantity.parameter(), place(index, self.count))?;
+        // A tick is what a turn a tick is held against.
+        let given = if quantity == Quantity::Turn { 1.0 / limit } else { limit };
+        write!(f, "{} = {}: ", quantity.parameter(), significant(given, 9))?;
+        write!(f, "{}", place(index, self.count))?;
         if self.count > 1 {
             write!(f, " (move {} of {})", index + 1, self.count)?;
         }

@@ -1,5 +1,7 @@
 //! What would keep a limit: the shortest duration of the move, or why none does.
 
+use std::cell::Cell;
+
 use stillbeam::{Limits, Move, Profile, Remedy};
 
 use super::refusal::seconds;
@@ -15,6 +17,10 @@ const MOST_TICKS: u32 = 1 << 24;
 /// Durations that are tried on the way up where a trial costs nothing, and where it is a flight.
 const TRIALS: u32 = 400;
 const FLIGHTS: u32 = 60;
+
+/// First periods that a search flies in all: up to ten seconds. A limit a thousand times too low takes
+/// moves so long that a search would not end; the refusal then says only that it takes a longer one.
+const BUDGET: f64 = 1000.0;
 
 /// Durations that are tried above the one that a quick search has found.
 const CLOSER: u32 = 24;
@@ -68,6 +74,12 @@ pub fn of_loads(
     let period = rod::first_period(case.arm)?;
     // A vibration that the move starts adds to the load or not, as its phase at the end is.
     let careful = (0.125 * period / case.tick).ceil().max(1.0) as u32;
+    let flown = Cell::new(0.0);
+    let affords = |ticks: u32| {
+        let length = f64::from(ticks) * case.tick + period;
+        flown.set(flown.get() + length / period);
+        flown.get() < BUDGET
+    };
     let keeps_in = |options: &Options, state: &Option<Resume>, ticks| {
         let steps = lasting(case, excess.index, ticks);
         let case = case.with(&steps);
@@ -83,12 +95,22 @@ pub fn of_loads(
         Ok(peaks.excess(limits, excess.index).map(|excess| excess.quantity.stretch(excess.ratio())))
     };
     let [fine, quick] = &found.states;
-    let way =
-        searched(case, &excess, FLIGHTS, careful, |ticks| keeps_in(&load::QUICK, quick, ticks))?;
-    let Way::Remedy(Remedy::Duration(duration)) = way else { return Ok(refusal(way)) };
+    let way = searched(case, &excess, FLIGHTS, careful, |ticks| {
+        // Beyond the budget nothing is flown any more, and nothing fits.
+        if affords(ticks) { keeps_in(&load::QUICK, quick, ticks) } else { Ok(Some(1.0)) }
+    })?;
+    let longer = Way::Remedy(Remedy::Longer);
+    let Way::Remedy(Remedy::Duration(duration)) = way else {
+        return Ok(refusal(if flown.get() < BUDGET { way } else { longer }));
+    };
+    // The finer flights have a budget of their own.
+    flown.set(0.0);
     // By the finer flight, and by whoever commands it, a little more may be needed.
     let least = (duration / case.tick).round() as u32;
     for ticks in (0..CLOSER).map(|k| least + k.max(k * least / 200)) {
+        if !affords(ticks) {
+            break;
+        }
         let taken = keeps_in(&load::FINE, fine, ticks)?.is_none()
             && admit(&lasting(case, excess.index, ticks));
         if taken {
@@ -96,7 +118,7 @@ pub fn of_loads(
             return Ok(refusal(Way::Remedy(Remedy::Duration(duration))));
         }
     }
-    Ok(refusal(Way::Remedy(Remedy::Longer)))
+    Ok(refusal(longer))
 }
 
 /// What merely holding the arm takes between two hub angles, rad, if that exceeds the limit.
