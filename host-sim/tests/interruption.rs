@@ -131,7 +131,7 @@ fn is_filled(command: &[&str]) -> bool {
 /// A folder with all that the commands read.
 fn bench() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let spec = "scenes = [\"d-fast\"]\n[[grid]]\nelements = [1, 2]\nmass = [\"lumped\", \"consistent\"]\n\
+    let spec = "scenes = [\"d-fast\"]\n[[grid]]\nmethod = [\"newmark\"]\nelements = [1, 2]\nmass = [\"lumped\", \"consistent\"]\n\
                 tick = [0.01, 0.005, 0.004, 0.0025]\n";
     fs::write(folder.path().join("spec.toml"), spec).unwrap();
     fs::write(folder.path().join("text.md"), TEXT).unwrap();

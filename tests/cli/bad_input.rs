@@ -235,12 +235,6 @@ fn a_link_that_buckles_says_what_to_do() {
 }
 
 #[test]
-fn a_link_that_buckles_says_what_to_do() {
-    let scene = GOOD.replace("acceleration = 0.0", "acceleration = 100.0");
-    refused(&scene, &[], &["gravity.acceleration = 100", "use less gravity"]);
-}
-
-#[test]
 fn a_reference_keeps_limits_as_a_run_does() {
     let folder = tempfile::tempdir().expect("folder");
     let scene = GOOD.replace("rate = 10.0", "moment = 0.0001");

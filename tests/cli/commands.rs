@@ -110,7 +110,7 @@ fn auto_keeps_its_tolerance_or_says_what_it_could() {
 
 /// The tick is a fifth of the arm's period: Newmark's rule errs by more than the torque itself.
 const COARSE: &str = "[link]\nlength = 0.4\nmass = 0.0224\nbending_stiffness = 0.46\n[payload]\n\
-    mass = 0.03\n[[moves]]\nprofile = \"s-curve\"\nduration = 0.6\nto = 1.0\nsettle = 0.12\n[solver]\n\
+    mass = 0.03\n[[moves]]\nprofile = \"s-curve\"\nduration = 0.6\nto = 1.0\nsettle = 0.4\n[solver]\n\
     tick = 0.04\n";
 
 #[test]

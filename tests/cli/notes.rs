@@ -19,7 +19,7 @@ fn rounded_moves_share_a_line() {
     let moves: String = (0..40)
         .map(|k| {
             let to = f64::from((k + 1) % 2);
-            format!("[[moves]]\nprofile = \"cubic\"\nduration = 0.333\nto = {to}\n")
+            format!("[[moves]]\nprofile = \"cubic\"\nduration = 0.333\nto = {to}\nsettle = 0.2\n")
         })
         .collect();
     let scene = SceneFile::parse("test", &format!("{LINK}{moves}")).expect("scene");
@@ -99,12 +99,13 @@ fn what_is_meant_is_not_remarked_on() {
 #[test]
 fn a_remark_is_a_note_and_no_refusal() {
     let folder = tempfile::tempdir().expect("folder");
-    let text = format!("{LINK}{MOVE}").replace("to = 1.0", "to = 90");
+    let text = format!("{LINK}{MOVE}").replace("to = 1.0", "to = 90\nsettle = 0.2");
     fs::write(folder.path().join("arm.toml"), text).expect("scene");
-    let args = ["run", "arm.toml", "--csv", "out.csv", "--method", "rigid"];
+    let args = ["run", "arm.toml", "--csv", "out.csv"];
     let output = sim().current_dir(folder.path()).args(args).output().expect("program");
     let words = String::from_utf8(output.stderr).expect("text");
     assert_eq!(output.status.code(), Some(0), "{words}");
     assert!(words.starts_with("note: move.to = 90: 90 rad are 14.3 turns"), "{words}");
-    assert_eq!(words.lines().count(), 1, "{words}");
+    assert!(words.lines().all(|line| line.starts_with("note: ")), "{words}");
+    assert_eq!(words.matches("14.3 turns").count(), 1, "{words}");
 }

@@ -132,6 +132,10 @@ impl Search {
                 let expected = assess(candidate);
                 let choice = Choice { rung, expected, bend };
                 reason = expected.fault(&tolerance);
+                // What was given up on the way may be further off than was seen: it is no nearest.
+                if !candidate.follows(stop) {
+                    continue;
+                }
                 if self.take(choice, &tolerance) {
                     return Ok(choice.costing(self.steps + expected.steps));
                 }
