@@ -34,8 +34,6 @@ pub enum Error {
         needed: f64,
         /// Unit of both.
         unit: &'static str,
-        /// What would keep the limit.
-        remedy: Remedy,
     },
     /// A limit that the layer it is given to has no means to check.
     CannotCheck {
@@ -52,8 +50,6 @@ pub enum Error {
         rate: f64,
         /// Largest that is accepted, rad/s.
         max: f64,
-        /// What would keep it.
-        remedy: Remedy,
     },
     /// A rest-to-rest move behind one that leaves the hub turning.
     NotAtRest {
@@ -126,74 +122,10 @@ pub enum Error {
     },
 }
 
-/// What would keep a limit that a move exceeds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Remedy {
-    /// This duration, s: the shortest whole number of ticks that keeps every limit.
-    Duration(f64),
-    /// A longer duration; how long is not known to the layer that refuses.
-    Longer,
-    /// No duration: the acceleration jumps, so its jerk is infinite. Another profile does.
-    Smoother,
-    /// No duration: the move ends at this rate, rad/s, or begins with it.
-    Slower(f64),
-    /// No duration: holding the arm against its weight on the way takes this much, in the limit's
-    /// unit.
-    Weight(f64),
-    /// No duration up to the longest that a move may have, s.
-    Nearer(f64),
-}
-
-impl fmt::Display for Remedy {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::Duration(duration) => write!(f, "a duration of {} s fits", Plain(duration)),
-            Self::Longer => write!(f, "use a longer move or raise the limit"),
-            Self::Smoother => write!(
-                f,
-                "the acceleration jumps, so no duration helps; use quintic, cycloid, s-curve or still"
-            ),
-            Self::Slower(rate) => {
-                write!(f, "the hub turns at {} rad/s at an end, so no duration helps", Plain(rate))
-            }
-            Self::Weight(held) => write!(
-                f,
-                "holding the arm against its weight takes {held:.6} on the way, so no duration helps"
-            ),
-            Self::Nearer(longest) => {
-                let longest = Plain(longest);
-                write!(f, "no duration up to {longest} s helps; turn by less or raise the limit")
-            }
-        }
-    }
-}
-
-/// A number without the digits that binary arithmetic adds: 0.71, not 0.7100000000000001. It is
-/// displayed in the fewest decimals, nine at most, that are right to 1e-9 of it.
-struct Plain(f64);
-
-impl fmt::Display for Plain {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (x, mut power, mut decimals) = (self.0, 1.0, 0);
-        while decimals < 9 && libm::fabs(libm::round(x * power) / power - x) > 1e-9 * libm::fabs(x)
-        {
-            power *= 10.0;
-            decimals += 1;
-        }
-        write!(f, "{x:.decimals$}")
-    }
-}
+/// Longest move, ticks: counts up to here are exact in an f32.
+pub(crate) const MAX_TICKS: u32 = 1 << 24;
 
 impl Error {
-    /// The same fault with another remedy, where it has one.
-    pub(crate) fn with_remedy(mut self, by: Remedy) -> Self {
-        if let Self::LimitExceeded { remedy, .. } | Self::TooFast { remedy, .. } = &mut self {
-            *remedy = by;
-        }
-        self
-    }
-
     /// `value` if it lies in `min..=max`, compared in its own precision, else the error that names
     /// `parameter`.
     pub(crate) fn check<T: Scalar>(
@@ -221,30 +153,21 @@ impl fmt::Display for Error {
                 }
                 if unit.is_empty() { Ok(()) } else { write!(f, " {unit}") }
             }
-            Self::LimitExceeded { parameter, limit, needed, unit, remedy } => write!(
+            Self::LimitExceeded { parameter, limit, needed, unit } => write!(
                 f,
-                "{parameter}: the move needs {needed:.6} {unit}, must be at most {limit} {unit}; {remedy}"
+                "{parameter}: the move needs {needed:.6} {unit}, must be at most {limit} {unit}; use a \
+                 longer move or raise the limit"
             ),
             Self::CannotCheck { parameter, value, unit } => write!(
                 f,
                 "{parameter} = {value} {unit}: must be absent here, where the arm's peaks between \
                  ticks are not known; give it to the planner of still moves or to the desktop's run"
             ),
-            Self::TooFast { rate, max, remedy } => {
-                write!(
-                    f,
-                    "move.duration: the move peaks at {rate:.6} rad/s, must be at most {max:.6} \
-                     rad/s for this arm, method and tick (never more than one radian a tick); "
-                )?;
-                match remedy {
-                    // No limit of the drive's, so none to raise.
-                    Remedy::Longer => write!(f, "use a longer move"),
-                    Remedy::Nearer(longest) => {
-                        write!(f, "no duration up to {} s helps; turn by less", Plain(longest))
-                    }
-                    other => write!(f, "{other}"),
-                }
-            }
+            Self::TooFast { rate, max } => write!(
+                f,
+                "move.duration: the move peaks at {rate:.6} rad/s, must be at most {max:.6} rad/s for \
+                 this arm, method and tick (never more than one radian a tick); use a longer move"
+            ),
             Self::NotAtRest { rate } => write!(
                 f,
                 "move.profile: the hub turns at {rate} rad/s when this rest-to-rest move begins, \

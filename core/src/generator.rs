@@ -10,7 +10,7 @@ pub(crate) use stop::Arrival;
 
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::{Angle, Hub, Limits, Move, Outline, Segment, Start, lay};
+use crate::motion::{Angle, Hub, Limits, Move, Outline, Plan, Remedy, Segment, Start, lay};
 use crate::stepper::{Response, Stepper};
 
 /// What the motor controller gets every tick. SI units.
@@ -145,6 +145,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.end = outline.end;
         self.tail = hold(outline.end, tick);
         Ok(outline)
+    }
+
+    /// What would keep the limits, for a move that [`Self::push`] refuses now for one of them. Computed
+    /// apart from the refusal: a target that does not ask does not link it.
+    pub fn remedy(&self, motion: &Move) -> Remedy {
+        Plan::remedy(motion, self.next_start(), &self.limits, self.stepper.tick())
     }
 
     /// The next setpoint. Never fails, never allocates; the same operations on host and target.

@@ -60,9 +60,9 @@ pub mod motor;
 pub mod scene;
 pub mod stepper;
 
-pub use error::{Error, Remedy};
+pub use error::Error;
 pub use generator::{Departure, Generator, Planned, Rejected, Setpoint};
 pub use math::Scalar;
-pub use motion::{Angle, Limits, Move, Profile};
+pub use motion::{Angle, Limits, Move, Profile, Remedy};
 pub use scene::{Damping, Hub, Link, Payload, Scene};
 pub use stepper::Stepper;

@@ -247,7 +247,6 @@ fn a_refusal_names_field_value_and_what_it_must_be() {
         limit: 6.0,
         needed: 7.5,
         unit: "rad/s",
-        remedy: stillbeam::Remedy::Longer,
     });
     assert_eq!(refusal.to_string(), "limits.rate = 7.5 rad/s: must be 0 to 6 rad/s");
     assert_eq!(Refusal::Axis(2).to_string(), "axis: must be 0 to 1");

@@ -112,12 +112,10 @@ fn a_refused_still_move_is_explained() {
         Limits { jerk: Some(5e3), acceleration: Some(200.0), ..Limits::default() },
     ] {
         let error = planner.within(&from, None, PI, 0.15, &limits).expect_err("too short");
-        let explained = planner.explain(error, &from, None, PI, &limits);
-        let Error::LimitExceeded { remedy: Remedy::Duration(duration), .. } = explained else {
-            panic!("{explained}")
-        };
+        let remedy = planner.remedy(error, &from, None, PI, &limits);
+        let Remedy::Duration(duration) = remedy else { panic!("{remedy}") };
         planner.within(&from, None, PI, duration, &limits).expect("the duration that is named");
-        assert!(planner.within(&from, None, PI, duration - TICK, &limits).is_err(), "{explained}");
+        assert!(planner.within(&from, None, PI, duration - TICK, &limits).is_err(), "{remedy}");
     }
 }
 
@@ -132,16 +130,14 @@ fn a_limit_below_the_weight_is_explained_by_it() {
     let held = 2.0 * (0.05 * 0.4 + 0.0224 * 0.2);
     let from = Origin::at_rest(Angle::from_radians(-0.5 * PI));
     let limits = Limits { torque: Some(0.8 * held), ..Limits::default() };
-    let weight = |error: Error| match error {
-        Error::LimitExceeded {
-            parameter: "limits.torque", remedy: Remedy::Weight(held), ..
-        } => held,
+    let weight = |error: Error| match planner.remedy(error, &from, None, 0.5 * PI, &limits) {
+        Remedy::Weight(held) => held,
         other => panic!("{other}"),
     };
     let (up, period) = (0.5 * PI, planner.first_period());
     let shortest = weight(planner.shortest_from(&from, None, up, &limits).expect_err("weak"));
     let error = planner.within(&from, None, up, 3.0 * period, &limits).expect_err("weak");
-    let within = weight(planner.explain(error, &from, None, up, &limits));
+    let within = weight(error);
     for found in [shortest, within] {
         assert!((found / held - 1.0).abs() < 0.02, "{found} {held}");
     }

@@ -109,7 +109,7 @@ fn elastica_begins_in_the_rods_equilibrium() {
 fn nonsense_is_refused() {
     let scene = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.05 });
     let rod = Rod::<2>::new(&scene).expect("rod");
-    for bend in [f64::NAN, 0.0, -1.0, 2.1] {
+    for bend in [f64::NAN, -1.0, 2.1] {
         let error = Elastica::<f32, 2>::new(&rod, 0.01, Work::Fast, bend).expect_err("bend");
         assert!(error.to_string().starts_with("bend = "), "{error}");
     }

@@ -58,7 +58,7 @@ fn command_line_over_file_over_defaults() {
     let file = SolverKeys { elements: Some(4), tick: Some(0.002), ..SolverKeys::default() };
     let typed = SolverKeys { elements: Some(2), ..SolverKeys::default() };
     let solver = typed.or(file).resolve().expect("solver");
-    assert_eq!((solver.elements, solver.tick, solver.method), (2, 0.002, Method::Newmark));
+    assert_eq!((solver.elements, solver.tick, solver.method), (2, 0.002, Method::Auto));
 }
 
 #[test]

@@ -2,10 +2,9 @@
 
 use core::f64::consts::TAU;
 
-use super::profile::MAX_TICKS;
-use super::{Limits, Peaks, Profile};
+use super::{Limits, Peaks, Profile, Remedy};
 use crate::Error;
-use crate::error::Remedy;
+use crate::error::MAX_TICKS;
 
 /// A move's motion but for its duration.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +22,7 @@ pub(super) enum Demand {
 impl Demand {
     /// Greatest magnitudes if the move takes `duration` s. For a spin-up by Δω: 2Δω/T of
     /// acceleration, 2πΔω/T² of jerk.
+    #[inline(always)]
     fn peaks(&self, duration: f64) -> Peaks {
         match *self {
             Self::Turn(profile, angle) => profile.peaks(angle, duration),
@@ -40,29 +40,21 @@ impl Demand {
     }
 
     /// The peaks in `ticks` ticks of `tick` s, if they keep the limits and a radian a tick.
+    #[inline(always)]
     pub fn admit(&self, limits: &Limits, ticks: u32, tick: f64) -> Result<Peaks, Error> {
         let peaks = self.peaks(f64::from(ticks) * tick);
-        match admit(limits, &peaks, tick) {
-            Ok(()) => Ok(peaks),
-            Err(error) => Err(self.explain(error, limits, tick)),
-        }
+        admit(limits, &peaks, tick).map(|()| peaks)
     }
 
-    /// The error with its remedy: the shortest duration in whole ticks that keeps every limit. Found
-    /// by halving, as no peak grows with the duration.
-    #[cold]
-    fn explain(&self, error: Error, limits: &Limits, tick: f64) -> Error {
-        let judge = |ticks: u32| {
-            let peaks = self.peaks(f64::from(ticks) * tick);
-            admit(limits, &peaks, tick).map_err(|error| (peaks, error))
-        };
-        if let Self::Curve(_) = self {
-            return error.with_remedy(Remedy::Longer);
-        }
-        let longest = f64::from(MAX_TICKS) * tick;
-        if let Err((peaks, last)) = judge(MAX_TICKS) {
+    /// What would keep every limit: the shortest duration in whole ticks. Found by halving, as no peak
+    /// grows with the duration.
+    pub fn remedy(&self, limits: &Limits, tick: f64) -> Remedy {
+        let peaks = |ticks: u32| self.peaks(f64::from(ticks) * tick);
+        let fits = |ticks: u32| admit(limits, &peaks(ticks), tick).is_ok();
+        if !fits(MAX_TICKS) {
             // What stands in the way of the longest move stands in the way of all.
-            return last.with_remedy(match *self {
+            let peaks = peaks(MAX_TICKS);
+            return match *self {
                 Self::Turn(..) if peaks.jerk.is_infinite() && limits.jerk.is_some() => {
                     Remedy::Smoother
                 }
@@ -70,19 +62,19 @@ impl Demand {
                 Self::Spin { from, to } if !slow(limits, &peaks, tick) => {
                     Remedy::Slower(if to.abs() < from.abs() { from } else { to })
                 }
-                _ => Remedy::Nearer(longest),
-            });
+                _ => Remedy::Nearer(f64::from(MAX_TICKS) * tick),
+            };
         }
-        let (mut fails, mut fits) = (0, MAX_TICKS);
-        while fits - fails > 1 {
-            let middle = fails + (fits - fails) / 2;
-            if judge(middle).is_ok() {
-                fits = middle;
+        let (mut fails, mut least) = (0, MAX_TICKS);
+        while least - fails > 1 {
+            let middle = fails + (least - fails) / 2;
+            if fits(middle) {
+                least = middle;
             } else {
                 fails = middle;
             }
         }
-        error.with_remedy(Remedy::Duration(f64::from(fits) * tick))
+        Remedy::Duration(f64::from(least) * tick)
     }
 }
 
@@ -97,7 +89,6 @@ pub(crate) fn admit(limits: &Limits, peaks: &Peaks, tick: f64) -> Result<(), Err
     if peaks.rate * tick <= 1.0 {
         Ok(())
     } else {
-        let (rate, max) = (peaks.rate, 1.0 / tick);
-        Err(Error::TooFast { rate, max, remedy: Remedy::Longer })
+        Err(Error::TooFast { rate: peaks.rate, max: 1.0 / tick })
     }
 }

@@ -1,7 +1,6 @@
 //! What the drive may do, and what a move needs.
 
 use crate::Error;
-use crate::error::Remedy;
 
 /// Limits of the drive; `None` is unlimited.
 ///
@@ -103,7 +102,7 @@ fn within(
 ) -> Result<(), Error> {
     match limit {
         Some(limit) if needed.is_nan() || needed > limit * (1.0 + 1e-9) => {
-            Err(Error::LimitExceeded { parameter, limit, needed, unit, remedy: Remedy::Longer })
+            Err(Error::LimitExceeded { parameter, limit, needed, unit })
         }
         _ => Ok(()),
     }

@@ -7,7 +7,7 @@ use heapless::Vec;
 
 use super::demand::Demand;
 use super::segment::Shape;
-use super::{Angle, Limits, Move, Peaks, Profile, Segment, still};
+use super::{Angle, Limits, Move, Peaks, Profile, Remedy, Segment, still};
 use crate::Error;
 use crate::math::Scalar;
 
@@ -57,7 +57,7 @@ impl Plan {
     /// Plans `motion` from `start`, with setpoints every `tick` s.
     ///
     /// # Errors
-    /// A parameter of the move out of range, a limit that it exceeds with what would keep it, or a
+    /// A parameter of the move out of range, a limit that it exceeds (see [`Self::remedy`]), or a
     /// limit of torque or moment, which a plan of the hub's motion cannot check.
     pub fn new(motion: &Move, start: Start, limits: &Limits, tick: f64) -> Result<Self, Error> {
         let mut segments = Vec::new();
@@ -66,6 +66,22 @@ impl Plan {
             let _ = segments.push(*segment);
         })?;
         Ok(Self { segments, outline })
+    }
+
+    /// What would keep the limits, for a move that [`Self::new`] refuses for one of them: the shortest
+    /// duration in whole ticks that keeps every limit of the motion and a radian a tick, or why none
+    /// does.
+    pub fn remedy(motion: &Move, start: Start, limits: &Limits, tick: f64) -> Remedy {
+        let demand = match *motion {
+            Move::To { profile, to, .. } => {
+                Demand::Turn(profile, to - TAU * start.angle.in_turns())
+            }
+            Move::SpinUp { rate, .. } => Demand::Spin { from: start.rate, to: rate },
+            Move::Dwell { .. } => Demand::Hold(start.rate),
+            // In another time it is another curve.
+            Move::Still { .. } => return Remedy::Longer,
+        };
+        demand.remedy(limits, tick)
     }
 }
 
@@ -134,6 +150,7 @@ pub(crate) fn lay<T: Scalar>(
 
 /// Turns from `start` to the angle `to` in rad, and the rest there: exactly that angle, whatever the
 /// turns round to.
+#[inline(always)]
 fn turn_to(to: f64, start: &Start) -> (f64, Start) {
     let end = Start { angle: Angle::from_radians(to), rate: 0.0 };
     (end.angle.since(start.angle), end)

@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 
 use super::{BULGE, Peaks};
 use crate::Error;
+use crate::error::MAX_TICKS;
 
 /// The shape of a rest-to-rest move over `s = t/T ∈ 0..1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,6 +139,3 @@ impl Move {
         Ok(((duration / tick + 0.5) as u32).max(1))
     }
 }
-
-/// Longest move: tick counts up to here are exact in an f32.
-pub(super) const MAX_TICKS: u32 = 1 << 24;

@@ -62,7 +62,7 @@ impl Visitor for Builder<'_> {
     fn visit<M: Method>(&mut self) {
         self.names.push(M::ID);
         if M::ID == self.method {
-            self.built = Some(Of::<M>::new(self.scene, self.tick, self.policy));
+            self.built = Some(Of::<M>::boxed(self.scene, self.tick, self.policy));
         }
     }
 }
@@ -71,7 +71,7 @@ impl Visitor for Builder<'_> {
 struct Of<M: Method>(Axis<M::Stepper, QUEUE>);
 
 impl<M: Method> Of<M> {
-    fn new(scene: &Scene, tick: f64, policy: Policy) -> Result<Box<dyn Arm>, Error> {
+    fn boxed(scene: &Scene, tick: f64, policy: Policy) -> Result<Box<dyn Arm>, Error> {
         let origin = Angle { turns: 0, part: 0.0 };
         Ok(Box::new(Self(Axis::new(M::stepper(scene, tick)?, origin, policy)?)))
     }

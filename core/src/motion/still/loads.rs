@@ -4,8 +4,8 @@ use core::f64::consts::TAU;
 
 use super::{Flex, Origin, Still, StillMove};
 use crate::Error;
-use crate::error::Remedy;
 use crate::math::Scalar;
+use crate::motion::Remedy;
 use crate::motion::{Angle, Hub, Limits};
 
 /// Angles on the way at which the weight is looked at.
@@ -49,42 +49,32 @@ impl<T: Scalar, const K: usize> Still<T, K> {
         Ok(plan)
     }
 
-    /// The same error, of a move to `to` rad within `limits`, with what would keep the limit in place
-    /// of "a longer move": the weight, if holding the arm somewhere on the way exceeds it, so that no
-    /// duration helps; else the shortest duration that [`Self::within`] takes. That takes the time of
-    /// [`Self::shortest`]. Any other error, and one for which nothing is found, is returned as it is.
-    pub fn explain(
+    /// What would keep a limit that [`Self::within`] or [`Self::shortest`] has refused a move to `to` rad
+    /// for: the weight, if holding the arm somewhere on the way exceeds it, so that no duration helps;
+    /// else the shortest duration that [`Self::within`] takes, which takes the time of
+    /// [`Self::shortest`]; else a longer move.
+    pub fn remedy(
         &self,
         error: Error,
         from: &Origin,
         flex: Option<&Flex<T, K>>,
         to: f64,
         limits: &Limits,
-    ) -> Error {
-        match error {
-            Error::LimitExceeded { parameter, limit, .. } => {
-                if let Some(weight) = self.weight_beyond(parameter, limit, from, to) {
-                    return error.with_remedy(weight);
-                }
-            }
-            Error::TooFast { .. } => {}
-            _ => return error,
+    ) -> Remedy {
+        if let Error::LimitExceeded { parameter, limit, .. } = error
+            && let Some(weight) = self.weight_beyond(parameter, limit, from, to)
+        {
+            return weight;
         }
         match self.shortest_from(from, flex, to, limits) {
-            Ok((plan, _)) => error.with_remedy(Remedy::Duration(plan.duration())),
-            Err(_) => error,
+            Ok((plan, _)) => Remedy::Duration(plan.duration()),
+            Err(_) => Remedy::Longer,
         }
     }
 
     /// The remedy that says so, if holding the arm on the way to `to` rad takes more than a load's
     /// limit.
-    pub(super) fn weight_beyond(
-        &self,
-        parameter: &str,
-        limit: f64,
-        from: &Origin,
-        to: f64,
-    ) -> Option<Remedy> {
+    fn weight_beyond(&self, parameter: &str, limit: f64, from: &Origin, to: f64) -> Option<Remedy> {
         if self.scene.gravity == 0.0 || !matches!(parameter, "limits.torque" | "limits.moment") {
             return None;
         }

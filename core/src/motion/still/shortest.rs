@@ -61,15 +61,7 @@ impl<T: Scalar, const K: usize> Still<T, K> {
             reach = (reach + 1).max(libm::ceil(f64::from(reach) * factor) as u32);
             best = attempt(reach);
         }
-        let mut found = best.map_err(|error| match error {
-            Error::LimitExceeded { parameter, limit, .. } => {
-                match self.weight_beyond(parameter, limit, from, to) {
-                    Some(weight) => error.with_remedy(weight),
-                    None => error,
-                }
-            }
-            other => other,
-        })?;
+        let mut found = best?;
         for _ in 0..BACK {
             let middle = failing + (reach - failing) / 2;
             if middle <= failing || middle >= reach {

@@ -8,7 +8,6 @@
 
 use super::{Modal, ModalState};
 use crate::Error;
-use crate::error::Remedy;
 use crate::math::{Band, Scalar, sqrt};
 use crate::motion::Hub;
 use crate::stepper::Stepper;
@@ -46,7 +45,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             }
             max /= RATIO;
         }
-        Err(Error::TooFast { rate, max, remedy: Remedy::Longer })
+        Err(Error::TooFast { rate, max })
     }
 
     /// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken

@@ -31,7 +31,6 @@ use super::terms::Terms;
 use super::{Response, Stepper};
 use crate::Error;
 use crate::beam::Model;
-use crate::error::Remedy;
 use crate::math::{Band, HalfForm, Ldl, Scalar, dot};
 use crate::motion::{Hub, Kink, Peaks};
 
@@ -178,7 +177,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
             }
             max *= 0.99;
         }
-        Err(Error::TooFast { rate: peaks.rate, max, remedy: Remedy::Longer })
+        Err(Error::TooFast { rate: peaks.rate, max })
     }
 
     fn equilibrium(&self, hub: &Hub<T>) -> Vibration<T, N> {
