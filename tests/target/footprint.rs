@@ -10,11 +10,12 @@ fn one_element() -> Minimal {
     minimal
 }
 
-/// 16 KiB of flash, 2 KiB of RAM without stack, 4 KiB of stack.
+/// 17 KiB of flash, 2 KiB of RAM without stack, 4 KiB of stack. Until moves ended exactly and curves were
+/// judged by themselves it was 16 KiB.
 #[test]
 fn one_element_is_small() {
     let minimal = one_element();
-    assert!(minimal.flash <= 16 * 1024, "{minimal:?}");
+    assert!(minimal.flash <= 17 * 1024, "{minimal:?}");
     assert!(minimal.ram <= 2 * 1024, "{minimal:?}");
     assert!(minimal.stack <= 4 * 1024, "{minimal:?}");
 }
