@@ -36,6 +36,19 @@ fn on_time_late_and_missed() {
     assert_eq!(after(9_950), due(0, 0), "no catching up");
 }
 
+/// Half a period is the bound of early ticks alone: late ones are not rounded to the nearest period.
+#[test]
+fn a_tick_late_by_more_than_half_a_period_is_late_not_missed() {
+    let mut after = clock();
+    after(0);
+    assert_eq!(after(16_000), due(6_000, 0), "0.6 of a period late");
+    assert_eq!(after(4_000), due(0, 0), "the phase is kept");
+    assert_eq!(after(25_000), due(5_000, 1), "1.5 periods after its due time");
+    assert_eq!(after(5_000), due(0, 0));
+    assert_eq!(after(29_999), due(9_999, 1), "a count less than two periods");
+    assert_eq!(after(1), due(0, 0));
+}
+
 /// Six ticks are missed, then six come 20 µs apart: the path must not run ahead by them.
 #[test]
 fn a_burst_after_a_freeze_is_not_due() {

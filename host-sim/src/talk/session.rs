@@ -176,7 +176,7 @@ impl Session {
             return Err(refused(""));
         }
         self.machine.stall((1e6 * seconds) as u16);
-        // It begins after a tick, with the next one due a tick later.
+        // It counts from the last tick, with the next one due a tick later.
         let missed = (seconds / self.tick()) as u32;
         self.comparison.miss(self.upcoming, missed.saturating_sub(1));
         self.wait(1)

@@ -11,9 +11,9 @@
 //! more exactly and leaves 10 ms only 9,765.)
 //!
 //! **Lock-step.** If there is a host on QEMU's standard input, it grants every tick with four bytes:
-//! how many bytes of UART 0 and of UART 1 have to be in before time goes on, and for how many µs the
-//! tick is kept from running, which shows what late and missed ticks do. Time stands still while
-//! the board waits: a semihosting call takes no virtual time, and with both timers stopped and the
+//! how many bytes of UART 0 and of UART 1 have to be in before time goes on, and for how many µs
+//! from the last tick the board is kept from running, which shows what late and missed ticks do. Time
+//! stands still while the board waits: a semihosting call takes no virtual time, and with both timers stopped and the
 //! processor asleep QEMU's clock has nowhere to go.
 
 #[path = "mps2/lock_step.rs"]

@@ -1,5 +1,7 @@
 //! Lock-step: the host grants every tick.
 
+use core::sync::atomic::{AtomicU32, Ordering};
+
 use embassy_futures::yield_now;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::signal::Signal;
@@ -12,9 +14,12 @@ use crate::link::LINK;
 use crate::tick::{TO_DRIVE, TO_HOST};
 
 static TICKED: Signal<CriticalSectionRawMutex, ()> = Signal::new();
+/// The counter's reading when the last tick had been made.
+static LAST: AtomicU32 = AtomicU32::new(0);
 
 /// A tick has been made.
 pub fn ticked() {
+    LAST.store(time().reading(), Ordering::Relaxed);
     TICKED.signal(());
 }
 
@@ -55,13 +60,15 @@ pub async fn keep_step() {
     }
 }
 
-/// Keeps everything from running for so many µs, the tick too: what a fault would do.
+/// Keeps everything from running, the tick too, until so many µs after the last tick: what a fault
+/// would do. Counted from that tick, since the time that passes before this task runs again depends on
+/// the code: an answer in the short time after a late tick takes until long after the next one.
 fn stall(microseconds: u16) {
     if microseconds > 0 {
+        let counts = PER_MICROSECOND * u32::from(microseconds);
         cortex_m::interrupt::free(|_| {
-            let begin = time().reading();
-            while time().reading().wrapping_sub(begin) < PER_MICROSECOND * u32::from(microseconds) {
-            }
+            let begin = LAST.load(Ordering::Relaxed);
+            while time().reading().wrapping_sub(begin) < counts {}
         });
     }
 }
