@@ -217,7 +217,7 @@ fn searched(
 /// The shortest duration beyond `failing`, whole ticks, that keeps the limits.
 ///
 /// `keeps` says how many times as long a duration would have to be, none if it does. The durations go
-/// up to [`LEAP`] of that at once, then by no more than `careful` ticks or a twentieth, then are halved back to
+/// up to `LEAP` of that at once, then by no more than `careful` ticks or a twentieth, then are halved back to
 /// the last that failed. The error is the longest that was tried.
 pub fn shortest(
     failing: u32,
