@@ -51,13 +51,7 @@ pub(super) fn run<const N: usize>(
     let integrator =
         options.integrator.unwrap_or_else(|| choose(frequencies[N - 1], rod.scene.damping.beta));
 
-    let start = schedule.hub(0.0);
-    let rest = rod
-        .equilibrium(start.sin, start.cos)
-        .ok_or(ReferenceError::NoEquilibrium { angle: start.angle.radians() })?;
-    let mut y = State::<N>::zeros();
-    y.set_column(0, &rest);
-
+    let mut y = at_rest(rod, schedule)?;
     let mut samples = Vec::new();
     for &t in schedule.initial() {
         samples.push(sample(rod, schedule, scale, t, &y));
@@ -73,8 +67,23 @@ pub(super) fn run<const N: usize>(
     Ok(samples)
 }
 
-/// Flies the rod from `resume`, or from rest at the run's beginning, to `until` s. `visit` sees the loads at both ends of every stretch, from within, and
-/// after every step between. Returns where it got to.
+/// The rod in static equilibrium where the run begins.
+fn at_rest<const N: usize>(
+    rod: &Rod<N>,
+    schedule: &Schedule<'_>,
+) -> Result<State<N>, ReferenceError> {
+    let start = schedule.hub(0.0);
+    let rest = rod
+        .equilibrium(start.sin, start.cos)
+        .ok_or(ReferenceError::NoEquilibrium { angle: start.angle.radians() })?;
+    let mut y = State::<N>::zeros();
+    y.set_column(0, &rest);
+    Ok(y)
+}
+
+/// Flies the rod from `resume`, or from rest at the run's beginning, to `until` s. `visit` sees the
+/// loads at both ends of every stretch, from within, and after every step between. Returns where it
+/// got to.
 pub(super) fn watch<const N: usize>(
     rod: &Rod<N>,
     schedule: &Schedule<'_>,
@@ -89,15 +98,7 @@ pub(super) fn watch<const N: usize>(
         options.integrator.unwrap_or_else(|| choose(frequencies[N - 1], rod.scene.damping.beta));
     let mut y = match resume {
         Some(resume) => State::<N>::from_column_slice(&resume.state),
-        None => {
-            let start = schedule.hub(0.0);
-            let rest = rod
-                .equilibrium(start.sin, start.cos)
-                .ok_or(ReferenceError::NoEquilibrium { angle: start.angle.radians() })?;
-            let mut y = State::<N>::zeros();
-            y.set_column(0, &rest);
-            y
-        }
+        None => at_rest(rod, schedule)?,
     };
     let begin = resume.map_or(0.0, |resume| resume.t);
     let close = 1e-6 * schedule.tick();
