@@ -14,7 +14,7 @@
 //! 8. [`drive`]: that demand as the bytes of a drive's protocol.
 //!
 //! ```
-//! use stillbeam::beam::Rod;
+//! use stillbeam::model::Rod;
 //! use stillbeam::stepper::{Elastica, Quality};
 //! use stillbeam::{Generator, Link, Move, Profile, Scene};
 //!
@@ -37,7 +37,7 @@
 //! The paper's own choice is one element and Newmark's rule:
 //!
 //! ```
-//! use stillbeam::beam::OneElement;
+//! use stillbeam::model::OneElement;
 //! use stillbeam::stepper::Newmark;
 //! use stillbeam::{Generator, Link, Scene};
 //!
@@ -49,20 +49,24 @@
 //! ```
 
 pub mod axis;
-pub mod beam;
 pub mod drive;
 mod error;
 mod generator;
+pub mod hub;
 pub mod material;
 pub mod math;
+pub mod model;
 pub mod motion;
 pub mod motor;
+pub mod planner;
 pub mod scene;
+pub mod select;
 pub mod stepper;
 
 pub use error::Error;
 pub use generator::{Departure, Generator, Planned, Rejected, Setpoint};
+pub use hub::{Angle, HubState};
 pub use math::Scalar;
-pub use motion::{Angle, Limits, Move, Profile, Remedy};
+pub use motion::{Limits, Move, Profile, Remedy};
 pub use scene::{Damping, Hub, Link, Payload, Scene};
 pub use stepper::Stepper;

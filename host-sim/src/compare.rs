@@ -132,7 +132,7 @@ fn residual_of_table(rows: &[Row], scene: &SceneFile, tick: f64) -> Result<Resid
 }
 
 /// Times at which the commanded acceleration jumps, the beginning of the run included.
-pub(crate) fn jumps(trajectory: &Trajectory) -> Vec<f64> {
+pub fn jumps(trajectory: &Trajectory) -> Vec<f64> {
     let largest =
         trajectory.plans().iter().map(|plan| plan.outline.peaks.acceleration).fold(0.0, f64::max);
     let jumps_at = |t: f64| {
@@ -144,7 +144,7 @@ pub(crate) fn jumps(trajectory: &Trajectory) -> Vec<f64> {
 }
 
 /// Rows of both at the same times, to a microsecond.
-pub(crate) fn common<'a>(a: &'a [Row], b: &'a [Row]) -> Vec<(&'a Row, &'a Row)> {
+pub fn common<'a>(a: &'a [Row], b: &'a [Row]) -> Vec<(&'a Row, &'a Row)> {
     let mut pairs = Vec::new();
     let mut rest = b;
     for row in a {

@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use stillbeam::Move;
-use stillbeam::motion::{Commanded, Hub, Kink, Peaks, Segment, Shaped, Shaper, Stretch};
+use stillbeam::hub::HubState;
+use stillbeam::motion::{Commanded, Kink, Peaks, Segment, Shaped, Shaper, Stretch};
 
 use crate::trajectory::{Side, Trajectory};
 
@@ -48,7 +49,7 @@ impl<'a> Flight<'a> {
     }
 
     /// The hub so many ticks from the beginning, within one stretch.
-    fn within(&self, [begin, end]: [f64; 2], ticks: f64) -> Hub<f64> {
+    fn within(&self, [begin, end]: [f64; 2], ticks: f64) -> HubState<f64> {
         let side = if ticks > 0.5 * (begin + end) { Side::Left } else { Side::Right };
         self.trajectory.at(ticks * self.trajectory.tick(), side)
     }
@@ -95,8 +96,8 @@ impl Commanded for Flight<'_> {
     }
 }
 
-fn single(hub: &Hub<f64>) -> Hub<f32> {
-    Hub {
+fn single(hub: &HubState<f64>) -> HubState<f32> {
+    HubState {
         angle: hub.angle.cast(),
         rate: hub.rate as f32,
         acceleration: hub.acceleration as f32,

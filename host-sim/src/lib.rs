@@ -16,13 +16,10 @@
 //!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 
-pub mod blocks;
-pub mod choice;
 pub mod compare;
-mod document;
+pub mod console;
+pub mod document;
 pub mod error;
-#[cfg(feature = "faults")]
-pub mod faults;
 mod flight;
 pub mod limits;
 pub mod model_choice;
@@ -37,13 +34,9 @@ pub mod run;
 pub mod scene_file;
 pub mod scenes;
 pub mod solver;
-pub mod stability;
-pub mod stress;
 pub mod study;
-pub mod sweep;
 pub mod table;
 #[cfg(feature = "talk")]
 pub mod talk;
-pub mod textbook;
 pub mod trajectory;
 pub mod truth;

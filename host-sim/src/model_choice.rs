@@ -2,12 +2,11 @@
 
 use std::marker::PhantomData;
 
-use stillbeam::beam::{Model, Modes, Rod};
+use stillbeam::model::{Model, Modes, Rod};
 use stillbeam::motion::{Commanded, Moves};
-use stillbeam::stepper::{
-    self, Assessment, Auto, Choice, Elastica, Modal, Newmark, NoChoice, Rigid, Stepper, Tolerance,
-};
-use stillbeam::{Scalar as Real, Scene};
+use stillbeam::select::{Assessment, Auto, Choice, NoChoice, Tolerance};
+use stillbeam::stepper::{Elastica, Modal, Newmark, Rigid, Stepper};
+use stillbeam::{Scalar as Real, Scene, select, stepper};
 
 use crate::error::Error;
 use crate::flight::Flight;
@@ -189,7 +188,7 @@ pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoCho
     let tolerance = Tolerance { tip: solver.tolerance, torque: solver.torque_tolerance };
     let late = progress::late("choosing a method");
     along(scene, solver.tick, |motion| {
-        Ok(stepper::choose(&scene.arm, solver.tick, motion, &tolerance, &mut |part| late.set(part)))
+        Ok(select::choose(&scene.arm, solver.tick, motion, &tolerance, &mut |part| late.set(part)))
     })
 }
 
@@ -209,7 +208,7 @@ impl StepperVisitor for Assess<'_> {
         let arm = &self.scene.arm;
         let late = progress::late("judging the method");
         along(self.scene, stepper.tick(), |motion| {
-            Ok(stepper::assess(arm, stepper, motion, &mut |part| late.set(part))?)
+            Ok(select::assess(arm, stepper, motion, &mut |part| late.set(part))?)
         })
     }
 }

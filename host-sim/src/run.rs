@@ -2,8 +2,10 @@
 
 use std::collections::HashSet;
 
-use stillbeam::motion::{Hub as HubState, Segment, Shaped, Shaper};
-use stillbeam::stepper::{Choice, Response, Stepper};
+use stillbeam::hub::HubState;
+use stillbeam::motion::{Segment, Shaped, Shaper};
+use stillbeam::select::Choice;
+use stillbeam::stepper::{Response, Stepper};
 use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
 use crate::error::Error;

@@ -45,7 +45,7 @@ impl Row {
 }
 
 /// `x` to that many significant digits.
-pub(crate) fn significant(x: f64, digits: usize) -> f64 {
+pub fn significant(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
 

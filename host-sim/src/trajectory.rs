@@ -1,7 +1,8 @@
 //! The commanded motion of a whole scene, at any time: what the core plans, kept in f64 for
 //! solvers that choose their own steps.
 
-use stillbeam::motion::{Angle, Hub, Limits, Plan, Segment, Shaper, Start};
+use stillbeam::hub::{Angle, HubState};
+use stillbeam::motion::{Limits, Plan, Segment, Shaper};
 use stillbeam::{Error, Move};
 
 /// Which value to take where the commanded acceleration jumps.
@@ -39,7 +40,7 @@ struct Piece {
 impl Trajectory {
     /// Plans the moves from rest at `from` rad. At least one move.
     pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, Error> {
-        let mut start = Start::at_rest(from)?;
+        let mut start = HubState::resting_at(from)?;
         let mut trajectory = Self {
             pieces: Vec::new(),
             plans: Vec::new(),
@@ -80,9 +81,9 @@ impl Trajectory {
     }
 
     /// The hub at time `t` s; before the beginning and after the end, the nearest of the two.
-    pub fn at(&self, t: f64, side: Side) -> Hub<f64> {
+    pub fn at(&self, t: f64, side: Side) -> HubState<f64> {
         let Some(shaper) = &self.shaper else { return self.unshaped(t, side) };
-        let mut sum = Hub { rate: 0.0, acceleration: 0.0, ..self.unshaped(0.0, Side::Right) };
+        let mut sum = HubState { rate: 0.0, acceleration: 0.0, ..self.unshaped(0.0, Side::Right) };
         let start = sum.angle;
         let (eps, end) = (1e-9 * self.tick, self.pieces.last().map_or(0.0, |piece| piece.end));
         let mut turned = 0.0;
@@ -104,7 +105,7 @@ impl Trajectory {
         sum
     }
 
-    fn unshaped(&self, t: f64, side: Side) -> Hub<f64> {
+    fn unshaped(&self, t: f64, side: Side) -> HubState<f64> {
         // Times within a nanotick of a border belong to it.
         let eps = 1e-9 * self.tick;
         let after = match side {

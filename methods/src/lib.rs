@@ -3,7 +3,7 @@
 //! Every method, once, with its name: a firmware picks one by its type and names it on the wire, a
 //! host builds the one that it is told, and the tests run them all.
 
-use stillbeam::beam::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
+use stillbeam::model::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Scene, Stepper};
 

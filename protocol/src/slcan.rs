@@ -3,7 +3,8 @@
 //! with eight digits for extended identifiers, `r` and `R` for remote frames.
 
 use embedded_can::{ExtendedId, Frame, Id, StandardId};
-use stillbeam::drive::{ClassicFrame, Sequence};
+use stillbeam::axis::Sequence;
+use stillbeam::drive::ClassicFrame;
 
 /// Longest line: `T`, 8 + 1 + 16 + 4 digits, carriage return.
 pub const MAX: usize = 31;

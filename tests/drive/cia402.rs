@@ -2,8 +2,9 @@
 
 use embedded_can::{Frame, Id, StandardId};
 use proptest::prelude::*;
+use stillbeam::axis::Sequence;
 use stillbeam::drive::cia402::{Drive, InterpolationPeriod, sync};
-use stillbeam::drive::{ClassicFrame, Saturated, Sequence};
+use stillbeam::drive::{ClassicFrame, Saturated};
 
 use crate::common::{demand, demands, not_finite};
 

@@ -1,6 +1,7 @@
 //! Stale setpoints, and torques that a format does not resolve.
 
-use stillbeam::drive::{Freshness, Sequence, TorquePeak, odrive};
+use stillbeam::axis::{Freshness, Sequence};
+use stillbeam::drive::{TorquePeak, odrive};
 
 #[test]
 fn what_is_next_what_is_missing_and_what_is_stale() {

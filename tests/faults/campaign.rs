@@ -1,6 +1,6 @@
 //! Every kind of fault, a few hundred times.
 
-use stillbeam_sim::faults::{Fault, campaign, table};
+use stillbeam_lab::faults::{Fault, campaign, table};
 
 #[test]
 fn setpoints_stay_continuous_and_within_limits_whatever_happens() {

@@ -1,13 +1,13 @@
 //! What the campaign has found, each as a case of its own.
 
 use stillbeam::axis::{Mode, Refused};
-use stillbeam::beam::OneElement;
-use stillbeam::motion::Still;
+use stillbeam::model::OneElement;
+use stillbeam::planner::Still;
 use stillbeam::stepper::Newmark;
 use stillbeam::{Generator, Move, Payload, Profile, Scene};
+use stillbeam_lab::faults::machine::{CONFIGURATIONS, TICK};
+use stillbeam_lab::faults::{Board, Drive, PERIOD};
 use stillbeam_protocol::Command;
-use stillbeam_sim::faults::machine::{CONFIGURATIONS, TICK};
-use stillbeam_sim::faults::{Board, Drive, PERIOD};
 
 type Arm = Generator<Newmark<f32, 2, 2>, 8>;
 

@@ -1,4 +1,4 @@
-//! What goes wrong around an axis: a part of the campaign of `stillbeam-sim faults`, and the cases that
+//! What goes wrong around an axis: a part of the campaign of `cargo lab faults`, and the cases that
 //! it has found.
 
 mod campaign;

@@ -1,7 +1,7 @@
 //! An axis as the firmware has it, with its moves.
 
 use stillbeam::axis::{Axis, Policy, Refused, Tick};
-use stillbeam::beam::OneElement;
+use stillbeam::model::OneElement;
 use stillbeam::stepper::Newmark;
 use stillbeam::{Angle, Limits, Link, Move, Profile, Scene};
 

@@ -1,7 +1,7 @@
 //! Still moves of an axis, as the firmware's planner makes them.
 
 use stillbeam::axis::{Policy, Refused};
-use stillbeam::motion::Still;
+use stillbeam::planner::Still;
 use stillbeam::{Error, Limits, Link, Move, Scene};
 use stillbeam_tests::assert_near;
 

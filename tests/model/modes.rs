@@ -1,4 +1,4 @@
-use stillbeam::beam::{EightElements, Modes};
+use stillbeam::model::{EightElements, Modes};
 use stillbeam_sim::model_choice::first_period;
 use stillbeam_sim::scenes;
 use stillbeam_sim::solver::Mass;

@@ -1,4 +1,4 @@
-use stillbeam::beam::Model;
+use stillbeam::model::Model;
 use stillbeam::{Link, Scalar, Scene};
 use stillbeam_tests::assert_near;
 

@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use proptest::prelude::*;
-use stillbeam::motion::{Angle, Origin, Still};
+use stillbeam::hub::Angle;
+use stillbeam::planner::Still;
 use stillbeam::stepper::Rigid;
 use stillbeam::{Generator, Link, Move, Profile, Scalar, Scene, Setpoint};
 
@@ -132,7 +133,7 @@ fn assert_redirected<T: Scalar>(profile: Profile, when: u32, to: f64) {
     }
     let mut straight = arm.clone();
     let next = straight.tick();
-    let plan = planner.plan_from(&Origin::of(straight.hub()), None, to, 0.4).expect("a plan");
+    let plan = planner.plan_from(&straight.hub().precise(), None, to, 0.4).expect("a plan");
     arm.redirect(0, &plan).expect("a course");
     let Setpoint { angle, rate, acceleration, .. } = next;
     assert_at(&arm.tick(), angle, rate.to_f64(), acceleration.to_f64());

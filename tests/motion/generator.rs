@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use stillbeam::beam::{EightElements, OneElement, Rod};
+use stillbeam::model::{EightElements, OneElement, Rod};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
 use stillbeam_tests::assert_near;

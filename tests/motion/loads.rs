@@ -3,10 +3,12 @@
 use std::f64::consts::PI;
 
 use stillbeam::axis::{Axis, Policy};
-use stillbeam::motion::{Braking, Origin, Plan, Start, Still, StillMove, Survey};
+use stillbeam::motion::{Braking, Plan};
+use stillbeam::planner::{Still, StillMove, Survey};
 use stillbeam::stepper::Rigid;
 use stillbeam::{Angle, Error, Generator, Limits, Link, Move, Profile, Remedy, Scene};
 
+use stillbeam::HubState;
 use stillbeam_sim::plan::judge::Motion;
 
 const TICK: f64 = 0.01;
@@ -31,7 +33,7 @@ fn layers_that_cannot_check_a_load_refuse_its_limit() {
         ("limits.moment = 0.3 N m", Limits { moment: Some(0.3), ..base }),
     ] {
         let motion = Move::To { profile: Profile::Cubic, duration: 1.0, to: 1.0 };
-        let start = Start::at_rest(0.0).expect("an angle");
+        let start = HubState::resting_at(0.0).expect("an angle");
         let policy = Policy { limits, patience: 0.0, missed: 0 };
         let mut generator = Generator::<_, 8>::new(rigid(), 0.0).expect("a generator");
         for refused in [
@@ -56,7 +58,7 @@ fn layers_that_cannot_check_a_load_refuse_its_limit() {
 #[test]
 fn a_planners_own_load_limits_are_kept_by_all_its_moves() {
     let free = Still::<f32, 2>::new(&scene(), TICK).expect("a planner");
-    let from = Origin::at_rest(Angle::default());
+    let from = HubState::at_rest(Angle::default());
     let strong = Limits { torque: Some(5.0), ..Limits::default() };
     for weak in [
         free.clone().with_load_limits(Some(0.4), None).expect("limits"),
@@ -91,7 +93,7 @@ fn a_planners_own_load_limits_are_kept_by_all_its_moves() {
 #[test]
 fn a_stop_keeps_the_planners_own_loads() {
     let free = Still::<f32, 2>::new(&scene(), TICK).expect("a planner");
-    let from = Origin { angle: Angle::default(), rate: 3.0, acceleration: 0.0 };
+    let from = HubState::turning(Angle::default(), 3.0);
     let (_, Survey { torque, .. }) = free.stop(&from, None, &Limits::default()).expect("a stop");
     let weak = free.with_load_limits(Some(0.3 * torque), None).expect("limits");
     let (_, survey) = weak.stop(&from, None, &Limits::default()).expect("a slower stop");
@@ -104,7 +106,7 @@ fn a_stop_keeps_the_planners_own_loads() {
 #[test]
 fn a_refused_still_move_is_explained() {
     let planner = Still::<f32, 2>::new(&scene(), TICK).expect("a planner");
-    let from = Origin::at_rest(Angle::default());
+    let from = HubState::at_rest(Angle::default());
     for limits in [
         Limits { torque: Some(0.4), ..Limits::default() },
         Limits { moment: Some(0.4), ..Limits::default() },
@@ -128,7 +130,7 @@ fn a_limit_below_the_weight_is_explained_by_it() {
     let planner = Still::<f32, 2>::new(&heavy, TICK).expect("a planner");
     // Level at the middle of the way: the payload and half the link at their lever arms.
     let held = 2.0 * (0.05 * 0.4 + 0.0224 * 0.2);
-    let from = Origin::at_rest(Angle::from_radians(-0.5 * PI));
+    let from = HubState::at_rest(Angle::from_radians(-0.5 * PI));
     let limits = Limits { torque: Some(0.8 * held), ..Limits::default() };
     let weight = |error: Error| match planner.remedy(error, &from, None, 0.5 * PI, &limits) {
         Remedy::Weight(held) => held,

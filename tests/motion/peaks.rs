@@ -3,9 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
-use stillbeam::motion::{Angle, BULGE, Origin, Peaks, Plan, Segment, Start, Still, StillMove};
+use stillbeam::hub::Angle;
+use stillbeam::motion::{BULGE, Peaks, Plan, Segment};
+use stillbeam::planner::{Still, StillMove};
 use stillbeam::stepper::Rigid;
-use stillbeam::{Error, Generator, Limits, Link, Move, Profile, Scene};
+use stillbeam::{Error, Generator, HubState, Limits, Link, Move, Profile, Scene};
 
 const LOOKS: u32 = 20_000;
 
@@ -60,11 +62,11 @@ fn assert_true(stated: &Peaks, of: &Peaks, what: &str) {
     }
 }
 
-fn start(turning: f64) -> Start {
-    Start { angle: Angle::from_radians(0.3), rate: turning }
+fn start(turning: f64) -> HubState<f64> {
+    HubState::turning(Angle::from_radians(0.3), turning)
 }
 
-fn assert_plan_true(motion: &Move, start: Start, tick: f64) {
+fn assert_plan_true(motion: &Move, start: HubState<f64>, tick: f64) {
     let plan = Plan::new(motion, start, &Limits::default(), tick).expect("a plan");
     assert_true(&plan.outline.peaks, &dense(&plan, tick), &format!("{motion:?}"));
 }
@@ -104,7 +106,8 @@ fn moving() -> impl Strategy<Value = StillMove> {
     let state = (-3.0..3.0, -40.0..40.0, -3.0..3.0);
     (state, 7_u32..200, proptest::array::uniform6(-1.0..1.0)).prop_map(
         |((rate, acceleration, to), ticks, bulge): (_, _, [f64; BULGE])| {
-            let from = Origin { angle: Angle::from_radians(0.4), rate, acceleration };
+            let from =
+                HubState { acceleration, ..HubState::turning(Angle::from_radians(0.4), rate) };
             let peaks = Peaks { rate: 0.0, acceleration: 0.0, jerk: 0.0 };
             StillMove { from, to, ticks, tick: 0.01, bulge, peaks, residual: 0.0, flights: 0 }
         },
@@ -173,7 +176,7 @@ fn a_plan_that_lies_is_refused() {
     let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
     let planner = Still::<f32, 2>::new(&scene, 0.01).expect("a planner");
     let arm = || Generator::<_, 8>::new(rigid(), 0.4).expect("a generator");
-    let honest = planner.plan_from(&Origin::of(arm().hub()), None, PI, 0.3).expect("a plan");
+    let honest = planner.plan_from(&arm().hub().precise(), None, PI, 0.3).expect("a plan");
     let limits = Limits { rate: Some(0.99 * honest.peaks.rate), ..Limits::default() };
     let nothing = Peaks { rate: 0.0, acceleration: 0.0, jerk: 0.0 };
     let lie = StillMove { peaks: nothing, ..honest };

@@ -1,10 +1,11 @@
 use std::f64::consts::{PI, TAU};
 
-use stillbeam::motion::{Hub, Plan, Segment, Start};
+use stillbeam::hub::HubState;
+use stillbeam::motion::{Plan, Segment};
 use stillbeam::{Angle, Error, Limits, Move, Profile, Scalar};
 use stillbeam_tests::assert_near;
 
-const REST: Start = Start { angle: Angle { turns: 0, part: 0.0 }, rate: 0.0 };
+const REST: HubState<f64> = HubState::at_rest(Angle { turns: 0, part: 0.0 });
 
 fn plan(profile: Profile, duration: f64, to: f64, tick: f64) -> Plan {
     let motion = Move::To { profile, duration, to };
@@ -12,7 +13,7 @@ fn plan(profile: Profile, duration: f64, to: f64, tick: f64) -> Plan {
 }
 
 /// The hub at every tick of the plan.
-fn hubs<T: Scalar>(plan: &Plan) -> Vec<Hub<T>> {
+fn hubs<T: Scalar>(plan: &Plan) -> Vec<HubState<T>> {
     let of = |segment: &Segment<f64>| {
         let segment = segment.cast::<T>();
         (0..segment.count()).map(move |k| segment.hub(k))
@@ -94,7 +95,7 @@ fn rate_and_acceleration_are_derivatives_of_the_angle() {
 fn stated_peaks_are_reached_and_not_exceeded() {
     for profile in Profile::ALL {
         let plan = plan(profile, 1.0, 2.0, 0.0001);
-        let most = |of: fn(&Hub<f64>) -> f64| hubs(&plan).iter().map(of).fold(0.0, f64::max);
+        let most = |of: fn(&HubState<f64>) -> f64| hubs(&plan).iter().map(of).fold(0.0, f64::max);
         let rate = most(|hub| hub.rate.abs());
         assert_near(profile.name(), rate, plan.outline.peaks.rate, 1e-3 * plan.outline.peaks.rate);
         let acceleration = most(|hub| hub.acceleration.abs());
@@ -134,7 +135,7 @@ fn many_turns_keep_their_fraction_in_f32() {
 #[test]
 fn a_cruise_of_a_billion_ticks_is_exact() {
     let rate = 6.0;
-    let start = Start { angle: Angle { turns: -3, part: 0.4 }, rate };
+    let start = HubState::turning(Angle { turns: -3, part: 0.4 }, rate);
     let dwell = Move::Dwell { duration: 1.0 };
     let plan = Plan::new(&dwell, start, &Limits::default(), 0.01).expect("plan");
     let long = Segment::cast::<f32>(&plan.segments[0]);
@@ -152,7 +153,7 @@ fn a_cruise_of_a_billion_ticks_is_exact() {
         let whole = turns_a_tick * k as f64 + 0.4 - 3.0;
         assert_near("turns", angle.in_turns(), whole, 1e-3);
     }
-    let back = Start { rate: -rate, ..start };
+    let back = HubState { rate: -rate, ..start };
     let plan = Plan::new(&dwell, back, &Limits::default(), 0.01).expect("plan");
     let hub = plan.segments[0].hub(1000);
     assert_near("backwards", hub.angle.radians(), -60.0 - 2.6 * TAU, 1e-9);

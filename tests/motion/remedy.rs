@@ -1,11 +1,12 @@
 //! What a refusal says would do does, and a tick less does not.
 
 use proptest::prelude::*;
-use stillbeam::motion::{Angle, Plan, Start};
-use stillbeam::{Limits, Move, Profile, Remedy};
+use stillbeam::hub::Angle;
+use stillbeam::motion::Plan;
+use stillbeam::{HubState, Limits, Move, Profile, Remedy};
 
-fn start(rate: f64) -> Start {
-    Start { angle: Angle::from_radians(-0.2), rate }
+fn start(rate: f64) -> HubState<f64> {
+    HubState::turning(Angle::from_radians(-0.2), rate)
 }
 
 /// The duration that a remedy prints, as a reader would type it.
@@ -16,7 +17,7 @@ fn printed(remedy: &Remedy) -> f64 {
 }
 
 /// Refused moves name the shortest duration that fits.
-fn assert_mended(motion: Move, start: Start, limits: &Limits, tick: f64) {
+fn assert_mended(motion: Move, start: HubState<f64>, limits: &Limits, tick: f64) {
     if Plan::new(&motion, start, limits, tick).is_ok() {
         return;
     }

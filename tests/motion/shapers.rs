@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use stillbeam::motion::{Hub, Limits, Plan, Pulse, Segment, Shaped, Shaper, ShaperKind, Start};
+use stillbeam::hub::HubState;
+use stillbeam::motion::{Limits, Plan, Pulse, Segment, Shaped, Shaper, ShaperKind};
 use stillbeam::{Move, Profile};
 
 /// Vibration that a table leaves of an oscillator's, of that of one pulse.
@@ -67,7 +68,8 @@ fn tables_that_make_no_sense_are_refused() {
 #[test]
 fn a_shaped_motion_is_the_sum_of_its_delayed_copies() {
     let motion = Move::To { profile: Profile::SCurve, duration: 0.83, to: -7.0 };
-    let plan = Plan::new(&motion, Start::at_rest(2.0).unwrap(), &Limits::default(), 0.01).unwrap();
+    let plan =
+        Plan::new(&motion, HubState::resting_at(2.0).unwrap(), &Limits::default(), 0.01).unwrap();
     let shaper = Shaper::new(ShaperKind::Ei, 1.237, 0.02).expect("a table");
     let single: Vec<Segment<f32>> = plan.segments.iter().map(Segment::cast).collect();
     let (exact, single) =
@@ -94,7 +96,7 @@ fn a_shaped_motion_is_the_sum_of_its_delayed_copies() {
 }
 
 /// `∫₀¹(1 − s)θ̈ ds` beyond the parabola's, from the angles and rates at both ends.
-fn moment(before: &Hub<f64>, after: &Hub<f64>, tick: f64) -> f64 {
+fn moment(before: &HubState<f64>, after: &HubState<f64>, tick: f64) -> f64 {
     let turned = TAU * after.angle.since(before.angle);
     let mean = (after.rate - before.rate) / tick;
     let parabola = 0.5 * mean + (before.acceleration - after.acceleration) / 12.0;
@@ -107,7 +109,7 @@ fn kinks_have_the_moments_of_the_motion() {
     let tick = 0.01;
     let to = |profile| Move::To { profile, duration: 0.31, to: 1.0 };
     for motion in Profile::ALL.map(to) {
-        let start = Start::at_rest(0.0).expect("start");
+        let start = HubState::resting_at(0.0).expect("start");
         let plan = Plan::new(&motion, start, &Limits::default(), tick).expect("plan");
         let peak = plan.outline.peaks.acceleration;
         for kind in ShaperKind::ALL {
@@ -130,7 +132,7 @@ fn kinks_have_the_moments_of_the_motion() {
 #[test]
 fn one_pulse_gives_the_moments_of_the_segments() {
     let motion = Move::To { profile: Profile::Trapezoid, duration: 0.31, to: 1.0 };
-    let start = Start::at_rest(0.0).expect("start");
+    let start = HubState::resting_at(0.0).expect("start");
     let plan = Plan::new(&motion, start, &Limits::default(), 0.01).expect("plan");
     let shaper = Shaper::custom(&[Pulse { amplitude: 1.0, delay: 0.0 }]).expect("a table");
     let shaped = Shaped::new(&plan.segments, &shaper, 0.01);
@@ -154,7 +156,7 @@ fn one_pulse_gives_the_moments_of_the_segments() {
 #[test]
 fn jumps_on_a_tick_are_of_its_sides() {
     let motion = Move::To { profile: Profile::Cubic, duration: 0.2, to: 1.0 };
-    let start = Start::at_rest(0.0).expect("start");
+    let start = HubState::resting_at(0.0).expect("start");
     let plan = Plan::new(&motion, start, &Limits::default(), 0.01).expect("plan");
     let pulses = [0.0, 0.07].map(|delay| Pulse { amplitude: 0.5, delay });
     let shaper = Shaper::custom(&pulses).expect("a table");

@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-use stillbeam::beam::Rod;
-use stillbeam::motion::{Angle, Origin, Still, StillMove};
+use stillbeam::hub::Angle;
+use stillbeam::model::Rod;
+use stillbeam::planner::{Still, StillMove};
 use stillbeam::stepper::{Elastica, Flex, Quality};
-use stillbeam::{Error, Generator, Limits, Link, Move, Profile, Scene};
+use stillbeam::{Error, Generator, HubState, Limits, Link, Move, Profile, Scene};
 use stillbeam_sim::plan::judge::Motion;
 use stillbeam_sim::scenes;
 
@@ -63,7 +64,7 @@ fn the_second_mode_is_brought_to_rest_where_it_rings() {
     let duration = 1.5 * planner.first_period();
     let plan = planner.plan(0.0, PI, duration).expect("plan");
     // Acceleration limited to what the first mode alone needs: the second goes on ringing.
-    let from = Origin::at_rest(Angle::from_radians(0.0));
+    let from = HubState::at_rest(Angle::from_radians(0.0));
     let scaled = |plan: &StillMove| plan.peaks.acceleration * duration * duration / PI;
     let limits = Limits { acceleration: Some(0.9 * plan.peaks.acceleration), ..Limits::default() };
     let (spared, _) = planner.within(&from, None, PI, duration, &limits).expect("plan");
@@ -79,11 +80,11 @@ fn a_course_may_begin_with_a_stop() {
     let arm = member_a();
     let planner = Still::<f32, 2>::new(&arm, TICK).expect("planner");
     let flex = Flex { coordinate: [0.004, 0.0], rate: [0.02, 0.0] };
-    let from = Origin { rate: 0.15, ..Origin::at_rest(Angle::from_radians(0.3)) };
+    let from = HubState { rate: 0.15, ..HubState::at_rest(Angle::from_radians(0.3)) };
     let limits = Limits { rate: Some(0.4), acceleration: Some(1.5), ..Limits::default() };
     let course = planner.course(&from, Some(&flex), 3.0, &limits).expect("a course");
     let then = course.then.expect("by way of a rest");
-    assert_eq!(then.from, Origin::at_rest(Angle::from_radians(course.first.to)));
+    assert_eq!(then.from, HubState::at_rest(Angle::from_radians(course.first.to)));
     assert!((then.to - 3.0).abs() < 1e-12 && course.survey.residual < 0.002 * 0.4, "{course:?}");
     let (stop, survey) = planner.stop(&from, Some(&flex), &limits).expect("a stop");
     assert!((stop.to - 0.3).abs() < 1.0 && survey.residual < 0.002 * 0.4, "{stop:?}");
@@ -222,7 +223,7 @@ fn a_course_can_be_changed_at_any_tick() {
         for _ in 0..4 {
             ahead.tick();
         }
-        let from = Origin::of(ahead.hub());
+        let from = ahead.hub().precise();
         let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
         let plan = planner.plan_from(&from, Some(&flex), -0.5, 0.3).expect("plan");
         // A tick early the hub is elsewhere, if it turns.
@@ -266,7 +267,7 @@ fn a_measured_state_is_accepted() {
     }
     // It rings on with that amplitude, and a plan from it brings it to rest.
     let planner = Still::<f64, 2>::new(&arm, TICK).expect("planner");
-    let from = Origin::of(&hub);
+    let from = hub.precise();
     let plan = planner.plan_from(&from, Some(&flex), 1.0, 0.2).expect("plan");
     assert!(planner.survey(&plan, Some(&flex)).residual < 0.002 * 0.4);
     assert!(planner.survey(&plan, None).residual > 0.005 * 0.4);

@@ -1,7 +1,7 @@
 //! Random arms and moves.
 
 use proptest::prelude::*;
-use stillbeam::beam::Rod;
+use stillbeam::model::Rod;
 use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 
 /// h, s.

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use stillbeam::beam::{EightElements, FourElements, Model, Modes, Rod};
 use stillbeam::math::Band;
+use stillbeam::model::{EightElements, FourElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality};
 use stillbeam::{Generator, Move, Scene, Stepper};
 

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use stillbeam::beam::{EightElements, FourElements, Model, OneElement};
 use stillbeam::math::Band;
+use stillbeam::model::{EightElements, FourElements, Model, OneElement};
 use stillbeam::{Scalar, Scene};
 
 use crate::arms::arms;

@@ -1,7 +1,7 @@
 //! Every stepper, in either precision, behind one trait.
 
 use proptest::test_runner::TestCaseResult;
-use stillbeam::beam::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
+use stillbeam::model::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Scalar, Scene, Stepper};
 

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use stillbeam::beam::Model;
+use stillbeam::model::Model;
 use stillbeam::stepper::Newmark;
 use stillbeam::{Generator, Move, Scalar, Scene, Setpoint};
 

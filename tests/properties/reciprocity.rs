@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use stillbeam::beam::{EightElements, Model, Rod, TwoElements};
 use stillbeam::math::Band;
+use stillbeam::model::{EightElements, Model, Rod, TwoElements};
 
 use crate::arms::arms;
 use crate::cases;

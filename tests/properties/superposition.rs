@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
-use stillbeam::motion::Hub;
+use stillbeam::hub::HubState;
 use stillbeam::{Angle, Move, Profile, Scene, Stepper};
 
 use crate::arms::{TICK, Turn, level_arms, turns};
@@ -67,17 +67,17 @@ impl Property for Together {
         // Accelerations that jump between two ticks have no place in a list of ticks.
         let smooth = |turn: &Turn| Turn { profile: Profile::Quintic, ..*turn };
         let [a, b] = [first, second].map(|turn| hubs::<M>(scene, &smooth(turn)));
-        let together: Vec<Hub<f64>> = a
+        let together: Vec<HubState<f64>> = a
             .iter()
             .zip(&b)
-            .map(|(a, b)| Hub {
+            .map(|(a, b)| HubState {
                 angle: a.angle.plus(b.angle.in_turns()),
                 rate: a.rate + b.rate,
                 acceleration: a.acceleration + b.acceleration,
                 ..*a
             })
             .collect();
-        let of = |hubs: &[Hub<f64>]| follow(&stepper, hubs);
+        let of = |hubs: &[HubState<f64>]| follow(&stepper, hubs);
         let reach = scene.reach();
         let both = level(&of(&together), reach);
         close(M::NAME, reach, &both, &sum(&of(&a), &of(&b), reach), 1e-9)
@@ -85,7 +85,7 @@ impl Property for Together {
 }
 
 /// The hub of a move, 400 ticks.
-fn hubs<M: Method>(scene: &Scene, turn: &Turn) -> Vec<Hub<f64>> {
+fn hubs<M: Method>(scene: &Scene, turn: &Turn) -> Vec<HubState<f64>> {
     let mut arm = arm::<M, f64>(scene, 0.0);
     push(&mut arm, &[turn.from(0.0)]);
     (0..400)
@@ -97,8 +97,8 @@ fn hubs<M: Method>(scene: &Scene, turn: &Turn) -> Vec<Hub<f64>> {
 }
 
 /// What a stepper makes of it, from rest.
-fn follow<S: Stepper<Scalar = f64>>(stepper: &S, hubs: &[Hub<f64>]) -> Vec<Numbers> {
-    let rest = Hub { angle: Angle::default(), rate: 0.0, acceleration: 0.0, ..hubs[0] };
+fn follow<S: Stepper<Scalar = f64>>(stepper: &S, hubs: &[HubState<f64>]) -> Vec<Numbers> {
+    let rest = HubState { angle: Angle::default(), rate: 0.0, acceleration: 0.0, ..hubs[0] };
     let mut state = stepper.equilibrium(&rest);
     let mut before = rest;
     hubs.iter()

@@ -2,8 +2,8 @@
 //! velocities turned round, tick by tick.
 
 use proptest::prelude::*;
-use stillbeam::beam::{EightElements, FourElements, Rod};
-use stillbeam::motion::Hub;
+use stillbeam::hub::HubState;
+use stillbeam::model::{EightElements, FourElements, Rod};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality};
 use stillbeam::{Damping, Generator, Move, Profile, Scalar, Scene, Stepper};
 
@@ -12,11 +12,11 @@ use crate::cases;
 
 /// What becomes of a state when time is turned round.
 trait Reverse: Stepper {
-    fn reversed(&self, state: &Self::State, hub: &Hub<Self::Scalar>) -> Self::State;
+    fn reversed(&self, state: &Self::State, hub: &HubState<Self::Scalar>) -> Self::State;
 }
 
 impl<T: Scalar, const N: usize, const W: usize> Reverse for Newmark<T, N, W> {
-    fn reversed(&self, state: &Self::State, _: &Hub<T>) -> Self::State {
+    fn reversed(&self, state: &Self::State, _: &HubState<T>) -> Self::State {
         let mut state = *state;
         state.gain = state.gain.map(|gain| -gain);
         state
@@ -24,7 +24,7 @@ impl<T: Scalar, const N: usize, const W: usize> Reverse for Newmark<T, N, W> {
 }
 
 impl<T: Scalar, const K: usize> Reverse for Modal<T, K> {
-    fn reversed(&self, state: &Self::State, _: &Hub<T>) -> Self::State {
+    fn reversed(&self, state: &Self::State, _: &HubState<T>) -> Self::State {
         let mut state = *state;
         state.rate = state.rate.map(|rate| -rate);
         state
@@ -32,15 +32,15 @@ impl<T: Scalar, const K: usize> Reverse for Modal<T, K> {
 }
 
 impl<T: Scalar, const K: usize> Reverse for Elastica<T, K> {
-    fn reversed(&self, state: &Self::State, hub: &Hub<T>) -> Self::State {
+    fn reversed(&self, state: &Self::State, hub: &HubState<T>) -> Self::State {
         let mut flex = self.flex(state, hub);
         flex.rate = flex.rate.map(|rate| -rate);
         self.state_of(&flex, &turned_round(hub))
     }
 }
 
-fn turned_round<T: Scalar>(hub: &Hub<T>) -> Hub<T> {
-    Hub { rate: -hub.rate, ..*hub }
+fn turned_round<T: Scalar>(hub: &HubState<T>) -> HubState<T> {
+    HubState { rate: -hub.rate, ..*hub }
 }
 
 /// By how much the tip misses its way on the way back, in its greatest deflection or a thousandth
@@ -55,7 +55,7 @@ fn miss<S: Reverse<Scalar = f64> + Copy>(stepper: S, from: f64, motion: &Move) -
             (*arm.hub(), *arm.state())
         })
         .collect();
-    let tip = |state: &S::State, hub: &Hub<f64>| stepper.response(state, hub).tip;
+    let tip = |state: &S::State, hub: &HubState<f64>| stepper.response(state, hub).tip;
     let reach = tip(&stepper.equilibrium(&there[0].0), &there[0].0)[0];
     let (hub, state) = there[there.len() - 1];
     let (mut state, mut before) = (stepper.reversed(&state, &hub), turned_round(&hub));

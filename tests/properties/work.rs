@@ -1,7 +1,7 @@
 //! The work of the hub torque is what the energy gains and damping takes, for any arm.
 
 use proptest::prelude::*;
-use stillbeam::beam::{EightElements, FourElements, Model, Modes, Rod};
+use stillbeam::model::{EightElements, FourElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality};
 use stillbeam::{Generator, Move, Profile, Scene, Stepper};
 

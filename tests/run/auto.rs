@@ -2,9 +2,10 @@
 //! ladder.
 
 use stillbeam::motion::Moves;
-use stillbeam::stepper::{Choice, Quality, Rigid, Rung, Tolerance, assess, choose};
+use stillbeam::select::{Choice, Rung, Tolerance, assess, choose};
+use stillbeam::stepper::{Quality, Rigid};
 use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
-use stillbeam_sim::choice::{Summary, campaign};
+use stillbeam_lab::choice::{Summary, campaign};
 use stillbeam_sim::compare::compare;
 use stillbeam_sim::model_choice;
 use stillbeam_sim::run::run;

@@ -1,8 +1,9 @@
 //! `Auto` ticks exactly as the rung that it holds: the same bits, and the same energy at rest.
 
-use stillbeam::beam::{EightElements, Rod};
-use stillbeam::motion::{Origin, Still, StillMove};
-use stillbeam::stepper::{Auto, Elastica, Modal, Quality, Rigid, Rung, Stepper};
+use stillbeam::model::{EightElements, Rod};
+use stillbeam::planner::{Still, StillMove};
+use stillbeam::select::{Auto, Rung};
+use stillbeam::stepper::{Elastica, Modal, Quality, Rigid, Stepper};
 use stillbeam::{Damping, Generator, Hub, Link, Move, Payload, Profile, Scalar, Scene};
 
 const TICK: f64 = 0.01;
@@ -78,7 +79,7 @@ fn course(scene: &Scene) -> StillMove {
         arm.tick();
     }
     let planner = Still::<f64, 2>::new(scene, TICK).expect("planner");
-    planner.plan_from(&Origin::of(arm.hub()), None, 0.5, 1.2).expect("plan")
+    planner.plan_from(&arm.hub().precise(), None, 0.5, 1.2).expect("plan")
 }
 
 fn course_in<T: Scalar>(scene: &Scene) -> StillMove {
@@ -88,7 +89,7 @@ fn course_in<T: Scalar>(scene: &Scene) -> StillMove {
     for _ in 0..13 {
         arm.tick();
     }
-    StillMove { from: Origin::of(arm.hub()), ..course(scene) }
+    StillMove { from: arm.hub().precise(), ..course(scene) }
 }
 
 fn same<S: Stepper>(scene: &Scene, rung: Rung, linked: S) {

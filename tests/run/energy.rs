@@ -1,8 +1,8 @@
 //! The work of the hub torque is the change of energy plus what damping takes.
 
 use stillbeam::Generator;
-use stillbeam::beam::{EightElements, Model, Modes, Rod};
-use stillbeam::motion::Hub;
+use stillbeam::hub::HubState;
+use stillbeam::model::{EightElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, ModalState, Newmark, Quality, Stepper};
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_tests::{TRUTH_SCENES, truth};
@@ -26,7 +26,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// the strip `β q̇ᵀKq̇`.
 fn balance<const N: usize, const W: usize>(
     model: &Model<N, W>,
-    hub: &Hub<f64>,
+    hub: &HubState<f64>,
     [q, q_dot]: [[f64; N]; 2],
     torque: f64,
 ) -> Balance {

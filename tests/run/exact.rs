@@ -1,8 +1,9 @@
 //! Modal and elastica: what the exact step and the exact kinematics are worth at 10 ms.
 
 use proptest::prelude::*;
-use stillbeam::beam::{EightElements, Rod};
-use stillbeam::motion::{Hub, Kink, Peaks};
+use stillbeam::hub::HubState;
+use stillbeam::model::{EightElements, Rod};
+use stillbeam::motion::{Kink, Peaks};
 use stillbeam::stepper::{Elastica, Modal, Quality as Work, Response, Stepper};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scalar as Real, Scene, Setpoint};
 use stillbeam_sim::compare::{Comparison, compare};
@@ -113,7 +114,7 @@ fn nonsense_is_refused() {
         let error = Elastica::<f32, 2>::new(&rod, 0.01, Work::Fast, bend).expect_err("bend");
         assert!(error.to_string().starts_with("bend = "), "{error}");
     }
-    let model = stillbeam::beam::OneElement::consistent(&scene).expect("model");
+    let model = stillbeam::model::OneElement::consistent(&scene).expect("model");
     let error = Modal::<f32, 3>::new(&model, 0.01).expect_err("an element has two modes");
     assert!(error.to_string().starts_with("elements"), "{error}");
 }
@@ -140,11 +141,16 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         Ok(())
     }
 
-    fn equilibrium(&self, hub: &Hub<S::Scalar>) -> S::State {
+    fn equilibrium(&self, hub: &HubState<S::Scalar>) -> S::State {
         self.0.equilibrium(hub)
     }
 
-    fn step(&self, state: &mut S::State, before: &Hub<S::Scalar>, after: &Hub<S::Scalar>) {
+    fn step(
+        &self,
+        state: &mut S::State,
+        before: &HubState<S::Scalar>,
+        after: &HubState<S::Scalar>,
+    ) {
         self.0.step(state, before, after);
     }
 
@@ -155,17 +161,17 @@ impl<S: Stepper> Stepper for Unguarded<S> {
     fn advance_in_cubic(
         &self,
         state: &mut S::State,
-        before: &Hub<S::Scalar>,
-        after: &Hub<S::Scalar>,
+        before: &HubState<S::Scalar>,
+        after: &HubState<S::Scalar>,
     ) -> Response<S::Scalar> {
         self.0.advance_in_cubic(state, before, after)
     }
 
-    fn swing(&self, state: &mut S::State, hub: &Hub<S::Scalar>) {
+    fn swing(&self, state: &mut S::State, hub: &HubState<S::Scalar>) {
         self.0.swing(state, hub);
     }
 
-    fn response_at_rest(&self, state: &S::State, hub: &Hub<S::Scalar>) -> Response<S::Scalar> {
+    fn response_at_rest(&self, state: &S::State, hub: &HubState<S::Scalar>) -> Response<S::Scalar> {
         self.0.response_at_rest(state, hub)
     }
 
@@ -181,7 +187,7 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         self.0.is_settled(state)
     }
 
-    fn response(&self, state: &S::State, hub: &Hub<S::Scalar>) -> Response<S::Scalar> {
+    fn response(&self, state: &S::State, hub: &HubState<S::Scalar>) -> Response<S::Scalar> {
         self.0.response(state, hub)
     }
 }
@@ -238,7 +244,7 @@ proptest! {
         // Refused moves and arms that buckle are not this test's.
         let plan = stillbeam::motion::Plan::new(
             &motion,
-            stillbeam::motion::Start::at_rest(0.0).expect("start"),
+            HubState::resting_at(0.0).expect("start"),
             &stillbeam::Limits::default(),
             0.01,
         );

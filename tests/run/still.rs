@@ -1,6 +1,6 @@
 //! Still moves by the hundred, and in scene files.
 
-use stillbeam_sim::plan::campaign;
+use stillbeam_lab::still::campaign;
 use stillbeam_sim::reference::rod;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver};
@@ -130,7 +130,7 @@ fn a_scene_file_shapes_its_moves() {
 #[test]
 fn first_periods_agree() {
     let scene = SceneFile::parse("test", SCENE).expect("a scene").arm;
-    let planner = stillbeam::motion::Still::<f64, 2>::new(&scene, 0.01).expect("planner");
+    let planner = stillbeam::planner::Still::<f64, 2>::new(&scene, 0.01).expect("planner");
     let period = rod::first_period(&scene).expect("a rod");
     assert!((planner.first_period() / period - 1.0).abs() < 1e-4);
 }

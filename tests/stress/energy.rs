@@ -1,6 +1,6 @@
 //! Undamped arms that ring on.
 
-use stillbeam_sim::stress::energy;
+use stillbeam_lab::stress::energy;
 
 /// Their energy does not grow: by a thousandth in modes of any kind, by what rounding puts into the
 /// highest of many elements in f32.

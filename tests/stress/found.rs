@@ -1,8 +1,8 @@
 //! What the campaigns have found, case by case: seed and number of the scene.
 
+use stillbeam_lab::stress::draw::draw;
+use stillbeam_lab::stress::trial::{Verdict, trial};
 use stillbeam_sim::solver::{Mass, Method, Solver};
-use stillbeam_sim::stress::draw::draw;
-use stillbeam_sim::stress::trial::{Verdict, trial};
 
 fn outcome(seed: u64, index: u64, wanted: impl Fn(&Solver) -> bool) -> Verdict {
     let drawn = draw(seed, index);

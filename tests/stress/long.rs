@@ -1,6 +1,6 @@
 //! The first hours of what runs for days.
 
-use stillbeam_sim::stress::long;
+use stillbeam_lab::stress::long;
 
 #[test]
 fn stops_are_exact_and_nothing_drifts() {

@@ -1,6 +1,6 @@
 //! Random scenes far outside of what an arm is.
 
-use stillbeam_sim::stress::{campaign, energy};
+use stillbeam_lab::stress::{campaign, energy};
 
 #[test]
 fn random_scenes_neither_panic_nor_leave_their_bounds() {

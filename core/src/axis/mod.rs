@@ -15,16 +15,18 @@
 //! | new arm (payload) | at rest only; the angle stays, the torque is the new arm's |
 
 mod pace;
+mod sequence;
 mod still;
 
 use heapless::Deque;
 
 pub use pace::{Pace, Timing};
+pub use sequence::{Freshness, Sequence};
 
-use crate::drive::Sequence;
 use crate::generator::Arrival;
+use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Angle, Braking, Limits, Start};
+use crate::motion::{Braking, Limits};
 use crate::stepper::Stepper;
 use crate::{Departure, Error, Generator, Planned, Rejected, Setpoint};
 
@@ -130,7 +132,7 @@ struct Accepted {
     begin: u32,
     /// Number of the tick at which the hub is at `end`.
     arrival: u32,
-    end: Start,
+    end: HubState<f64>,
 }
 
 impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {

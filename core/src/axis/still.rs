@@ -1,7 +1,8 @@
 //! Still moves of an axis: planned beside the tick, like every other move.
 
+use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::motion::{Origin, Still};
+use crate::planner::Still;
 use crate::{Departure, Error, Planned};
 
 impl Departure {
@@ -26,7 +27,7 @@ impl Departure {
         if start.rate != 0.0 {
             return Err(Error::NotAtRest { rate: start.rate });
         }
-        let (origin, limits) = (Origin::at_rest(start.angle), self.limits());
+        let (origin, limits) = (HubState::at_rest(start.angle), self.limits());
         let still = match duration {
             None => planner.shortest_from(&origin, None, to, limits)?.0,
             Some(duration) => planner.within(&origin, None, to, duration, limits)?.0,

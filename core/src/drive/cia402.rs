@@ -13,9 +13,10 @@ use embedded_can::Frame;
 
 use super::counts::{count, count_i16};
 use super::frame::standard;
-use super::{Encoded, Saturated, Sequence};
+use super::{Encoded, Saturated};
 use crate::Error;
-use crate::motion::Angle;
+use crate::axis::Sequence;
+use crate::hub::Angle;
 use crate::motor::Demand;
 
 /// A drive's node id and what its counts mean.

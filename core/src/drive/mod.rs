@@ -9,7 +9,7 @@
 //! | [`cia402`] CSP | i32 increments | i32 increments/s | i16 ‰ of rated torque | 10, or two PDOs |
 //! | [`moteus`] | f32 turns | f32 turns/s | f32 N m | 24, CAN FD |
 //!
-//! None of them has room for a count of its own, so a [`Sequence`] travels beside each payload: to the
+//! None of them has room for a count of its own, so a [`Sequence`](crate::axis::Sequence) travels beside each payload: to the
 //! task that sends it, in the stamp of a captured frame, as the counter of CANopen's SYNC.
 
 pub mod cia402;
@@ -18,13 +18,11 @@ mod frame;
 pub mod moteus;
 pub mod odrive;
 mod resolution;
-mod sequence;
 
 pub use frame::ClassicFrame;
 pub use resolution::{Coarse, TorquePeak};
-pub use sequence::{Freshness, Sequence};
 
-use crate::motion::Angle;
+use crate::hub::Angle;
 
 /// Which of the values did not fit its format and was sent as the nearest that does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

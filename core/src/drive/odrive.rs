@@ -10,7 +10,7 @@ use super::counts::count_i16;
 use super::frame::standard;
 use super::{Encoded, Saturated};
 use crate::Error;
-use crate::motion::Angle;
+use crate::hub::Angle;
 use crate::motor::Demand;
 
 /// N m a count of the torque feed-forward.

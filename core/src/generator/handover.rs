@@ -5,14 +5,15 @@ use heapless::Vec;
 
 use super::Generator;
 use crate::Error;
+use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Angle, Hub, Limits, MAX_SEGMENTS, Move, Outline, Segment, Start, lay};
+use crate::motion::{Limits, MAX_SEGMENTS, Move, Outline, Segment, lay};
 use crate::stepper::Stepper;
 
 /// Where the next move of a generator begins, and what it may do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
-    start: Start,
+    start: HubState<f64>,
     limits: Limits,
     tick: f64,
 }
@@ -21,7 +22,7 @@ pub struct Departure {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planned<T> {
     segments: Vec<Segment<T>, MAX_SEGMENTS>,
-    start: Start,
+    start: HubState<f64>,
     outline: Outline,
 }
 
@@ -65,7 +66,7 @@ impl Departure {
         Ok(Planned { segments, start: self.start, outline })
     }
 
-    pub(crate) fn start(&self) -> &Start {
+    pub(crate) fn start(&self) -> &HubState<f64> {
         &self.start
     }
 
@@ -76,7 +77,7 @@ impl Departure {
 
 /// Refuses a move of so many turns that its angle would go in steps: a segment's angle is rounded as
 /// a part of its own turn. Longer ways are a spin-up, a dwell and a spin-down, which is exact.
-fn resolved<T: Scalar>(start: &Start, outline: &Outline) -> Result<(), Error> {
+fn resolved<T: Scalar>(start: &HubState<f64>, outline: &Outline) -> Result<(), Error> {
     let turned = outline.end.angle.since(start.angle);
     let most = 1.0 / 65_536.0 / T::EPSILON.to_f64();
     Error::check("move: turns", turned, -most, most, "turns").map(drop)
@@ -111,21 +112,21 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         self.end_hold();
         let end = planned.outline.end;
-        self.end = Start { angle: end.angle.plus(turned), rate: end.rate };
+        self.end = HubState::turning(end.angle.plus(turned), end.rate);
         self.tail = super::hold(self.end, self.stepper.tick());
         Ok(())
     }
 
     /// Where the queue ends.
-    pub(crate) fn end(&self) -> Start {
+    pub(crate) fn end(&self) -> HubState<f64> {
         self.end
     }
 
     /// Begins anew, at rest and in static equilibrium at `angle`; no move waits.
     pub fn restart(&mut self, angle: Angle<S::Scalar>) {
-        self.hub = Hub { angle, ..Hub::ZERO };
+        self.hub = HubState { angle, ..HubState::ZERO };
         if self.stepper.is_directed() {
-            self.hub.aim();
+            self.hub.update_sin_cos();
         }
         self.landing = S::Scalar::ZERO;
         self.state = self.stepper.equilibrium(&self.hub);

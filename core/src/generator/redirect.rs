@@ -2,8 +2,21 @@
 
 use super::{Generator, hold};
 use crate::Error;
-use crate::motion::{Angle, Hub, MAX_ANGLE, Origin, Segment, Start, StillMove, admit};
+use crate::hub::{Angle, HubState};
+use crate::motion::{Peaks, Segment, admit};
 use crate::stepper::Stepper;
+
+/// A curve that leaves the motion at a coming tick and ends at rest.
+pub(crate) struct Branch {
+    /// The hub where the curve begins.
+    pub from: HubState<f64>,
+    /// The curve.
+    pub segment: Segment<f64>,
+    /// Greatest magnitudes on the curve.
+    pub peaks: Peaks,
+    /// Angle of the hub at the end, rad.
+    pub to: f64,
+}
 
 /// A coming tick: which segment it falls into, and where.
 enum Place {
@@ -15,51 +28,16 @@ enum Place {
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
-    /// Replaces all that follows by `plan`, which begins with the coming tick number `lead` (0 is
-    /// the next one): angle, rate and acceleration go on without a jump.
-    ///
-    /// A plan is made outside the tick, from what a copy of the generator shows `lead + 1` ticks
-    /// later. If ticks have gone by since, `lead` is as many less. A plan that does not begin
-    /// exactly where the hub is at that tick is refused, and nothing changes. So is one whose curve
-    /// exceeds the limits: its peaks are found anew, and those that it states are not looked at.
-    ///
-    /// ```
-    /// # use stillbeam::beam::Rod;
-    /// # use stillbeam::motion::{Origin, Still};
-    /// # use stillbeam::stepper::{Elastica, Quality};
-    /// # use stillbeam::{Generator, Link, Move, Profile, Scene};
-    /// # let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
-    /// # let rod = Rod::<2>::new(&scene)?;
-    /// # let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fine, rod.bend(150.0))?;
-    /// # let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
-    /// let planner = Still::<f32, 2>::new(&scene, 0.010)?;
-    /// arm.push(&Move::To { profile: Profile::Cubic, duration: 0.3, to: 1.57 })?;
-    /// # for _ in 0..8 { arm.tick(); }
-    /// // In the middle of the move: somewhere else, from the fifth tick on.
-    /// let mut ahead = arm.clone();
-    /// for _ in 0..5 {
-    ///     ahead.tick();
-    /// }
-    /// let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
-    /// let plan = planner.plan_from(&Origin::of(ahead.hub()), Some(&flex), 0.5, 0.25)?;
-    /// arm.redirect(4, &plan)?;
-    /// # for _ in 0..31 { arm.tick(); }
-    /// # assert!((arm.setpoint().angle.radians() - 0.5).abs() < 1e-6);
-    /// # assert!(arm.setpoint().deflection().abs() < 2e-4);
-    /// # Ok::<(), stillbeam::Error>(())
-    /// ```
-    pub fn redirect(&mut self, lead: u32, plan: &StillMove) -> Result<(), Error> {
+    /// Replaces all that follows by `branch`, which begins with the coming tick number `lead`; 0 is
+    /// the next one. Nothing changes if it is refused.
+    pub(crate) fn follow(&mut self, lead: u32, branch: &Branch) -> Result<(), Error> {
         let tick = self.stepper.tick();
-        Error::check("plan.tick", plan.tick, tick, tick, "s")?;
-        Error::check("plan.to", plan.to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
-        // Of the curve itself: what a plan states of it may be anything.
-        let peaks = plan.curve_peaks::<S::Scalar>();
-        admit(&self.limits, &peaks, tick)?;
-        self.stepper.admit(&peaks, 0.0)?;
+        admit(&self.limits, &branch.peaks, tick)?;
+        self.stepper.admit(&branch.peaks, 0.0)?;
         let place = self.place(lead);
-        let here = Origin::of(&self.hub_of(&place));
-        if here != plan.from {
-            let (hub, begins) = (here.angle.radians(), plan.from.angle.radians());
+        let here = self.hub_of(&place).precise();
+        if here != branch.from {
+            let (hub, begins) = (here.angle.radians(), branch.from.angle.radians());
             return Err(Error::Elsewhere { hub, begins });
         }
         let kept = match place {
@@ -90,9 +68,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         while self.queue.len() > kept {
             self.queue.pop_back();
         }
-        let segment = plan.segment();
-        let _ = self.queue.push_back(segment.cast());
-        let end = Start { angle: Angle::from_radians(plan.to), rate: 0.0 };
+        let _ = self.queue.push_back(branch.segment.cast());
+        let end = HubState::at_rest(Angle::from_radians(branch.to));
         self.end = end;
         self.tail = hold(end, tick);
         Ok(())
@@ -121,7 +98,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         Place::Held(lead)
     }
 
-    fn hub_of(&self, place: &Place) -> Hub<S::Scalar> {
+    fn hub_of(&self, place: &Place) -> HubState<S::Scalar> {
         let waiting = |index| self.queue.iter().nth(index).unwrap_or(&self.tail);
         let (segment, k): (&Segment<_>, u32) = match *place {
             Place::Current(k) => (&self.current, k),

@@ -1,8 +1,9 @@
 //! Coming to rest before the moves are done, in the tick if need be: no f64 planning, no panic.
 
 use super::Generator;
+use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Angle, Braking, Segment, Start};
+use crate::motion::{Braking, Segment};
 use crate::stepper::Stepper;
 
 /// So many times what a stop takes, a move under way may take to its end and still be finished: a tail
@@ -16,7 +17,7 @@ pub(crate) struct Arrival {
     /// Ticks from the latest setpoint.
     pub(crate) ticks: u32,
     /// Its end, at rest.
-    pub(crate) end: Start,
+    pub(crate) end: HubState<f64>,
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
@@ -75,7 +76,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// What follows the queue is rest at `angle`.
     pub(super) fn rest_at(&mut self, angle: Angle<S::Scalar>) {
         let exact = Angle { turns: angle.turns, part: angle.part.to_f64() };
-        self.end = Start { angle: exact, rate: 0.0 };
+        self.end = HubState::at_rest(exact);
         self.tail = Segment::rest(angle);
     }
 }

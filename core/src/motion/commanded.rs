@@ -2,8 +2,9 @@
 
 use core::ops::ControlFlow;
 
-use super::{Hub, Kink, Limits, Move, Peaks, Plan, Start};
+use super::{Kink, Limits, Move, Peaks, Plan};
 use crate::Error;
+use crate::hub::HubState;
 
 /// A stretch of a commanded motion that has one formula.
 pub struct Stretch<'a> {
@@ -13,7 +14,7 @@ pub struct Stretch<'a> {
     pub end: f64,
     /// The hub at any time of the stretch, ticks from the motion's beginning. At the ends it is the
     /// value inside the stretch.
-    pub hub: &'a dyn Fn(f64) -> Hub<f32>,
+    pub hub: &'a dyn Fn(f64) -> HubState<f32>,
     /// True if the hub stays where it is.
     pub rests: bool,
 }
@@ -55,7 +56,7 @@ pub struct Moves<'a> {
 impl<'a> Moves<'a> {
     /// Plans the moves from rest at `from` rad, with setpoints every `tick` s.
     pub fn new(from: f64, moves: &'a [Move], tick: f64) -> Result<Self, Error> {
-        let mut start = Start::at_rest(from)?;
+        let mut start = HubState::resting_at(from)?;
         let mut ticks = 0;
         let mut peaks = Peaks { rate: 0.0, acceleration: 0.0, jerk: 0.0 };
         for motion in moves {
@@ -93,7 +94,7 @@ impl Commanded for Moves<'_> {
     }
 
     fn fly(&self, each: &mut dyn FnMut(&Stretch<'_>) -> ControlFlow<()>) -> Result<(), Error> {
-        let mut start = Start::at_rest(self.from)?;
+        let mut start = HubState::resting_at(self.from)?;
         let mut first = 0u64;
         for motion in self.moves {
             let plan = Plan::new(motion, start, &Limits::default(), self.tick)?;

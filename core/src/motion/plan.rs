@@ -7,35 +7,19 @@ use heapless::Vec;
 
 use super::demand::Demand;
 use super::segment::Shape;
-use super::{Angle, Limits, Move, Peaks, Profile, Remedy, Segment, still};
+use super::{Limits, Move, Peaks, Profile, Remedy, Segment, curve_peaks};
 use crate::Error;
+use crate::hub::{Angle, HubState, MAX_ANGLE};
 use crate::math::Scalar;
 
 /// Segments of the longest plan, an S-curve.
 pub const MAX_SEGMENTS: usize = 7;
 
-/// Where a move begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
-    /// θ.
-    pub angle: Angle<f64>,
-    /// θ̇, rad/s.
-    pub rate: f64,
-}
-
-impl Start {
-    /// At rest at `from` rad.
-    pub fn at_rest(from: f64) -> Result<Self, Error> {
-        let from = Error::check("move.from", from, -MAX_ANGLE, MAX_ANGLE, "rad")?;
-        Ok(Self { angle: Angle::from_radians(from), rate: 0.0 })
-    }
-}
-
 /// What a move comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outline {
     /// Where it ends: the next move's start.
-    pub end: Start,
+    pub end: HubState<f64>,
     /// Whole ticks it takes.
     pub ticks: u32,
     /// Greatest magnitudes.
@@ -59,7 +43,12 @@ impl Plan {
     /// # Errors
     /// A parameter of the move out of range, a limit that it exceeds (see [`Self::remedy`]), or a
     /// limit of torque or moment, which a plan of the hub's motion cannot check.
-    pub fn new(motion: &Move, start: Start, limits: &Limits, tick: f64) -> Result<Self, Error> {
+    pub fn new(
+        motion: &Move,
+        start: HubState<f64>,
+        limits: &Limits,
+        tick: f64,
+    ) -> Result<Self, Error> {
         let mut segments = Vec::new();
         let outline = lay(motion, start, limits, tick, &mut |segment| {
             // No move has more.
@@ -71,7 +60,7 @@ impl Plan {
     /// What would keep the limits, for a move that [`Self::new`] refuses for one of them: the shortest
     /// duration in whole ticks that keeps every limit of the motion and a radian a tick, or why none
     /// does.
-    pub fn remedy(motion: &Move, start: Start, limits: &Limits, tick: f64) -> Remedy {
+    pub fn remedy(motion: &Move, start: HubState<f64>, limits: &Limits, tick: f64) -> Remedy {
         let demand = match *motion {
             Move::To { profile, to, .. } => {
                 Demand::Turn(profile, to - TAU * start.angle.in_turns())
@@ -88,7 +77,7 @@ impl Plan {
 /// Plans `motion` and hands its segments to `sink`, first to last; none if it is refused.
 pub(crate) fn lay<T: Scalar>(
     motion: &Move,
-    start: Start,
+    start: HubState<f64>,
     limits: &Limits,
     tick: f64,
     sink: &mut dyn FnMut(&Segment<T>),
@@ -110,7 +99,7 @@ pub(crate) fn lay<T: Scalar>(
             let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
             let change = rate - start.rate;
             let mean = 0.5 * (rate + start.rate);
-            let end = Start { angle: start.angle.plus(turned(mean)), rate };
+            let end = HubState::turning(start.angle.plus(turned(mean)), rate);
             let demand = Demand::Spin { from: start.rate, to: rate };
             let (old, change) = (turned(start.rate), turned(change));
             (Shapes::One(spin_up(T::from_f64(old), T::from_f64(change))), end, demand)
@@ -125,12 +114,12 @@ pub(crate) fn lay<T: Scalar>(
             }
             let (delta, end) = turn_to(to, &start);
             let (c, d) = (quintic(T::from_f64(delta)), bulge.map(|b| T::from_f64(b / TAU)));
-            let demand = Demand::Curve(still::peaks(&c, &d, duration));
+            let demand = Demand::Curve(curve_peaks(&c, &d, duration));
             (Shapes::One(Shape::Bulged { c, d }), end, demand)
         }
         Move::Dwell { .. } => {
             let angle = start.angle.plus(turned(start.rate));
-            (Shapes::Hold, Start { angle, rate: start.rate }, Demand::Hold(start.rate))
+            (Shapes::Hold, HubState::turning(angle, start.rate), Demand::Hold(start.rate))
         }
     };
     let peaks = demand.admit(&limits, ticks, tick)?;
@@ -151,8 +140,8 @@ pub(crate) fn lay<T: Scalar>(
 /// Turns from `start` to the angle `to` in rad, and the rest there: exactly that angle, whatever the
 /// turns round to.
 #[inline(always)]
-fn turn_to(to: f64, start: &Start) -> (f64, Start) {
-    let end = Start { angle: Angle::from_radians(to), rate: 0.0 };
+fn turn_to(to: f64, start: &HubState<f64>) -> (f64, HubState<f64>) {
+    let end = HubState::at_rest(Angle::from_radians(to));
     (end.angle.since(start.angle), end)
 }
 
@@ -178,9 +167,6 @@ struct Piece {
 /// The cubic `3s² − 2s³`.
 const CUBIC: Piece =
     Piece { start: 0.0, rate: 0.0, accelerations: [6.0, -6.0], cubic: [0.75, 0.0, -0.25] };
-
-/// Largest angle and rate that a move may name: 1e6 rad resolve to 1e-10 rad.
-pub(crate) const MAX_ANGLE: f64 = 1e6;
 
 /// A quintic's coefficients, of a turn by `turn`.
 fn quintic<T: Scalar>(turn: T) -> [T; 5] {

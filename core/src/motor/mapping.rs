@@ -3,8 +3,8 @@
 use core::f64::consts::TAU;
 
 use crate::Error;
+use crate::hub::Angle;
 use crate::math::Scalar;
-use crate::motion::Angle;
 
 /// n = motor/link turns, as the teeth give it: no rounding builds up over days of rotation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

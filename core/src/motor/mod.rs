@@ -7,8 +7,8 @@ mod mapping;
 pub use joint::{Joint, MotorTorque};
 pub use mapping::{Direction, Mapping, Ratio};
 
+use crate::hub::Angle;
 use crate::math::Scalar;
-use crate::motion::Angle;
 use crate::{Error, Setpoint};
 
 /// What the drive shall do with the motor's shaft.

@@ -2,16 +2,15 @@
 //! one tick length. Its state is separate and small, so that a restart is a new state and two runs
 //! can share one stepper.
 
-mod auto;
 mod elastica;
 mod kicks;
 mod modal;
 mod newmark;
 mod oscillator;
 mod rigid;
+mod shaped;
 mod terms;
 
-pub use auto::{Assessment, Auto, AutoState, Choice, NoChoice, Rung, Tolerance, assess, choose};
 pub use elastica::{Elastica, ElasticaState, Flex, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, Vibration};
@@ -19,8 +18,9 @@ pub(crate) use oscillator::{Drive, Oscillator};
 pub use rigid::Rigid;
 
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::motion::{Hub, Kink, Peaks};
+use crate::motion::{Kink, Peaks};
 
 /// The arm's answer at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,10 +65,15 @@ pub trait Stepper {
     fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error>;
 
     /// Static equilibrium with the hub at rest at `hub.angle`. Set-up only.
-    fn equilibrium(&self, hub: &Hub<Self::Scalar>) -> Self::State;
+    fn equilibrium(&self, hub: &HubState<Self::Scalar>) -> Self::State;
 
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
-    fn step(&self, state: &mut Self::State, before: &Hub<Self::Scalar>, after: &Hub<Self::Scalar>);
+    fn step(
+        &self,
+        state: &mut Self::State,
+        before: &HubState<Self::Scalar>,
+        after: &HubState<Self::Scalar>,
+    );
 
     /// True if the ticks of a cubic in which `|θ̇|` is at most `rate` may be advanced by
     /// [`Self::advance_in_cubic`]. Asked once a segment. Only an arm without gravity has plain ticks,
@@ -83,18 +88,18 @@ pub trait Stepper {
     fn advance_in_cubic(
         &self,
         state: &mut Self::State,
-        before: &Hub<Self::Scalar>,
-        after: &Hub<Self::Scalar>,
+        before: &HubState<Self::Scalar>,
+        after: &HubState<Self::Scalar>,
     ) -> Response<Self::Scalar>;
 
     /// Does [`Self::step`] where the hub has been at rest and stays so, in any scene.
-    fn swing(&self, state: &mut Self::State, hub: &Hub<Self::Scalar>);
+    fn swing(&self, state: &mut Self::State, hub: &HubState<Self::Scalar>);
 
     /// Does [`Self::response`] for a hub at rest.
     fn response_at_rest(
         &self,
         state: &Self::State,
-        hub: &Hub<Self::Scalar>,
+        hub: &HubState<Self::Scalar>,
     ) -> Response<Self::Scalar>;
 
     /// Prepares the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks between
@@ -113,7 +118,8 @@ pub trait Stepper {
     fn is_settled(&self, state: &Self::State) -> bool;
 
     /// Hub torque and tip for a state and the hub at the same instant.
-    fn response(&self, state: &Self::State, hub: &Hub<Self::Scalar>) -> Response<Self::Scalar>;
+    fn response(&self, state: &Self::State, hub: &HubState<Self::Scalar>)
+    -> Response<Self::Scalar>;
 }
 
 /// Deflection below which an arm on a resting hub sleeps, fraction of its length: a tenth of what
@@ -131,6 +137,6 @@ fn sleep_floor<T: Scalar>(length: f64, tip: f64) -> T {
 }
 
 /// The tick length if it is one: 1 µs to 1 s.
-fn check_tick(tick: f64) -> Result<f64, Error> {
+pub(crate) fn check_tick(tick: f64) -> Result<f64, Error> {
     Error::check("solver.tick", tick, 1e-6, 1.0, "s")
 }

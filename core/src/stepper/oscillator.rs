@@ -1,8 +1,8 @@
 //! One mode, advanced exactly over a step: what the steppers in modal coordinates share.
 
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::{Scalar, phi_functions};
-use crate::motion::Hub;
 
 /// `ȧ = p + nₐ`, `ṗ = −ω²a − (α + βω²)p − b u(t) + n_p`, with `u = θ̈ + αθ̇`.
 ///
@@ -37,7 +37,12 @@ impl<T: Scalar> Drive<T> {
     /// The parabola of `u = θ̈ + αθ̇` over a tick: its mean is what the rate gained, so that a jump
     /// of the acceleration within the tick does its full work.
     #[inline(always)]
-    pub(crate) fn between(before: &Hub<T>, after: &Hub<T>, per_tick: T, alpha: T) -> Self {
+    pub(crate) fn between(
+        before: &HubState<T>,
+        after: &HubState<T>,
+        per_tick: T,
+        alpha: T,
+    ) -> Self {
         let gained = (after.rate - before.rate) * per_tick;
         Self {
             begin: before.acceleration + alpha * before.rate,
@@ -48,7 +53,7 @@ impl<T: Scalar> Drive<T> {
 
     /// [`Self::between`] where `α` is zero.
     #[inline(always)]
-    pub(super) fn undamped(before: &Hub<T>, after: &Hub<T>, per_tick: T) -> Self {
+    pub(super) fn undamped(before: &HubState<T>, after: &HubState<T>, per_tick: T) -> Self {
         let mean = (after.rate - before.rate) * per_tick;
         Self { begin: before.acceleration, mean, end: after.acceleration }
     }

@@ -2,8 +2,9 @@
 
 use super::{Response, Stepper};
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::{Scalar, round};
-use crate::motion::{Hub, Kink, Peaks};
+use crate::motion::{Kink, Peaks};
 use crate::scene::Scene;
 
 /// Rigid arm: `τ = (J_h + J_r)θ̈ + J_r αθ̇ + g cosθ S`, the tip at `(r + L, 0)`.
@@ -59,23 +60,23 @@ impl<T: Scalar> Stepper for Rigid<T> {
     }
 
     #[inline(always)]
-    fn advance_in_cubic(&self, (): &mut (), _: &Hub<T>, hub: &Hub<T>) -> Response<T> {
+    fn advance_in_cubic(&self, (): &mut (), _: &HubState<T>, hub: &HubState<T>) -> Response<T> {
         Response { torque: self.inertia * hub.acceleration, tip: [self.reach, T::ZERO] }
     }
 
-    fn equilibrium(&self, _: &Hub<T>) {}
+    fn equilibrium(&self, _: &HubState<T>) {}
 
     #[inline(always)]
-    fn step(&self, (): &mut (), _: &Hub<T>, _: &Hub<T>) {}
+    fn step(&self, (): &mut (), _: &HubState<T>, _: &HubState<T>) {}
 
     /// An arm that does not bend keeps nothing of it.
     fn kink(&self, (): &mut (), _: &Kink<T>) {}
 
     #[inline(always)]
-    fn swing(&self, (): &mut (), _: &Hub<T>) {}
+    fn swing(&self, (): &mut (), _: &HubState<T>) {}
 
     #[inline(always)]
-    fn response_at_rest(&self, (): &(), hub: &Hub<T>) -> Response<T> {
+    fn response_at_rest(&self, (): &(), hub: &HubState<T>) -> Response<T> {
         self.response(&(), hub)
     }
 
@@ -87,7 +88,7 @@ impl<T: Scalar> Stepper for Rigid<T> {
     }
 
     #[inline(always)]
-    fn response(&self, (): &(), hub: &Hub<T>) -> Response<T> {
+    fn response(&self, (): &(), hub: &HubState<T>) -> Response<T> {
         Response {
             torque: self.inertia * hub.acceleration + self.drag * hub.rate + self.weight * hub.cos,
             tip: [self.reach, T::ZERO],

@@ -3,9 +3,9 @@
 use core::fmt::Write;
 use core::hint::black_box;
 
-use stillbeam::motion::{Origin, Still, StillMove};
+use stillbeam::planner::{Still, StillMove};
 use stillbeam::stepper::Flex;
-use stillbeam::{Angle, Damping, Error, Hub, Link, Payload, Scene};
+use stillbeam::{Angle, Damping, Error, Hub, HubState, Link, Payload, Scene};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 
 const TICK: f64 = 0.010;
@@ -39,7 +39,10 @@ const PLANS: [(&str, &Scene, f64, Plan); 6] = [
     ("gravity", &Scene { gravity: 0.5, ..B }, 0.0, |planner| planner.plan(0.0, TURN, 2.0)),
     ("redirected", &D, 0.0, |planner| {
         // In the middle of a move, the arm bent and moving.
-        let from = Origin { angle: Angle { turns: 0, part: 0.1 }, rate: 8.0, acceleration: 90.0 };
+        let from = HubState {
+            acceleration: 90.0,
+            ..HubState::turning(Angle { turns: 0, part: 0.1 }, 8.0)
+        };
         let flex = Flex { coordinate: [-0.003, 0.0], rate: [0.1, 0.0] };
         planner.plan_from(&from, Some(&flex), 1.0, 0.2)
     }),

@@ -4,9 +4,11 @@
 use core::fmt::Write;
 use core::hint::black_box;
 
-use stillbeam::Stepper;
-use stillbeam::motion::{Limits, Plan, Start};
-use stillbeam::{Damping, Error, Generator, Hub, Link, Move, Payload, Profile, Scene, Setpoint};
+use stillbeam::motion::{Limits, Plan};
+use stillbeam::{
+    Damping, Error, Generator, Hub, HubState, Link, Move, Payload, Profile, Scene, Setpoint,
+    Stepper,
+};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 
@@ -170,7 +172,7 @@ struct Run {
 impl Run {
     fn of(moves: &[Move]) -> Self {
         let mut run = Self::default();
-        let mut start = Start::at_rest(FROM).expect("the bench's moves are accepted");
+        let mut start = HubState::resting_at(FROM).expect("the bench's moves are accepted");
         for motion in moves {
             let plan = Plan::new(motion, start, &Limits::default(), TICK);
             let plan = plan.expect("the bench's moves are accepted");

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use stillbeam_sim::compare::{Comparison, Residual, compare};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::table;
+use stillbeam_sim::{println, table};
 
 #[derive(clap::Args)]
 pub struct CompareArgs {

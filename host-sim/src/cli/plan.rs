@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use stillbeam::Limits;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::{Planned, Request, page};
-use stillbeam_sim::progress;
 use stillbeam_sim::scene_file::angle_remark;
+use stillbeam_sim::{println, progress};
 
 #[derive(clap::Args)]
 pub struct PlanArgs {

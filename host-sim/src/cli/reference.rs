@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::truth::{self, Reference};
-use stillbeam_sim::{progress, run, table};
+use stillbeam_sim::{println, progress, run, table};
 
 #[derive(clap::Args)]
 pub struct ReferenceArgs {

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use stillbeam::stepper::{Assessment, Choice, Tolerance};
+use stillbeam::select::{Assessment, Choice, Tolerance};
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{model_choice, progress, run, table};
+use stillbeam_sim::{model_choice, println, progress, run, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {

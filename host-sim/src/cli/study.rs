@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
-use stillbeam_sim::progress;
 use stillbeam_sim::study::Study;
+use stillbeam_sim::{println, progress};
 
 #[derive(clap::Args)]
 pub struct StudyArgs {

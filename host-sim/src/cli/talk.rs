@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
-use stillbeam_sim::output;
 use stillbeam_sim::talk::{self, DEMONSTRATION, Machine, Session, Step};
+use stillbeam_sim::{output, println};
 
 #[derive(clap::Args)]
 pub struct TalkArgs {

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 use crate::error::Error;
 
 /// A TOML text and where its keys stand in it.
-pub(crate) struct Document<'a> {
+pub struct Document<'a> {
     /// File, or what else the text is called.
     place: &'a str,
     text: &'a str,

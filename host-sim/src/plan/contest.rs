@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use rayon::prelude::*;
-use stillbeam::motion::{Shaper, ShaperKind, Still};
+use stillbeam::motion::{Shaper, ShaperKind};
+use stillbeam::planner::Still;
 use stillbeam::{Error as CoreError, Move, Profile, Scene};
 
 use super::judge::{self, Judgement, Motion};
@@ -128,7 +129,7 @@ pub(super) fn motions(
 }
 
 /// A fraction as per cent: three digits, 0.001 at the finest.
-pub(super) fn percent(fraction: f64) -> String {
+pub fn percent(fraction: f64) -> String {
     let value = 100.0 * fraction;
     match value {
         _ if value >= 10.0 => format!("{value:.1}"),

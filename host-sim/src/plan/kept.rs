@@ -6,13 +6,15 @@
 
 use std::cell::OnceCell;
 
-use stillbeam::motion::{Angle, Origin, Still, StillMove, Survey};
+use stillbeam::hub::Angle;
+use stillbeam::planner::{Still, StillMove, Survey};
 use stillbeam::{Error as CoreError, Limits, Remedy};
 
 use crate::error::Error;
 use crate::limits::{Case, Excess, Peak, Quantity, Refusal, Way, kinematic, load, remedy};
 use crate::reference::rod::Resume;
 use crate::scene_file::Step;
+use stillbeam::HubState;
 
 /// Fraction of the torque limit that a shortest move is planned for: a method's own setpoints, good
 /// to a hundredth of the peak, then keep the limit too.
@@ -138,7 +140,7 @@ impl Search<'_> {
 
     /// A move of that duration, s, within the limits in truth.
     fn attempt(&self, duration: f64, limits: &Limits) -> Result<Result<Found, Failure>, Error> {
-        let (from, to) = (Origin::at_rest(Angle::from_radians(self.asked.from)), self.asked.to);
+        let (from, to) = (HubState::at_rest(Angle::from_radians(self.asked.from)), self.asked.to);
         let within = |limits: &Limits| self.planner.within(&from, None, to, duration, limits);
         // The planner's own idea of the peaks is not asked first: the truth counts, behind the shaper and
         // by the rod.

@@ -1,10 +1,7 @@
 //! Still moves on the desk: planned, judged by the reference rod, drawn, and held against other
 //! motions.
 
-pub mod campaign;
 pub mod contest;
-pub mod document;
-pub mod duration;
 pub mod judge;
 pub mod kept;
 pub mod page;

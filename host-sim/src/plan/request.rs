@@ -1,7 +1,7 @@
 //! A still move as it is asked for, and all that is found out about it.
 
 use rayon::prelude::*;
-use stillbeam::motion::{StillMove, Survey};
+use stillbeam::planner::{StillMove, Survey};
 use stillbeam::{Limits, Scene};
 
 use super::judge::{Judgement, Motion};

@@ -1,6 +1,6 @@
 //! Where a solver has to stop, and from which side it sees the commanded motion there.
 
-use stillbeam::motion::Hub;
+use stillbeam::hub::HubState;
 
 use super::ReferenceError;
 use crate::trajectory::{Side, Trajectory};
@@ -66,13 +66,13 @@ impl<'a> Schedule<'a> {
     }
 
     /// The hub at a sample time, from the side that [`super::Sample`] promises.
-    pub fn hub(&self, t: f64) -> Hub<f64> {
+    pub fn hub(&self, t: f64) -> HubState<f64> {
         let ends = self.ends.iter().any(|end| (t - end).abs() <= self.close);
         self.trajectory.at(t, if ends { Side::Left } else { Side::Right })
     }
 
     /// The hub at `t` inside a stretch or on its border, from within.
-    pub fn hub_within(&self, stretch: &Stretch<'_>, t: f64) -> Hub<f64> {
+    pub fn hub_within(&self, stretch: &Stretch<'_>, t: f64) -> HubState<f64> {
         let first_half = t < 0.5 * (stretch.begin + stretch.end);
         self.trajectory.at(t, if first_half { Side::Right } else { Side::Left })
     }

@@ -18,12 +18,11 @@ pub use files::REPORT;
 
 use stillbeam::Move;
 
-use crate::compare;
 use crate::error::Error;
 use crate::scene_file::SceneFile;
 use crate::solver::{Method, Solver, SolverKeys};
 use crate::table::Row;
-use crate::{run, scenes};
+use crate::{compare, run, scenes};
 
 /// Everything the report shows.
 #[derive(Clone, Debug)]

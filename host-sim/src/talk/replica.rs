@@ -2,8 +2,8 @@
 
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::drive::odrive::Node;
-use stillbeam::motion::Still;
 use stillbeam::motor::{Demand, Drivetrain};
+use stillbeam::planner::Still;
 use stillbeam::{Angle, Move, Payload, Scene};
 use stillbeam_protocol::{Command, Description};
 

@@ -2,7 +2,8 @@
 
 use arbitrary::{Arbitrary, Result, Unstructured};
 use embedded_can::{ExtendedId, Frame, Id, StandardId};
-use stillbeam::drive::{ClassicFrame, Sequence, cia402 as can402, moteus as fd, odrive as simple};
+use stillbeam::axis::Sequence;
+use stillbeam::drive::{ClassicFrame, cia402 as can402, moteus as fd, odrive as simple};
 use stillbeam_protocol::slcan;
 
 use crate::values::{close, demand, double};

@@ -1,7 +1,7 @@
 //! Runs every scene with every method, the same way on host and target.
 
-use stillbeam::beam::Rod;
-use stillbeam::motion::{Origin, Still};
+use stillbeam::model::Rod;
+use stillbeam::planner::Still;
 use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Error, Generator, Setpoint};
 
@@ -125,7 +125,7 @@ fn one_still(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Result<()
     let mut ahead = arm.clone();
     ahead.tick();
     let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
-    let plan = planner.plan_from(&Origin::of(ahead.hub()), Some(&flex), back, 2.0 * duration)?;
+    let plan = planner.plan_from(&ahead.hub().precise(), Some(&flex), back, 2.0 * duration)?;
     arm.redirect(0, &plan)?;
     tick(&mut arm, plan.ticks + 10);
     Ok(())

@@ -1,9 +1,10 @@
 //! From a turning hub to rest, planned in the tick's own precision: a stop cannot wait for set-up.
 
-use super::{End, Hub, Rest, Segment};
+use super::{End, Rest, Segment};
 use crate::Error;
+use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Angle, Limits};
+use crate::motion::Limits;
 
 /// What a stop may use.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +52,7 @@ impl<T: Scalar> Braking<T> {
     /// `A`; the jerk limit stretches it. Where a hub that speeds up would pass the limit of rate on
     /// its way, its acceleration drops to zero at once, as it jumps at the ends of a cubic. Order of
     /// precedence: angle and rate without a step, acceleration, rate, jerk.
-    pub(crate) fn stop(&self, hub: &Hub<T>) -> (Segment<T>, Angle<T>, T) {
+    pub(crate) fn stop(&self, hub: &HubState<T>) -> (Segment<T>, Angle<T>, T) {
         let sign = if hub.rate < T::ZERO { -T::ONE } else { T::ONE };
         let (v, mut a) = (sign * hub.rate, sign * hub.acceleration);
         if a > T::ZERO && self.rate.is_some_and(|limit| self.peak_rate(v, a) > limit) {
@@ -103,7 +104,7 @@ impl<T: Scalar> Braking<T> {
     }
 
     /// The rate's cubic as a quartic of the angle about the segment's middle.
-    fn segment(&self, hub: &Hub<T>, a: T, ticks: u32) -> (Segment<T>, Angle<T>) {
+    fn segment(&self, hub: &HubState<T>, a: T, ticks: u32) -> (Segment<T>, Angle<T>) {
         let n = T::from_u32(ticks);
         // vT and aT², turns.
         let p = hub.rate * self.turns * n;

@@ -1,13 +1,13 @@
 //! Where a segment begins and ends: exactly, whatever its formula rounds to there.
 
 use super::{End, Segment};
+use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Angle, Hub};
 
 impl<T: Scalar> Segment<T> {
     /// Moves the hub, but for its sine and cosine, to the segment's tick 0.
     #[inline(always)]
-    pub(crate) fn begin(&self, hub: &mut Hub<T>) {
+    pub(crate) fn begin(&self, hub: &mut HubState<T>) {
         let End { angle, rate, acceleration } = self.begin;
         (hub.angle, hub.rate, hub.acceleration) = (angle, rate, acceleration);
     }
@@ -26,7 +26,7 @@ impl<T: Scalar> Segment<T> {
 
     /// Stores what the formula gives at tick 0.
     pub(super) fn begun(mut self) -> Self {
-        let mut hub = Hub::ZERO;
+        let mut hub = HubState::ZERO;
         self.drive_otherwise(&mut hub, 0);
         self.begin = End { angle: hub.angle, rate: hub.rate, acceleration: hub.acceleration };
         self

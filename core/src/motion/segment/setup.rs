@@ -3,8 +3,8 @@
 use core::f64::consts::TAU;
 
 use super::{End, Rest, Segment, Shape};
+use crate::hub::Angle;
 use crate::math::Scalar;
-use crate::motion::Angle;
 
 impl<T: Scalar> Segment<T> {
     /// A segment of `length` ticks (not whole in general) that begins `before` ticks, 0 to 1,

@@ -1,9 +1,9 @@
 //! A motion that has passed a shaper.
 
 use super::{Kink, MAX_PULSES, Shaper};
+use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::motion::{Hub, Segment};
-use crate::stepper::Stepper;
+use crate::motion::Segment;
 
 /// Segments end to end, summed with their delayed copies: before its beginning a motion stays where
 /// it begins, after its end where it ends.
@@ -15,13 +15,13 @@ use crate::stepper::Stepper;
 /// takes a stepper through a tick with all that is in it.
 ///
 /// ```
-/// use stillbeam::beam::EightElements;
-/// use stillbeam::motion::{Limits, Plan, Shaped, Shaper, ShaperKind, Start};
+/// use stillbeam::model::EightElements;
+/// use stillbeam::motion::{Limits, Plan, Shaped, Shaper, ShaperKind};
 /// use stillbeam::stepper::{Modal, Stepper};
-/// use stillbeam::{Link, Move, Profile, Scene};
+/// use stillbeam::{HubState, Link, Move, Profile, Scene};
 ///
 /// let motion = Move::To { profile: Profile::Quintic, duration: 1.0, to: 1.57 };
-/// let plan = Plan::new(&motion, Start::at_rest(0.0)?, &Limits::default(), 0.010)?;
+/// let plan = Plan::new(&motion, HubState::resting_at(0.0)?, &Limits::default(), 0.010)?;
 /// let shaper = Shaper::new(ShaperKind::Zvd, 1.3, 0.0)?;
 /// let segments = [plan.segments[0].cast::<f32>()];
 /// let shaped = Shaped::new(&segments, &shaper, 0.010);
@@ -93,22 +93,13 @@ impl<'a, T: Scalar> Shaped<'a, T> {
     }
 
     /// The hub at tick `k` from the beginning; where it jumps, just after.
-    pub fn hub(&self, k: u32) -> Hub<T> {
+    pub fn hub(&self, k: u32) -> HubState<T> {
         self.at(k, Side::Right)
     }
 
     /// The hub at tick `k` from the beginning; where it jumps, just before.
-    pub fn arrival(&self, k: u32) -> Hub<T> {
+    pub fn arrival(&self, k: u32) -> HubState<T> {
         self.at(k, Side::Left)
-    }
-
-    /// Advances an arm from tick `k` to tick `k + 1`, with what jumps at its ends and within.
-    pub fn advance<S: Stepper<Scalar = T>>(&self, stepper: &S, state: &mut S::State, k: u32) {
-        let kink = self.kink(k);
-        if !kink.is_none() {
-            stepper.kink(state, &kink);
-        }
-        stepper.step(state, &self.hub(k), &self.arrival(k + 1));
     }
 
     /// What jumps inside the tick from `k` to `k + 1`.
@@ -144,8 +135,8 @@ impl<'a, T: Scalar> Shaped<'a, T> {
         self.segments.iter().map(Segment::count).sum()
     }
 
-    fn at(&self, k: u32, side: Side) -> Hub<T> {
-        let mut sum = Hub::ZERO;
+    fn at(&self, k: u32, side: Side) -> HubState<T> {
+        let mut sum = HubState::ZERO;
         let Some(first) = self.segments.first() else { return sum };
         let start = first.hub_at(-first.ticks_before()).angle;
         let mut turned = T::ZERO;
@@ -161,8 +152,8 @@ impl<'a, T: Scalar> Shaped<'a, T> {
     }
 
     /// A copy of the motion at tick `k`.
-    fn delayed(&self, copy: &Delayed<T>, k: u32, side: Side) -> Hub<T> {
-        let still = |hub: Hub<T>| Hub { rate: T::ZERO, acceleration: T::ZERO, ..hub };
+    fn delayed(&self, copy: &Delayed<T>, k: u32, side: Side) -> HubState<T> {
+        let still = |hub: HubState<T>| HubState { rate: T::ZERO, acceleration: T::ZERO, ..hub };
         let (mut segment, mut first, mut next) = (&self.segments[0], 0, 0);
         let mut begun = false;
         for candidate in self.segments {

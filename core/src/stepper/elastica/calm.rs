@@ -1,7 +1,7 @@
 //! What keeps an arm that nothing damps from gaining energy while its hub rests.
 
-use crate::beam::Rod;
 use crate::math::{Scalar, sqrt};
+use crate::model::Rod;
 
 /// Energy gained a step, of itself, per `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in several:
 /// 9e-4 to 1.1e-3 of small bends as measured on bare and loaded links from ω₁h = 0.03 to 3; of one mode

@@ -1,10 +1,10 @@
 //! How the arm bends and moves, apart from any stepper.
 
 use super::{Elastica, ElasticaState};
+use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::motion::Hub;
 
-/// Modal coordinates of a [`Rod`](crate::beam::Rod) and their rates: what a measurement of the arm gives, and what a still
+/// Modal coordinates of a [`Rod`](crate::model::Rod) and their rates: what a measurement of the arm gives, and what a still
 /// move is planned from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flex<T, const K: usize> {
@@ -24,7 +24,7 @@ const ROUNDS: usize = 16;
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// How the arm of a state bends and moves, the hub as it was at that instant.
-    pub fn flex(&self, state: &ElasticaState<T, K>, hub: &Hub<T>) -> Flex<T, K> {
+    pub fn flex(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> Flex<T, K> {
         let value = self.remainder.evaluate::<true, true>(&state.y, hub);
         Flex {
             coordinate: core::array::from_fn(|k| state.y[k][0] / self.remainder.omega(k)),
@@ -34,7 +34,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
 
     /// The state of an arm that bends and moves so, e.g. as measured, on a hub that is as given.
     /// Set-up only.
-    pub fn state_of(&self, flex: &Flex<T, K>, hub: &Hub<T>) -> ElasticaState<T, K> {
+    pub fn state_of(&self, flex: &Flex<T, K>, hub: &HubState<T>) -> ElasticaState<T, K> {
         let mut y: [[T; 2]; K] =
             core::array::from_fn(|k| [self.remainder.omega(k) * flex.coordinate[k], flex.rate[k]]);
         let mut value = self.remainder.evaluate::<true, true>(&y, hub);

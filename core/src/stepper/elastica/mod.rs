@@ -34,9 +34,10 @@ use super::kicks::Kicks;
 use super::oscillator::{check_turns, jolt};
 use super::{Drive, Response, Stepper};
 use crate::Error;
-use crate::beam::{Expansion, Rod};
+use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::motion::{Hub, Kink, Peaks};
+use crate::model::{Expansion, Rod};
+use crate::motion::{Kink, Peaks};
 
 /// How much work a tick does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -198,7 +199,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
 
     /// A step, of anything that a scene can hold.
     #[inline(always)]
-    fn advance(&self, state: &mut ElasticaState<T, K>, drive: &Drive<T>, end: &Hub<T>) {
+    fn advance(&self, state: &mut ElasticaState<T, K>, drive: &Drive<T>, end: &HubState<T>) {
         let damped = self.remainder.is_damped();
         let ElasticaState { y, offset, drift, .. } = state;
         let guess = core::array::from_fn(|k| {
@@ -211,7 +212,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// A step without damping and gravity in which the hub's acceleration gains `gain` in a
     /// straight line.
     #[inline(always)]
-    fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gain: T, end: &Hub<T>) {
+    fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gain: T, end: &HubState<T>) {
         let ElasticaState { y, offset, drift, .. } = state;
         let guess =
             core::array::from_fn(|k| self.modes[k].rotate(y[k], offset[k], drift[k], begin, gain));
@@ -232,7 +233,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
 
     /// A step without damping and gravity of an arm whose hub rests.
     #[inline(always)]
-    fn ring(&self, state: &mut ElasticaState<T, K>, hub: &Hub<T>) {
+    fn ring(&self, state: &mut ElasticaState<T, K>, hub: &HubState<T>) {
         let ElasticaState { y, offset, drift, .. } = state;
         let off: [[T; 2]; K] =
             core::array::from_fn(|k| self.modes[k].off(y[k], offset[k], drift[k]));
@@ -244,17 +245,17 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
 
     /// θ̇ in the middle of a tick, by cubic Hermite interpolation.
     #[inline(always)]
-    fn middle_rate(&self, before: &Hub<T>, after: &Hub<T>) -> T {
+    fn middle_rate(&self, before: &HubState<T>, after: &HubState<T>) -> T {
         T::HALF * (before.rate + after.rate)
             + self.eighth_tick * (before.acceleration - after.acceleration)
     }
 
     /// The hub in the middle of a tick.
     #[inline(always)]
-    fn middle(&self, before: &Hub<T>, after: &Hub<T>) -> Hub<T> {
+    fn middle(&self, before: &HubState<T>, after: &HubState<T>) -> HubState<T> {
         let between =
             |x: T, x_dot: T, y: T, y_dot: T| T::HALF * (x + y) + self.eighth_tick * (x_dot - y_dot);
-        Hub {
+        HubState {
             rate: self.middle_rate(before, after),
             sin: between(before.sin, before.cos * before.rate, after.sin, after.cos * after.rate),
             cos: between(
@@ -295,8 +296,8 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         self.remainder.is_directed()
     }
 
-    fn equilibrium(&self, hub: &Hub<T>) -> ElasticaState<T, K> {
-        let still = Hub { rate: T::ZERO, ..*hub };
+    fn equilibrium(&self, hub: &HubState<T>) -> ElasticaState<T, K> {
+        let still = HubState { rate: T::ZERO, ..*hub };
         let mut y = [[T::ZERO; 2]; K];
         let mut value = self.remainder.evaluate::<true, true>(&y, &still);
         // Half-way steps to the centre: contracting as long as the link carries its weight.
@@ -310,7 +311,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     #[inline(always)]
-    fn step(&self, state: &mut ElasticaState<T, K>, before: &Hub<T>, after: &Hub<T>) {
+    fn step(&self, state: &mut ElasticaState<T, K>, before: &HubState<T>, after: &HubState<T>) {
         let drive = if self.remainder.is_damped() {
             Drive::between(before, after, self.per_tick, self.alpha)
         } else {
@@ -338,8 +339,8 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     fn advance_in_cubic(
         &self,
         state: &mut ElasticaState<T, K>,
-        before: &Hub<T>,
-        after: &Hub<T>,
+        before: &HubState<T>,
+        after: &HubState<T>,
     ) -> Response<T> {
         let begin = before.acceleration;
         let gain = after.acceleration - begin;
@@ -347,7 +348,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
             Quality::Fast => self.rotate(state, begin, gain, after),
             Quality::Fine => {
                 let half = T::HALF * gain;
-                let middle = Hub { rate: self.middle_rate(before, after), ..*after };
+                let middle = HubState { rate: self.middle_rate(before, after), ..*after };
                 self.rotate(state, begin, half, &middle);
                 self.rotate(state, begin + half, half, after);
             }
@@ -356,7 +357,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     #[inline(always)]
-    fn swing(&self, state: &mut ElasticaState<T, K>, hub: &Hub<T>) {
+    fn swing(&self, state: &mut ElasticaState<T, K>, hub: &HubState<T>) {
         if !self.is_bare() {
             return self.step(state, hub, hub);
         }
@@ -367,7 +368,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     #[inline(always)]
-    fn response_at_rest(&self, state: &ElasticaState<T, K>, _: &Hub<T>) -> Response<T> {
+    fn response_at_rest(&self, state: &ElasticaState<T, K>, _: &HubState<T>) -> Response<T> {
         Response { torque: state.torque, tip: self.tip_of(state) }
     }
 
@@ -400,7 +401,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     #[inline(always)]
-    fn response(&self, state: &ElasticaState<T, K>, hub: &Hub<T>) -> Response<T> {
+    fn response(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> Response<T> {
         Response {
             torque: state.torque + state.inertia * hub.acceleration,
             tip: self.tip_of(state),

@@ -1,7 +1,7 @@
 //! The polynomials that the remainder is made of, in the scaled coordinates `xₖ = ωₖaₖ`.
 
-use crate::beam::monomials::{Exponents, Table};
 use crate::math::Scalar;
+use crate::model::rod::monomials::{Exponents, Table};
 
 /// A shape of the arm, with the powers that every polynomial needs.
 #[derive(Clone, Copy)]

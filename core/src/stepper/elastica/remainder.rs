@@ -2,10 +2,10 @@
 
 use super::polynomial::{Axial, Even, Local, Odd, Order, Shape};
 use super::reach::Reach;
-use crate::beam::monomials::{EVEN, ODD};
-use crate::beam::{Expansion, Rod};
+use crate::hub::HubState;
 use crate::math::{Scalar, cast};
-use crate::motion::Hub;
+use crate::model::rod::monomials::{EVEN, ODD};
+use crate::model::{Expansion, Rod};
 
 /// The expansion in the tick's scalar and in scaled coordinates, gravity multiplied in.
 #[derive(Clone, Copy, Debug)]
@@ -130,7 +130,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
     pub(super) fn evaluate<const ALL: bool, const TURNS: bool>(
         &self,
         y: &[[T; 2]; K],
-        hub: &Hub<T>,
+        hub: &HubState<T>,
     ) -> Value<T, K> {
         let (x, p) = self.reach.of(y);
         let shape = Shape::new(x);
@@ -194,7 +194,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
 
     /// Adds `∂V/∂x` of the weight to the gradient; returns `∂V/∂θ`.
     #[inline(always)]
-    fn weigh(&self, shape: &Shape<T, K>, hub: &Hub<T>, gradient: &mut [T; K]) -> T {
+    fn weigh(&self, shape: &Shape<T, K>, hub: &HubState<T>, gradient: &mut [T; K]) -> T {
         let (along, across) = (self.moment.0.at(shape, Order::Second), self.moment.1.slope(shape));
         let twice = hub.sin + hub.sin;
         for k in 0..K {

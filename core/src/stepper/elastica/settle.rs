@@ -1,8 +1,8 @@
 //! Whether an arm that gravity bends stays where it rests.
 
 use super::{Elastica, ElasticaState};
+use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::motion::Hub;
 use crate::stepper::Stepper;
 
 /// Sine and cosine of the hub angles that are asked for.
@@ -25,7 +25,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     }
 
     fn stays(&self, (sin, cos): (f64, f64)) -> bool {
-        let hub = Hub { sin: T::from_f64(sin), cos: T::from_f64(cos), ..Hub::ZERO };
+        let hub = HubState { sin: T::from_f64(sin), cos: T::from_f64(cos), ..HubState::ZERO };
         let rest = self.equilibrium(&hub);
         let moved = self.calm.offset(SHARE * self.bend);
         let mut state = rest;

@@ -8,8 +8,8 @@
 
 use super::{Modal, ModalState};
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::{Band, Scalar, sqrt};
-use crate::motion::Hub;
 use crate::stepper::Stepper;
 
 /// A step at a constant rate, linear: the image of each unit of coordinate, rate and force.
@@ -82,7 +82,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// turning. The link points upwards by `sin`.
     fn held(&self, rate: f64, sin: f64, plain: bool) -> Step<T, K> {
         let [rate, sin] = [rate, sin].map(T::from_f64);
-        let hub = Hub { rate, sin, cos: T::ZERO, ..Hub::ZERO };
+        let hub = HubState { rate, sin, cos: T::ZERO, ..HubState::ZERO };
         let level = Self { alpha: T::ZERO, ..*self };
         Step(core::array::from_fn(|k| {
             core::array::from_fn(|part| {

@@ -1,8 +1,8 @@
 //! The force at the end of a step that leads there.
 
 use super::Modal;
+use crate::hub::HubState;
 use crate::math::{Scalar, clip};
-use crate::motion::Hub;
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// The change of the force over a step that agrees with the coordinates it leads to, from that
@@ -14,7 +14,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// the same forwards and backwards, and neither feeds nor damps. Under gravity it is clipped to
     /// `MOST`.
     #[inline(always)]
-    pub(super) fn implied(&self, mut change: [T; K], hub: &Hub<T>) -> [T; K] {
+    pub(super) fn implied(&self, mut change: [T; K], hub: &HubState<T>) -> [T; K] {
         let rate2 = if self.terms.spin { hub.rate * hub.rate } else { T::ZERO };
         let mut stiff = self.spin.scaled(rate2);
         if self.terms.gravity {

@@ -10,8 +10,9 @@ use super::oscillator::{Drive, Oscillator};
 use super::terms::Terms;
 use super::{Response, Stepper};
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::{Band, HalfForm, Scalar, dot};
-use crate::motion::{Hub, Kink, Peaks};
+use crate::motion::{Kink, Peaks};
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
 ///
@@ -89,7 +90,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 
     /// `(−θ̇²Γa + g sinθ Πa − g cosθ f, Γa)`, over `ω`.
     #[inline(always)]
-    fn force(&self, a: &[T; K], hub: &Hub<T>) -> [[T; K]; 2] {
+    fn force(&self, a: &[T; K], hub: &HubState<T>) -> [[T; K]; 2] {
         let (mut force, mut softening) = ([T::ZERO; K], [T::ZERO; K]);
         if self.terms.spin {
             let rate2 = hub.rate * hub.rate;
@@ -107,7 +108,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 
     /// `g sinθ Πa − g cosθ f`, over `ω`.
     #[inline(always)]
-    fn hanging(&self, a: &[T; K], hub: &Hub<T>) -> [T; K] {
+    fn hanging(&self, a: &[T; K], hub: &HubState<T>) -> [T; K] {
         let mut force = self.tension.times(a);
         for k in 0..K {
             force[k] = hub.sin * force[k] - hub.cos * self.weight[k];
@@ -133,19 +134,19 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         if self.terms.spin { self.admit_rate(peaks.rate) } else { Ok(()) }
     }
 
-    fn equilibrium(&self, hub: &Hub<T>) -> ModalState<T, K> {
+    fn equilibrium(&self, hub: &HubState<T>) -> ModalState<T, K> {
         let mut stiffness = self.tension.map(|x| -(hub.sin * x));
         for k in 0..K {
             stiffness.add(k, k, T::ONE);
         }
         let coordinate = stiffness.factor().solve(&self.weight.map(|f| -(hub.cos * f)));
-        let still = Hub { rate: T::ZERO, ..*hub };
+        let still = HubState { rate: T::ZERO, ..*hub };
         let [force, softening] = self.force(&coordinate, &still);
         ModalState { coordinate, rate: [T::ZERO; K], force, softening }
     }
 
     #[inline(always)]
-    fn step(&self, state: &mut ModalState<T, K>, before: &Hub<T>, after: &Hub<T>) {
+    fn step(&self, state: &mut ModalState<T, K>, before: &HubState<T>, after: &HubState<T>) {
         let drive = if self.terms.damping {
             Drive::between(before, after, self.per_tick, self.alpha)
         } else {
@@ -197,8 +198,8 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     fn advance_in_cubic(
         &self,
         state: &mut ModalState<T, K>,
-        before: &Hub<T>,
-        after: &Hub<T>,
+        before: &HubState<T>,
+        after: &HubState<T>,
     ) -> Response<T> {
         let gained = after.acceleration - before.acceleration;
         let mut y = [[T::ZERO; 2]; K];
@@ -229,7 +230,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     #[inline(always)]
-    fn swing(&self, state: &mut ModalState<T, K>, hub: &Hub<T>) {
+    fn swing(&self, state: &mut ModalState<T, K>, hub: &HubState<T>) {
         let mut y = [[T::ZERO; 2]; K];
         for k in 0..K {
             y[k] = [state.coordinate[k], state.rate[k]];
@@ -248,7 +249,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     #[inline(always)]
-    fn response_at_rest(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
+    fn response_at_rest(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> Response<T> {
         let mut torque = self.inertial(state, T::ZERO);
         if self.terms.damping {
             torque += -dot(&self.loss, &state.rate);
@@ -273,7 +274,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ
     /// − ½ g cosθ aᵀΠa` with `u = θ̈ + αθ̇`; tip `(r + L − ½ aᵀΦᵀSΦa, ψ(L)ᵀa)`.
     #[inline(always)]
-    fn response(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> Response<T> {
+    fn response(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> Response<T> {
         let mut u = hub.acceleration;
         let mut torque = self.inertial(state, u);
         if self.terms.damping {

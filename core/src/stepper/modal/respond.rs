@@ -1,8 +1,8 @@
 //! What the state means to the hub and at the tip.
 
 use super::{Modal, ModalState};
+use crate::hub::HubState;
 use crate::math::{Scalar, dot};
-use crate::motion::Hub;
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// `(J_h + J_r − bᵀb)θ̈ + bᵀ(ä + bu + αȧ + βω²ȧ)`: the drive and the drag cancel, and the force less
@@ -29,7 +29,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 
     /// `g cosθ S − g sinθ fᵀa − ½ g cosθ aᵀΠa`.
     #[inline(always)]
-    pub(super) fn weight_torque(&self, state: &ModalState<T, K>, hub: &Hub<T>) -> T {
+    pub(super) fn weight_torque(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> T {
         let a = &state.coordinate;
         hub.cos * (self.moment - self.bent.at(a)) - hub.sin * dot(&self.weight, a)
     }

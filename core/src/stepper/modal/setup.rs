@@ -2,8 +2,8 @@
 
 use super::Modal;
 use crate::Error;
-use crate::beam::{Model, Modes};
 use crate::math::{Band, Scalar, cast, dot};
+use crate::model::{Model, Modes};
 use crate::stepper::kicks::Kicks;
 use crate::stepper::oscillator::{Oscillator, check_turns, jolt};
 use crate::stepper::terms::Terms;

@@ -30,9 +30,10 @@ mod solve;
 use super::terms::Terms;
 use super::{Response, Stepper};
 use crate::Error;
-use crate::beam::Model;
+use crate::hub::HubState;
 use crate::math::{Band, HalfForm, Ldl, Scalar, dot};
-use crate::motion::{Hub, Kink, Peaks};
+use crate::model::Model;
+use crate::motion::{Kink, Peaks};
 
 /// Newmark stepper for `N` degrees of freedom in bands of width `W`.
 ///
@@ -180,14 +181,14 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
         Err(Error::TooFast { rate: peaks.rate, max })
     }
 
-    fn equilibrium(&self, hub: &Hub<T>) -> Vibration<T, N> {
+    fn equilibrium(&self, hub: &HubState<T>) -> Vibration<T, N> {
         let load = self.weight.map(|f| -hub.cos * f);
         let deflection = self.stiffness.plus(-hub.sin, &self.tension).factor().solve(&load);
         Vibration { deflection, gain: [T::ZERO; N], restoring: [T::ZERO; N] }
     }
 
     #[inline(always)]
-    fn step(&self, state: &mut Vibration<T, N>, before: &Hub<T>, after: &Hub<T>) {
+    fn step(&self, state: &mut Vibration<T, N>, before: &HubState<T>, after: &HubState<T>) {
         let (q, d) = self.predict(state, after.rate - before.rate);
         let restoring = self.solve(&q, &d, after);
         *state = Self::correct(q, d, restoring);
@@ -210,8 +211,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     fn advance_in_cubic(
         &self,
         state: &mut Vibration<T, N>,
-        before: &Hub<T>,
-        after: &Hub<T>,
+        before: &HubState<T>,
+        after: &HubState<T>,
     ) -> Response<T> {
         let (q, d) = self.predict(state, after.rate - before.rate);
         let restoring = self.solve_turning(self.stiff(&q), &q, after.rate);
@@ -225,7 +226,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     }
 
     #[inline(always)]
-    fn swing(&self, state: &mut Vibration<T, N>, hub: &Hub<T>) {
+    fn swing(&self, state: &mut Vibration<T, N>, hub: &HubState<T>) {
         let (mut q, mut d) = (state.deflection, state.gain);
         for i in 0..N {
             let d0 = d[i];
@@ -254,7 +255,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     }
 
     #[inline(always)]
-    fn response_at_rest(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
+    fn response_at_rest(&self, state: &Vibration<T, N>, hub: &HubState<T>) -> Response<T> {
         let mut torque = dot(&self.coupling, &state.restoring);
         if self.terms.damping {
             torque += dot(&self.drag_torque, &state.gain);
@@ -281,7 +282,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     /// − (θ̈ + αθ̇) qᵀGq − 2θ̇ qᵀGq̇ − ½ g cosθ qᵀK_P q`, of second order in `q`;
     /// tip `(r + L − ½ qᵀSq, w(L))`.
     #[inline(always)]
-    fn response(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> Response<T> {
+    fn response(&self, state: &Vibration<T, N>, hub: &HubState<T>) -> Response<T> {
         let mut forced = hub.acceleration;
         let mut torque = self.inertial(state, hub.acceleration);
         if self.terms.damping {

@@ -1,8 +1,8 @@
 //! What the state means to the hub and at the tip.
 
 use super::{Newmark, Vibration};
+use crate::hub::HubState;
 use crate::math::{Scalar, dot};
-use crate::motion::Hub;
 
 impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
     /// `(J_h + J_r − Fᵀb) θ̈ + Fᵀv̇`.
@@ -25,7 +25,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
 
     /// `g cosθ S − g sinθ f_gᵀq − ½ g cosθ qᵀK_P q`.
     #[inline(never)]
-    pub(super) fn weight_torque(&self, state: &Vibration<T, N>, hub: &Hub<T>) -> T {
+    pub(super) fn weight_torque(&self, state: &Vibration<T, N>, hub: &HubState<T>) -> T {
         let q = &state.deflection;
         hub.cos * (self.moment - self.bent.at(q)) - hub.sin * dot(&self.weight, q)
     }

@@ -2,8 +2,8 @@
 
 use super::Newmark;
 use crate::Error;
-use crate::beam::Model;
 use crate::math::{Band, Scalar, cast, dot, principal_axes, root, round};
+use crate::model::Model;
 use crate::stepper::terms::Terms;
 use crate::stepper::{MOST, SLEEP, check_tick};
 

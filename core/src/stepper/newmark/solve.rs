@@ -1,8 +1,8 @@
 //! The implicit step: `q*` and `d*`, and what restores them.
 
 use super::{Newmark, Vibration};
+use crate::hub::HubState;
 use crate::math::{Band, Scalar, clip};
-use crate::motion::Hub;
 
 impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
     /// `K q`.
@@ -62,7 +62,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     /// `c` from `[4/h² M + 2/h C + K_t] c = K_t q + 2/h C d + αFθ̇ + g cosθ f_g`, with
     /// `K_t = K + θ̇²G − g sinθ K_P`; the factors of set-up serve while `K_t` is `K`.
     #[inline(always)]
-    pub(super) fn solve(&self, q: &[T; N], d: &[T; N], hub: &Hub<T>) -> [T; N] {
+    pub(super) fn solve(&self, q: &[T; N], d: &[T; N], hub: &HubState<T>) -> [T; N] {
         let mut force = self.stiff(q);
         self.damp(&mut force, d, hub.rate);
         let turns = self.terms.spin && hub.rate != T::ZERO;

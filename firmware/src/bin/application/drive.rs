@@ -1,9 +1,9 @@
 //! Frames to the drives and from them. ODrive CAN simple; another protocol of `stillbeam::drive`
 //! goes in here.
 
-use stillbeam::axis::{Mode, Tick};
+use stillbeam::axis::{Freshness, Mode, Sequence, Tick};
 use stillbeam::drive::odrive::{Node, TORQUE_STEP};
-use stillbeam::drive::{ClassicFrame, Freshness, Sequence, TorquePeak};
+use stillbeam::drive::{ClassicFrame, TorquePeak};
 
 use crate::axes::{AXES, CONFIGURATIONS};
 use crate::board::{BusReader, BusWriter};

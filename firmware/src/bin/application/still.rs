@@ -4,7 +4,7 @@
 
 #[cfg(feature = "still")]
 mod planner {
-    use stillbeam::motion::Still;
+    use stillbeam::planner::Still;
     use stillbeam::{Departure, Error, Planned};
 
     use crate::axes::{AXES, TICK};

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 use stillbeam::Scene;
-use stillbeam::motion::Hub;
+use stillbeam::hub::HubState;
 
 use super::block::Chain;
 use super::element::Element;
@@ -57,7 +57,7 @@ impl Model {
     }
 
     /// u_m + u_d: the rigid motion with the hub, exact in time, and the deformation.
-    pub fn place(&self, hub: &Hub<f64>, deformation: &Deformation, nodes: &mut [Node]) {
+    pub fn place(&self, hub: &HubState<f64>, deformation: &Deformation, nodes: &mut [Node]) {
         // Whole turns are left out: only directions are ever taken from it.
         let angle = TAU * hub.angle.part;
         let (sin, cos) = (hub.sin, hub.cos);
@@ -107,7 +107,7 @@ impl Model {
 
     /// Hub torque, N m: the first node's reaction, moment and force carried to the axis, and
     /// `J_h θ̈`.
-    pub fn torque(&self, reaction: &Vector3<f64>, clamp: &Node, hub: &Hub<f64>) -> f64 {
+    pub fn torque(&self, reaction: &Vector3<f64>, clamp: &Node, hub: &HubState<f64>) -> f64 {
         reaction.z + clamp.q.x * reaction.y - clamp.q.y * reaction.x
             + self.scene.hub.inertia * hub.acceleration
     }

@@ -1,7 +1,7 @@
 //! Newmark's rule with equilibrium iterations.
 
 use nalgebra::Vector3;
-use stillbeam::motion::Hub;
+use stillbeam::hub::HubState;
 
 use super::block::Chain;
 use super::model::Model;
@@ -41,9 +41,9 @@ impl March {
     }
 
     /// Moves to the static equilibrium at the hub's angle.
-    pub fn settle(&mut self, hub: &Hub<f64>) -> Result<(), ReferenceError> {
+    pub fn settle(&mut self, hub: &HubState<f64>) -> Result<(), ReferenceError> {
         let gravity = self.model.gravity;
-        let still = Hub { rate: 0.0, acceleration: 0.0, ..*hub };
+        let still = HubState { rate: 0.0, acceleration: 0.0, ..*hub };
         let change = Change { displacement: 1.0, rate: 0.0, acceleration: 0.0 };
         let unstable = ReferenceError::NoEquilibrium { angle: hub.angle.radians() };
         for step in 1..=LOAD_STEPS {
@@ -62,7 +62,7 @@ impl March {
 
     /// Accelerations anew from displacements and velocities, where the commanded acceleration
     /// jumps to that of `hub`. Carrying the old ones across would cost the rule its second order.
-    pub fn restart(&mut self, hub: &Hub<f64>, time: f64) -> Result<(), ReferenceError> {
+    pub fn restart(&mut self, hub: &HubState<f64>, time: f64) -> Result<(), ReferenceError> {
         self.next.clone_from(&self.state);
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
         self.equilibrate(hub, &change, time)?;
@@ -72,7 +72,7 @@ impl March {
 
     /// A step of h s to the time at which the hub is as given: `u⁺ = u + h u̇ + ¼h²(ü + ü⁺)`,
     /// `u̇⁺ = u̇ + ½h(ü + ü⁺)` (δ = 1/2, β = 1/4) of the deformation u_d, iterated to equilibrium.
-    pub fn step(&mut self, hub: &Hub<f64>, time: f64, h: f64) -> Result<(), ReferenceError> {
+    pub fn step(&mut self, hub: &HubState<f64>, time: f64, h: f64) -> Result<(), ReferenceError> {
         for i in 1..self.nodes.len() {
             let (u, v, a) = (self.state.u[i], self.state.v[i], self.state.a[i]);
             self.next.u[i] = u + h * v + 0.5 * h * h * a;
@@ -88,7 +88,7 @@ impl March {
     /// Newton's method on `next`, moved along `change`.
     fn equilibrate(
         &mut self,
-        hub: &Hub<f64>,
+        hub: &HubState<f64>,
         change: &Change,
         time: f64,
     ) -> Result<(), ReferenceError> {
@@ -119,7 +119,7 @@ impl March {
     }
 
     /// The arm as it is now, its hub as given.
-    pub fn sample(&mut self, t: f64, hub: &Hub<f64>) -> Sample {
+    pub fn sample(&mut self, t: f64, hub: &HubState<f64>) -> Sample {
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
         self.model.place(hub, &self.state, &mut self.nodes);
         self.model.residual(&self.nodes, &change, &mut self.residual, &mut self.tangent);

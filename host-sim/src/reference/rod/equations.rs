@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, SMatrix, SVector};
 use stillbeam::Scene;
-use stillbeam::motion::Hub;
+use stillbeam::hub::HubState;
 
 use super::legendre::{Basis, POINTS, STATIONS};
 
@@ -105,7 +105,7 @@ impl<const N: usize> Rod<N> {
         at: &Configuration<N>,
         s: usize,
         v: &SVector<f64, N>,
-        hub: &Hub<f64>,
+        hub: &HubState<f64>,
     ) -> [f64; 2] {
         let [x, y, cx, cy] = at.rest[s];
         let (mut xd, mut yd) = (0.0, 0.0);
@@ -132,7 +132,7 @@ impl<const N: usize> Rod<N> {
         at: &Configuration<N>,
         a: &SVector<f64, N>,
         v: &SVector<f64, N>,
-        hub: &Hub<f64>,
+        hub: &HubState<f64>,
     ) -> SVector<f64, N> {
         let tip = &self.basis.tip;
         let turning = self.turning(v, hub);
@@ -154,7 +154,7 @@ impl<const N: usize> Rod<N> {
     }
 
     /// `αΣψⱼ(L)ȧⱼ + θ̈ + αθ̇`: the payload's angular acceleration but for ä, drag included.
-    fn turning(&self, v: &SVector<f64, N>, hub: &Hub<f64>) -> f64 {
+    fn turning(&self, v: &SVector<f64, N>, hub: &HubState<f64>) -> f64 {
         let alpha = self.scene.damping.alpha;
         let spin: f64 = (0..N).map(|k| self.basis.tip[k] * v[k]).sum();
         alpha * (spin + hub.rate) + hub.acceleration
@@ -169,7 +169,7 @@ impl<const N: usize> Rod<N> {
         at: &Configuration<N>,
         v: &SVector<f64, N>,
         acceleration: &SVector<f64, N>,
-        hub: &Hub<f64>,
+        hub: &HubState<f64>,
     ) -> [f64; 2] {
         let tip = &self.basis.tip;
         let spin: f64 = (0..N).map(|k| tip[k] * acceleration[k]).sum();

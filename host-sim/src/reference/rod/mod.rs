@@ -12,7 +12,7 @@ mod march;
 mod statics;
 
 use equations::Rod;
-use stillbeam::motion::Hub;
+use stillbeam::hub::HubState;
 use stillbeam::{Angle, Scene};
 
 use super::schedule::Schedule;
@@ -143,7 +143,7 @@ pub fn rest_loads(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], Referenc
         .equilibrium(sin, cos)
         .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
     let still = a.map(|_| 0.0);
-    let hub = Hub { angle, rate: 0.0, acceleration: 0.0, sin, cos };
+    let hub = HubState { angle, rate: 0.0, acceleration: 0.0, sin, cos };
     Ok(rod.loads(&rod.configuration(&a, &still), &still, &still, &hub))
 }
 

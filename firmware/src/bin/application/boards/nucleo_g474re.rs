@@ -26,7 +26,8 @@ use embassy_stm32::wdg::IndependentWatchdog;
 use embassy_stm32::{Config, bind_interrupts, interrupt as handler};
 use embassy_sync::blocking_mutex::CriticalSectionMutex;
 use embedded_can::Frame;
-use stillbeam::drive::{ClassicFrame, Sequence};
+use stillbeam::axis::Sequence;
+use stillbeam::drive::ClassicFrame;
 
 use crate::tick::MICROSECONDS;
 

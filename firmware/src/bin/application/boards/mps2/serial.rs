@@ -5,7 +5,8 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use embassy_futures::yield_now;
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::pipe::Pipe;
-use stillbeam::drive::{ClassicFrame, Sequence};
+use stillbeam::axis::Sequence;
+use stillbeam::drive::ClassicFrame;
 use stillbeam_protocol::slcan;
 
 use crate::tick::MICROSECONDS;

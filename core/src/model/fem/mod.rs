@@ -1,0 +1,10 @@
+//! The elements' matrices, assembled, and the modes that follow from them.
+
+mod assembly;
+mod element;
+mod lumped;
+mod model;
+mod modes;
+
+pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
+pub use modes::Modes;

@@ -1,0 +1,235 @@
+//! The inextensible rod by the angles at a few points: exact kinematics in the modes, in the
+//! scalar of the tick.
+//!
+//! With `φ_p = Σ aₖψₖ(ξ_p)` the position is `r (1, 0) + ∫ (cos φ, sin φ)`, and every integral of two
+//! of them over the mass is a sum over pairs of points with constant weights
+//! `W_pq = ∫ρA I_p I_q dx + m_p I_p(L) I_q(L)`, `I_p` the integrals of the Lagrange polynomials.
+
+use super::{Rod, legendre, rule};
+use crate::hub::HubState;
+use crate::math::{Band, Scalar, cast, dot};
+
+/// Gauss points: six follow moves that bend by a radian.
+const POINTS: usize = 6;
+
+/// `(x, weight)` of the Gauss-Legendre rule on −1..1, upper half.
+const HALF_RULE: [(f64, f64); POINTS / 2] = [
+    (0.238_619_186_083_196_9, 0.467_913_934_572_691),
+    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+    (0.932_469_514_203_152, 0.171_324_492_379_170_4),
+];
+
+/// What does not depend on the stiffness of a rod in `K` modes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Chain<T, const K: usize> {
+    /// `W_pq`, `q ≤ p`.
+    pairs: [[T; POINTS]; POINTS],
+    /// `∫ρA I_p dx + m_p I_p(L)`.
+    first: [T; POINTS],
+    /// `ψₖ` at the points, and at the tip.
+    slope: [[T; K]; POINTS],
+    tip_slope: [T; K],
+    /// `I_p(L)`.
+    to_tip: [T; POINTS],
+    radius: T,
+    mass: T,
+    gravity: T,
+    alpha: T,
+    payload_inertia: T,
+    hub_inertia: T,
+}
+
+/// A shape and its motion at one instant: sine and cosine at the points, `χ̇ = θ̇ + φ̇`, and the
+/// accelerations that hold no ä.
+struct Points<T> {
+    sin: [T; POINTS],
+    cos: [T; POINTS],
+    /// `χ̇²`.
+    spin: [T; POINTS],
+    /// `θ̈ + αχ̇`.
+    turn: [T; POINTS],
+    /// At the clamp, weight included: hub axes.
+    root: [T; 2],
+}
+
+/// What the arm does to its hub.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Load<T> {
+    /// Hub torque, N m.
+    pub torque: T,
+    /// Bending moment at the clamp, N m.
+    pub moment: T,
+    /// The tip in the hub frame, m.
+    pub tip: [T; 2],
+}
+
+impl<T: Scalar, const K: usize> Chain<T, K> {
+    pub fn new(rod: &Rod<K>) -> Self {
+        let scene = rod.scene();
+        let length = scene.link.length;
+        let at: [(f64, f64); POINTS] = core::array::from_fn(|p| {
+            let (x, weight) = HALF_RULE[p % (POINTS / 2)];
+            (0.5 * (1.0 + if p < POINTS / 2 { x } else { -x }), 0.5 * weight)
+        });
+        // Of the interpolation through the points: Σ (2j + 1) w_p P_j(ξ_p) ∫₀^ξ P_j.
+        let integral = |p: usize, xi: f64| -> f64 {
+            let (here, there) =
+                (legendre::<{ POINTS + 1 }>(at[p].0), legendre::<{ POINTS + 1 }>(xi));
+            let sum: f64 = (0..POINTS)
+                .map(|j| match j {
+                    0 => xi,
+                    _ => here[j] * 0.5 * (there[j + 1] - there[j - 1]),
+                })
+                .sum();
+            length * at[p].1 * sum
+        };
+        let (nodes, weights) = rule();
+        let over_link = |f: &dyn Fn(f64) -> f64| -> f64 {
+            scene.link.mass * nodes.iter().zip(&weights).map(|(&xi, w)| w * f(xi)).sum::<f64>()
+        };
+        let payload = scene.payload;
+        let pair = |p: usize, q: usize| {
+            over_link(&|xi| integral(p, xi) * integral(q, xi))
+                + payload.mass * integral(p, 1.0) * integral(q, 1.0)
+        };
+        let f = T::from_f64;
+        Self {
+            pairs: core::array::from_fn(|p| {
+                core::array::from_fn(|q| if q <= p { f(pair(p, q)) } else { T::ZERO })
+            }),
+            first: core::array::from_fn(|p| {
+                f(over_link(&|xi| integral(p, xi)) + payload.mass * integral(p, 1.0))
+            }),
+            slope: at.map(|(xi, _)| cast(&rod.slopes_at(xi))),
+            tip_slope: cast(rod.tip_slope()),
+            to_tip: core::array::from_fn(|p| f(integral(p, 1.0))),
+            radius: f(scene.hub.radius),
+            mass: f(scene.link.mass + payload.mass),
+            gravity: f(scene.gravity),
+            alpha: f(scene.damping.alpha),
+            payload_inertia: f(payload.inertia),
+            hub_inertia: f(scene.hub.inertia),
+        }
+    }
+
+    /// `ä` of the modes with squared frequencies `stiffness` and `loss = β ω²`, for coordinates
+    /// `a`, their rates `v` and a hub.
+    pub fn acceleration(
+        &self,
+        a: &[T; K],
+        v: &[T; K],
+        hub: &HubState<T>,
+        stiffness: &[T; K],
+        loss: &[T; K],
+    ) -> [T; K] {
+        let points = self.points(a, v, hub);
+        let (force, mass) = self.forces(&points);
+        let turning = self.payload_inertia
+            * (hub.acceleration + self.alpha * (hub.rate + dot(&self.tip_slope, v)));
+        let right: [T; K] = core::array::from_fn(|i| {
+            let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
+            for p in 0..POINTS {
+                sum -= self.slope[p][i] * force[p];
+            }
+            sum
+        });
+        mass.factor().solve(&right)
+    }
+
+    /// Torque, bending moment and tip, `acceleration` being ä.
+    pub fn load(
+        &self,
+        a: &[T; K],
+        v: &[T; K],
+        acceleration: &[T; K],
+        hub: &HubState<T>,
+    ) -> Load<T> {
+        let mut points = self.points(a, v, hub);
+        for p in 0..POINTS {
+            points.turn[p] += dot(&self.slope[p], acceleration);
+        }
+        let (force, _) = self.forces(&points);
+        let spin =
+            dot(&self.tip_slope, acceleration) + self.alpha * (hub.rate + dot(&self.tip_slope, v));
+        let mut moment = self.payload_inertia * (hub.acceleration + spin);
+        let mut shear = self.mass * points.root[1];
+        let mut tip = [self.radius, T::ZERO];
+        for p in 0..POINTS {
+            moment += force[p];
+            shear +=
+                self.first[p] * (points.turn[p] * points.cos[p] - points.spin[p] * points.sin[p]);
+            tip[0] += self.to_tip[p] * points.cos[p];
+            tip[1] += self.to_tip[p] * points.sin[p];
+        }
+        let torque = moment + self.radius * shear + self.hub_inertia * hub.acceleration;
+        Load { torque, moment, tip }
+    }
+
+    /// `∂Y/∂aₖ` of the straight link's tip, m.
+    pub fn tip_swing(&self) -> [T; K] {
+        core::array::from_fn(|k| {
+            let mut sum = T::ZERO;
+            for p in 0..POINTS {
+                sum += self.to_tip[p] * self.slope[p][k];
+            }
+            sum
+        })
+    }
+
+    fn points(&self, a: &[T; K], v: &[T; K], hub: &HubState<T>) -> Points<T> {
+        let mut points = Points {
+            sin: [T::ZERO; POINTS],
+            cos: [T::ZERO; POINTS],
+            spin: [T::ZERO; POINTS],
+            turn: [T::ZERO; POINTS],
+            root: [
+                self.gravity * hub.sin - self.radius * hub.rate * hub.rate,
+                self.gravity * hub.cos + self.radius * (hub.acceleration + self.alpha * hub.rate),
+            ],
+        };
+        let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
+        for p in 0..POINTS {
+            (points.sin[p], points.cos[p]) = (per_radian * dot(&self.slope[p], a)).sin_cos_turns();
+            let rate = hub.rate + dot(&self.slope[p], v);
+            points.spin[p] = rate * rate;
+            points.turn[p] = hub.acceleration + self.alpha * rate;
+        }
+        points
+    }
+
+    /// Of each point, what all the others and the clamp put on it; and the mass matrix.
+    #[inline(always)]
+    fn forces(&self, points: &Points<T>) -> ([T; POINTS], Band<T, K, K>) {
+        let Points { sin, cos, spin, turn, root } = points;
+        let mut mass = Band::<T, K, K>::ZERO;
+        for i in 0..K {
+            for j in 0..=i {
+                mass.add(i, j, self.payload_inertia * self.tip_slope[i] * self.tip_slope[j]);
+            }
+        }
+        let mut force = [T::ZERO; POINTS];
+        for p in 0..POINTS {
+            force[p] +=
+                self.pairs[p][p] * turn[p] + self.first[p] * (cos[p] * root[1] - sin[p] * root[0]);
+            for i in 0..K {
+                for j in 0..=i {
+                    mass.add(i, j, self.pairs[p][p] * self.slope[p][i] * self.slope[p][j]);
+                }
+            }
+            for q in 0..p {
+                let along = self.pairs[p][q] * (cos[p] * cos[q] + sin[p] * sin[q]);
+                let across = self.pairs[p][q] * (sin[p] * cos[q] - cos[p] * sin[q]);
+                force[p] += along * turn[q] + across * spin[q];
+                force[q] += along * turn[p] - across * spin[p];
+                for i in 0..K {
+                    for j in 0..=i {
+                        let both = self.slope[p][i] * self.slope[q][j]
+                            + self.slope[q][i] * self.slope[p][j];
+                        mass.add(i, j, along * both);
+                    }
+                }
+            }
+        }
+        (force, mass)
+    }
+}

@@ -1,0 +1,199 @@
+//! An arm flown through a move in its exact kinematics.
+
+use core::f64::consts::TAU;
+
+use super::effort::Oscillation;
+use super::{MAX_ARMS, Path};
+use crate::Error;
+use crate::hub::HubState;
+use crate::math::{Scalar, cast, sqrt};
+use crate::model::{Chain, Load, Rod};
+use crate::motion::Segment;
+use crate::stepper::{Drive, Flex, Oscillator};
+
+/// The modes of one arm that a move is planned for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arm<T, const K: usize> {
+    modes: [Oscillator<T>; K],
+    /// `ω²`, `βω²`, `b`.
+    stiffness: [T; K],
+    loss: [T; K],
+    coupling: [T; K],
+    /// The modes, as the linear part of a plan sees them.
+    pub oscillation: [Oscillation<T>; K],
+    alpha: T,
+    /// `∂Y/∂a` of the tip over L, of each mode, and it over ω.
+    swing: [[T; 2]; K],
+    /// `ω`.
+    frequency: [T; K],
+}
+
+/// Arms for flights in steps of one length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stride<T, const K: usize> {
+    /// The scene's own, the outer ones of a robust planner.
+    pub arms: [Arm<T, K>; MAX_ARMS],
+    /// Steps in a tick.
+    pub steps: u32,
+    /// 1/s.
+    pub per_step: T,
+}
+
+impl<T: Scalar, const K: usize> Stride<T, K> {
+    /// The outer arms at `1 ± aside` of the frequency. A step turns the highest mode and the first by
+    /// at most `radians`.
+    pub fn new(rod: &Rod<K>, tick: f64, aside: f64, radians: [f64; 2]) -> Result<Self, Error> {
+        let omega = rod.frequency();
+        let turns = (omega[K - 1] * (1.0 + aside) / radians[0]).max(omega[0] / radians[1]);
+        let steps = libm::ceil(turns * tick).clamp(1.0, 1024.0);
+        let step = tick / steps;
+        let arm = |factor: f64| {
+            let mut scene = *rod.scene();
+            scene.link.bending_stiffness *= factor * factor;
+            Arm::new(&Rod::new(&scene)?, step)
+        };
+        let own = Arm::new(rod, step)?;
+        let arms =
+            if aside > 0.0 { [own, arm(1.0 - aside)?, arm(1.0 + aside)?] } else { [own; MAX_ARMS] };
+        Ok(Self { arms, steps: steps as u32, per_step: T::from_f64(1.0 / step) })
+    }
+
+    /// The path in the steps of a flight.
+    pub fn fine(&self, path: &Path) -> Path {
+        let steps = self.steps;
+        Path { ticks: path.ticks * steps, tick: path.tick / f64::from(steps), ..*path }
+    }
+}
+
+impl<T: Scalar, const K: usize> Arm<T, K> {
+    /// For steps of `step` s.
+    pub fn new(rod: &Rod<K>, step: f64) -> Result<Self, Error> {
+        let damping = rod.scene().damping;
+        let omega = *rod.frequency();
+        let coupling = rod.kinetics(&[0.0; K]).coupling;
+        let swing = |k: usize| rod.tip_swing()[k] / rod.scene().link.length;
+        let f = T::from_f64;
+        Ok(Self {
+            modes: core::array::from_fn(|k| {
+                Oscillator::new(omega[k], damping.alpha, damping.beta, coupling[k], step)
+            }),
+            stiffness: cast(&omega.map(|w| w * w)),
+            loss: cast(&omega.map(|w| damping.beta * w * w)),
+            coupling: cast(&coupling),
+            oscillation: core::array::from_fn(|k| {
+                let w = omega[k];
+                let decay = 0.5 * (damping.alpha + damping.beta * w * w);
+                let damped = sqrt((w * w - decay * decay).max(0.01 * w * w));
+                Oscillation {
+                    decay,
+                    damped,
+                    ratio: [f(decay / damped), f(w / damped)],
+                    gain: f(swing(k) * coupling[k] / w),
+                    alpha: f(damping.alpha),
+                }
+            }),
+            alpha: f(damping.alpha),
+            swing: core::array::from_fn(|k| [f(swing(k)), f(swing(k) / omega[k])]),
+            frequency: cast(&omega),
+        })
+    }
+
+    /// `2π/ω₁`, s.
+    pub fn first_period(&self) -> f64 {
+        TAU / self.frequency[0].to_f64()
+    }
+
+    /// Deflection of the tip and its rate over ω, by mode `k`, away from `rest`; of L.
+    pub fn amplitudes(&self, k: usize, at: &Flex<T, K>, rest: &Flex<T, K>) -> [T; 2] {
+        [
+            self.swing[k][0] * (at.coordinate[k] - rest.coordinate[k]),
+            self.swing[k][1] * (at.rate[k] - rest.rate[k]),
+        ]
+    }
+
+    /// Static equilibrium with the hub at rest as it is.
+    pub fn rest(&self, chain: &Chain<T, K>, hub: &HubState<T>) -> Flex<T, K> {
+        let still = HubState { rate: T::ZERO, acceleration: T::ZERO, ..*hub };
+        let mut flex = Flex::STRAIGHT;
+        for _ in 0..HALVINGS {
+            let excess = self.excess(chain, &flex, &still);
+            for k in 0..K {
+                let next = excess[k] / self.stiffness[k];
+                flex.coordinate[k] = T::HALF * (flex.coordinate[k] + next);
+            }
+        }
+        flex
+    }
+
+    /// The arm after `steps` steps along the curve. `watch` sees the arm at every step.
+    pub fn fly(
+        &self,
+        chain: &Chain<T, K>,
+        per_step: T,
+        curve: &Segment<T>,
+        steps: u32,
+        from: &Flex<T, K>,
+        mut watch: impl FnMut(&Flex<T, K>, &HubState<T>),
+    ) -> Flex<T, K> {
+        let mut flex = *from;
+        let mut hub = curve.hub(0);
+        let mut force = self.excess(chain, &flex, &hub);
+        let mut change = [T::ZERO; K];
+        for k in 1..=steps {
+            let after = curve.hub(k);
+            let drive = Drive::between(&hub, &after, per_step, self.alpha);
+            let mut y = [[T::ZERO; 2]; K];
+            for k in 0..K {
+                let at = [flex.coordinate[k], flex.rate[k]];
+                y[k] = self.modes[k].predict(at, &drive, [T::ZERO, force[k]], [T::ZERO, change[k]]);
+            }
+            let guess = Flex { coordinate: y.map(|y| y[0]), rate: y.map(|y| y[1]) };
+            let next = self.excess(chain, &guess, &after);
+            for k in 0..K {
+                let new = next[k] - force[k];
+                let [a, v] = self.modes[k].correct(y[k], [T::ZERO, new - change[k]]);
+                (flex.coordinate[k], flex.rate[k]) = (a, v);
+                change[k] = new;
+            }
+            (force, hub) = (next, after);
+            watch(&flex, &hub);
+        }
+        flex
+    }
+
+    /// Torque, bending moment and tip.
+    pub fn load(&self, chain: &Chain<T, K>, flex: &Flex<T, K>, hub: &HubState<T>) -> Load<T> {
+        let Flex { coordinate, rate } = flex;
+        let acceleration = chain.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
+        chain.load(coordinate, rate, &acceleration, hub)
+    }
+
+    /// Amplitude of the tip's deflection if the arm rings on about `rest`, all modes in step, m.
+    pub fn ringing(&self, chain: &Chain<T, K>, at: &Flex<T, K>, rest: &Flex<T, K>) -> f64 {
+        let tip = chain.tip_swing();
+        let mut sum = 0.0;
+        for k in 0..K {
+            let a = (at.coordinate[k] - rest.coordinate[k]).to_f64();
+            let v = (at.rate[k] / self.frequency[k]).to_f64();
+            sum += tip[k].to_f64().abs() * sqrt(a * a + v * v);
+        }
+        sum
+    }
+
+    /// `ä` beyond the linear oscillators'.
+    #[inline(always)]
+    fn excess(&self, chain: &Chain<T, K>, flex: &Flex<T, K>, hub: &HubState<T>) -> [T; K] {
+        let Flex { coordinate: a, rate: v } = flex;
+        let exact = chain.acceleration(a, v, hub, &self.stiffness, &self.loss);
+        let drive = hub.acceleration + self.alpha * hub.rate;
+        core::array::from_fn(|k| {
+            exact[k]
+                + self.stiffness[k] * a[k]
+                + (self.alpha + self.loss[k]) * v[k]
+                + self.coupling[k] * drive
+        })
+    }
+}
+
+/// Halvings of the distance to an equilibrium.
+const HALVINGS: usize = 30;

@@ -1,0 +1,327 @@
+//! The exact rod in all its modes, integrated in small steps: what the rungs are judged by.
+
+use crate::hub::HubState;
+use crate::math::{Band, Scalar, cast, dot, round};
+use crate::model::{POINTS, Rod};
+
+/// The points of the link, and the tip.
+const STATIONS: usize = POINTS + 1;
+
+/// Most steps a tick.
+const MAX_STEPS: f64 = 128.0;
+
+/// Steps of a whole flight beyond which a step is made no shorter than the second mode asks for, nor
+/// than a [`FEWEST`]th of a tick. On a host they take a quarter of a second.
+const STEPS: f64 = 60_000.0;
+
+/// Steps a tick that are affordable however long the flight.
+const FEWEST: f64 = 32.0;
+
+/// What a step may turn a mode by, rad, and decay it by: the method bears 2.8. The second highest of
+/// six modes is held to it; the third then turns by 0.4, and its phase errs by 1e-4 of that.
+const MOST: f64 = 1.5;
+
+/// What a step may turn a mode by, rad, so that its ringing is followed rather than damped away: it
+/// then keeps 0.998 of itself.
+const RESOLVED: f64 = 0.8;
+
+/// Distance from rest, fraction of L, below which an arm whose hub rests is left as it is.
+const STILL: f64 = 1e-7;
+
+/// Halvings of the distance to the equilibrium.
+const EQUILIBRIUM_STEPS: usize = 60;
+
+/// Coordinates `a` and rates `v` in the modes of [`Rod`].
+#[derive(Clone, Copy)]
+pub(super) struct Shape<T, const MODES: usize> {
+    a: [T; MODES],
+    v: [T; MODES],
+}
+
+/// `φ = Σ aₖψₖ`, `X = r + ∫cos φ`, `Y = ∫sin φ` at eight Gauss points and the tip, Lagrange's
+/// equations without an expansion in `a`, classical Runge-Kutta of fourth order.
+///
+/// The steps are made for the second highest mode, or where a flight of so many ticks would take more
+/// than [`STEPS`] of them, for as high a mode as it affords, the second in most cases. Every mode that the steps
+/// do not resolve, or whose decay they do not, is given as much more inertia as makes it bearable: it
+/// still follows its load, many periods a tick.
+///
+/// Hub torque and clamp moment are those of the inertia forces, drag and weight about the axis and about
+/// the clamp, `τ = J_hθ̈ + ∫(X a_Y − Y a_X) dm + J_p α_L`, as the host's reference rod has them.
+pub(super) struct Exact<T, const MODES: usize> {
+    steps_a_tick: f64,
+    /// h, s.
+    tick: f64,
+    slope: [[T; POINTS]; MODES],
+    tip_slope: [T; MODES],
+    /// From the clamp to each station, length multiplied in.
+    integral: [[T; POINTS]; STATIONS],
+    /// `ρAL wₚ`, and the payload's.
+    mass: [T; STATIONS],
+    /// `J_p`.
+    twist: T,
+    stiffness: [T; MODES],
+    /// `βω²`.
+    loss: [T; MODES],
+    /// Added inertia.
+    ballast: [T; MODES],
+    radius: T,
+    alpha: T,
+    gravity: T,
+    /// `J_h`.
+    hub: T,
+    /// Tip deflection per unit of `aₖ` and `ωₖ⁻¹` of it, fractions of L: what a rate amounts to.
+    swing: [[T; 2]; MODES],
+    /// `b_k²` of the modes that the steps do not resolve, and of those that are left out, kg m².
+    unresolved: f64,
+}
+
+/// What acts on the arm at one instant.
+#[derive(Clone, Copy)]
+pub(super) struct Load<T> {
+    /// Hub torque, N m.
+    pub torque: T,
+    /// Bending moment at the clamp, N m.
+    pub moment: T,
+}
+
+/// Lagrange's equations `M ä = f` at one instant, and what follows from `ä`.
+struct Forces<T, const MODES: usize> {
+    mass: Band<T, MODES, MODES>,
+    force: [T; MODES],
+    /// The tip in the hub frame, m.
+    tip: [T; 2],
+    /// Moment about the axis and force across the hub at the clamp but for `ä`, and per unit of it.
+    fixed: [T; 2],
+    moving: [[T; MODES]; 2],
+}
+
+impl<T: Scalar, const MODES: usize> Forces<T, MODES> {
+    fn acceleration(&self) -> [T; MODES] {
+        self.mass.factor().solve(&self.force)
+    }
+}
+
+impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
+    /// For `ticks` ticks of `tick` s.
+    pub fn new(rod: &Rod<MODES>, tick: f64, ticks: f64) -> Self {
+        let (scene, rule) = (rod.scene(), rod.rule());
+        let length = scene.link.length;
+        let squared = rod.frequency().map(|omega| omega * omega);
+        let loss = squared.map(|w2| scene.damping.beta * w2);
+        let wanted = |mode: usize| {
+            let fastest = rod.frequency()[mode].max(loss[mode]);
+            libm::ceil(tick * fastest / MOST).clamp(1.0, MAX_STEPS)
+        };
+        let affordable = wanted(1).min(FEWEST).max(libm::floor(STEPS / ticks.max(1.0)));
+        let steps = wanted(MODES - 2).min(affordable);
+        let step = tick / steps;
+        Self {
+            steps_a_tick: steps,
+            tick,
+            slope: rule.slope.map(|slope| cast(&slope)),
+            tip_slope: cast(rod.tip_slope()),
+            integral: core::array::from_fn(|s| {
+                let row = rule.running.get(s).unwrap_or(rule.weights);
+                cast(&row.map(|weight| length * weight))
+            }),
+            mass: core::array::from_fn(|s| {
+                let link = rule.weights.get(s).map(|weight| scene.link.mass * weight);
+                T::from_f64(link.unwrap_or(scene.payload.mass))
+            }),
+            twist: round(scene.payload.inertia),
+            stiffness: cast(&squared),
+            loss: cast(&loss),
+            ballast: core::array::from_fn(|k| {
+                let (turn, decay) = (squared[k] * step * step, loss[k] * step);
+                T::from_f64((turn / (MOST * MOST)).max(decay / MOST).max(1.0) - 1.0)
+            }),
+            radius: round(scene.hub.radius),
+            alpha: round(scene.damping.alpha),
+            gravity: round(scene.gravity),
+            hub: round(scene.hub.inertia),
+            swing: core::array::from_fn(|k| {
+                let swing = rod.tip_swing()[k].abs() / length;
+                [T::from_f64(swing / rod.frequency()[k]), T::from_f64(swing / squared[k])]
+            }),
+            unresolved: {
+                let rest = rod.kinetics(&[0.0; MODES]);
+                let resolved = |k: usize| rod.frequency()[k] * step < RESOLVED;
+                let seen: f64 = (0..MODES)
+                    .filter(|&k| resolved(k))
+                    .map(|k| rest.coupling[k] * rest.coupling[k])
+                    .sum();
+                (rest.inertia - seen).max(0.0)
+            },
+        }
+    }
+
+    /// h, s.
+    pub fn tick(&self) -> T {
+        T::from_f64(self.tick)
+    }
+
+    /// Inertia about the axis of the modes that ring, after a jump of the commanded acceleration, without
+    /// being seen here: `J − Σ bₖ²` over those that the steps resolve, kg m².
+    pub fn unresolved(&self) -> f64 {
+        self.unresolved
+    }
+
+    fn forces(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> Forces<T, MODES> {
+        let Shape { a, v } = shape;
+        // What is integrated: ∂X/∂a, ∂Y/∂a, then X, Y and the centripetal parts of their second
+        // derivatives.
+        let mut x_slope = [[T::ZERO; POINTS]; MODES];
+        let mut y_slope = [[T::ZERO; POINTS]; MODES];
+        let mut rest = [[T::ZERO; POINTS]; 4];
+        let turn = T::from_f64(1.0 / core::f64::consts::TAU);
+        for p in 0..POINTS {
+            let (mut angle, mut rate) = (T::ZERO, T::ZERO);
+            for k in 0..MODES {
+                angle += self.slope[k][p] * a[k];
+                rate += self.slope[k][p] * v[k];
+            }
+            let (sin, cos) = (angle * turn).sin_cos_turns();
+            for k in 0..MODES {
+                x_slope[k][p] = -(self.slope[k][p] * sin);
+                y_slope[k][p] = self.slope[k][p] * cos;
+            }
+            let square = rate * rate;
+            (rest[0][p], rest[1][p]) = (cos, sin);
+            (rest[2][p], rest[3][p]) = (-(square * cos), -(square * sin));
+        }
+        let (omega, faster, alpha) = (hub.rate, hub.acceleration, self.alpha);
+        let turning = alpha * (dot(&self.tip_slope, v) + omega) + faster;
+        let mut mass = Band::ZERO;
+        let mut force = [T::ZERO; MODES];
+        for k in 0..MODES {
+            mass.add(k, k, self.ballast[k]);
+            force[k] = -(self.stiffness[k] * a[k] + self.loss[k] * v[k])
+                - self.twist * self.tip_slope[k] * turning;
+            for j in 0..=k {
+                mass.add(k, j, self.twist * self.tip_slope[k] * self.tip_slope[j]);
+            }
+        }
+        let mut tip = [T::ZERO; 2];
+        let mut fixed = [self.twist * turning, T::ZERO];
+        let mut moving = [self.tip_slope.map(|slope| self.twist * slope), [T::ZERO; MODES]];
+        for s in 0..STATIONS {
+            let row = &self.integral[s];
+            let along: [T; MODES] = core::array::from_fn(|k| dot(row, &x_slope[k]));
+            let across: [T; MODES] = core::array::from_fn(|k| dot(row, &y_slope[k]));
+            let [x, y, x_rest, y_rest]: [T; 4] = core::array::from_fn(|i| dot(row, &rest[i]));
+            let x = x + self.radius;
+            tip = [x, y];
+            let (x_rate, y_rate) = (dot(&along, v), dot(&across, v));
+            let x_load = x_rest - T::TWO * omega * y_rate - faster * y - omega * omega * x
+                + alpha * (x_rate - omega * y)
+                + self.gravity * hub.sin;
+            let y_load = y_rest + T::TWO * omega * x_rate + faster * x - omega * omega * y
+                + alpha * (y_rate + omega * x)
+                + self.gravity * hub.cos;
+            let (x_load, y_load) = (self.mass[s] * x_load, self.mass[s] * y_load);
+            let (x_mass, y_mass) = (self.mass[s] * tip[0], self.mass[s] * tip[1]);
+            fixed[0] += tip[0] * y_load - tip[1] * x_load;
+            fixed[1] += y_load;
+            for k in 0..MODES {
+                moving[0][k] += x_mass * across[k] - y_mass * along[k];
+                moving[1][k] += self.mass[s] * across[k];
+                force[k] += -(along[k] * x_load + across[k] * y_load);
+                let (x, y) = (self.mass[s] * along[k], self.mass[s] * across[k]);
+                for j in 0..=k {
+                    mass.add(k, j, x * along[j] + y * across[j]);
+                }
+            }
+        }
+        Forces { mass, force, tip, fixed, moving }
+    }
+
+    fn acceleration(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> [T; MODES] {
+        self.forces(shape, hub).acceleration()
+    }
+
+    /// Torque and moment, where `ä` is known.
+    fn load(&self, forces: &Forces<T, MODES>, a: &[T; MODES], hub: &HubState<T>) -> Load<T> {
+        let of = |i: usize| forces.fixed[i] + dot(&forces.moving[i], a);
+        let (about_axis, across) = (of(0), of(1));
+        Load {
+            torque: about_axis + self.hub * hub.acceleration,
+            moment: about_axis - self.radius * across,
+        }
+    }
+
+    /// The tip in the hub frame, m, and what acts on the arm. Where the acceleration jumps, that is of
+    /// the side that the hub is of.
+    pub fn answer(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> ([T; 2], Load<T>) {
+        let forces = self.forces(shape, hub);
+        (forces.tip, self.load(&forces, &forces.acceleration(), hub))
+    }
+
+    /// Static equilibrium with the hub at rest: `Ω²a` is the load, half-way steps.
+    pub fn equilibrium(&self, hub: &HubState<T>) -> Shape<T, MODES> {
+        let hub = HubState { rate: T::ZERO, acceleration: T::ZERO, ..*hub };
+        let mut shape = Shape { a: [T::ZERO; MODES], v: [T::ZERO; MODES] };
+        for _ in 0..EQUILIBRIUM_STEPS {
+            let left = self.forces(&shape, &hub);
+            for k in 0..MODES {
+                shape.a[k] += T::HALF * left.force[k] / self.stiffness[k];
+            }
+        }
+        shape
+    }
+
+    /// True if the arm, its hub at rest, moves by less than [`STILL`].
+    pub fn is_still(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> bool {
+        let pull = self.acceleration(shape, hub);
+        let floor = T::from_f64(STILL);
+        (0..MODES).all(|k| {
+            let [fast, far] = self.swing[k];
+            let (v, pull) = (fast * shape.v[k], far * pull[k]);
+            v < floor && -v < floor && pull < floor && -pull < floor
+        })
+    }
+
+    /// Advances from `begin` to `end`, ticks no more than one apart, along a motion with one formula;
+    /// returns how many steps that took. `seen` is given the load at the beginning of every step.
+    pub fn advance(
+        &self,
+        shape: &mut Shape<T, MODES>,
+        hub_at: &dyn Fn(f64) -> HubState<T>,
+        begin: f64,
+        end: f64,
+        seen: &mut dyn FnMut(Load<T>),
+    ) -> u32 {
+        let steps = libm::ceil((end - begin) * self.steps_a_tick - 1e-6);
+        if steps < 1.0 {
+            return 0;
+        }
+        let ticks = (end - begin) / steps;
+        let at = |half_steps: u32| hub_at(begin + 0.5 * f64::from(half_steps) * ticks);
+        let (h, sixth) = (T::from_f64(ticks * self.tick), T::from_f64(ticks * self.tick / 6.0));
+        let mut hub = at(0);
+        for i in 0..steps as u32 {
+            let (middle, last) = (at(2 * i + 1), at(2 * i + 2));
+            let half = T::HALF * h;
+            let from = |a: &[T; MODES], x: &[T; MODES], step: T| -> [T; MODES] {
+                core::array::from_fn(|k| a[k] + step * x[k])
+            };
+            let Shape { a, v } = *shape;
+            let v1 = v;
+            let forces = self.forces(shape, &hub);
+            let f1 = forces.acceleration();
+            seen(self.load(&forces, &f1, &hub));
+            let v2 = from(&v, &f1, half);
+            let f2 = self.acceleration(&Shape { a: from(&a, &v1, half), v: v2 }, &middle);
+            let v3 = from(&v, &f2, half);
+            let f3 = self.acceleration(&Shape { a: from(&a, &v2, half), v: v3 }, &middle);
+            let v4 = from(&v, &f3, h);
+            let f4 = self.acceleration(&Shape { a: from(&a, &v3, h), v: v4 }, &last);
+            for k in 0..MODES {
+                shape.a[k] += sixth * (v1[k] + T::TWO * (v2[k] + v3[k]) + v4[k]);
+                shape.v[k] += sixth * (f1[k] + T::TWO * (f2[k] + f3[k]) + f4[k]);
+            }
+            hub = last;
+        }
+        steps as u32
+    }
+}

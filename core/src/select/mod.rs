@@ -1,0 +1,247 @@
+//! The cheapest stepper that is good enough, chosen once for an arm and its moves.
+
+mod candidate;
+mod choose;
+mod exact;
+mod ladder;
+mod peak;
+mod trial;
+
+pub use choose::{NoChoice, assess, choose};
+pub use ladder::{Assessment, Choice, Rung, Tolerance};
+
+use crate::hub::HubState;
+use crate::math::Scalar;
+use crate::model::{EightElements, Rod};
+use crate::motion::{Kink, Move, Moves, Peaks};
+use crate::stepper::{
+    Elastica, ElasticaState, Modal, ModalState, Response, Rigid, Stepper, check_tick,
+};
+use crate::{Error, Scene};
+
+/// One of the steppers of [`Rung::ladder`], known at run time only.
+///
+/// It takes the room of the largest; a firmware that knows its arm links the stepper itself.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs)] // The steppers' own names.
+#[allow(clippy::large_enum_variant)] // There is no heap to put one on.
+pub enum Auto<T> {
+    Rigid(Rigid<T>),
+    Modal1(Modal<T, 1>),
+    Modal2(Modal<T, 2>),
+    Modal3(Modal<T, 3>),
+    Elastica1(Elastica<T, 1>),
+    Elastica2(Elastica<T, 2>),
+    Elastica3(Elastica<T, 3>),
+}
+
+/// The state of [`Auto`]: of the same variant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)]
+#[allow(clippy::large_enum_variant)]
+pub enum AutoState<T> {
+    Rigid(()),
+    Modal1(ModalState<T, 1>),
+    Modal2(ModalState<T, 2>),
+    Modal3(ModalState<T, 3>),
+    Elastica1(ElasticaState<T, 1>),
+    Elastica2(ElasticaState<T, 2>),
+    Elastica3(ElasticaState<T, 3>),
+}
+
+/// `$body` for the stepper of whatever variant.
+macro_rules! each {
+    ($auto:expr, $stepper:ident => $body:expr) => {
+        match $auto {
+            Auto::Rigid($stepper) => $body,
+            Auto::Modal1($stepper) => $body,
+            Auto::Modal2($stepper) => $body,
+            Auto::Modal3($stepper) => $body,
+            Auto::Elastica1($stepper) => $body,
+            Auto::Elastica2($stepper) => $body,
+            Auto::Elastica3($stepper) => $body,
+        }
+    };
+}
+
+/// `$body` for the stepper and its state; `$otherwise` for a state of another stepper.
+macro_rules! each_with_state {
+    ($auto:expr, $state:expr, ($stepper:ident, $own:ident) => $body:expr, $otherwise:expr) => {
+        match ($auto, $state) {
+            (Auto::Rigid($stepper), AutoState::Rigid($own)) => $body,
+            (Auto::Modal1($stepper), AutoState::Modal1($own)) => $body,
+            (Auto::Modal2($stepper), AutoState::Modal2($own)) => $body,
+            (Auto::Modal3($stepper), AutoState::Modal3($own)) => $body,
+            (Auto::Elastica1($stepper), AutoState::Elastica1($own)) => $body,
+            (Auto::Elastica2($stepper), AutoState::Elastica2($own)) => $body,
+            (Auto::Elastica3($stepper), AutoState::Elastica3($own)) => $body,
+            _ => $otherwise,
+        }
+    };
+}
+
+impl<T: Scalar> Auto<T> {
+    /// The response to a state of another stepper.
+    const NOTHING: Response<T> = Response { torque: T::ZERO, tip: [T::ZERO; 2] };
+
+    /// Sets up one rung; `bend` as in [`Elastica::new`], other rungs have no use for it.
+    pub fn new(scene: &Scene, tick: f64, rung: Rung, bend: f64) -> Result<Self, Error> {
+        let model = || EightElements::consistent(scene);
+        Ok(match rung {
+            Rung::Rigid => Self::Rigid(Rigid::new(scene, tick)?),
+            Rung::Modal(1) => Self::Modal1(Modal::new(&model()?, tick)?),
+            Rung::Modal(2) => Self::Modal2(Modal::new(&model()?, tick)?),
+            Rung::Modal(_) => Self::Modal3(Modal::new(&model()?, tick)?),
+            Rung::Elastica(1, quality) => {
+                Self::Elastica1(Elastica::new(&Rod::new(scene)?, tick, quality, bend)?)
+            }
+            Rung::Elastica(2, quality) => {
+                Self::Elastica2(Elastica::new(&Rod::new(scene)?, tick, quality, bend)?)
+            }
+            Rung::Elastica(_, quality) => {
+                Self::Elastica3(Elastica::new(&Rod::new(scene)?, tick, quality, bend)?)
+            }
+        })
+    }
+
+    /// Sets up the cheapest rung whose tip and torque stay within `tolerance` of the real ones, over
+    /// these moves from rest at `from` rad and one first period after them: see [`choose`].
+    ///
+    /// # Errors
+    /// No rung is good enough: [`Error::Tolerance`] with the error of the finest; or the finest cannot
+    /// be set up for these moves, and why.
+    pub fn choose(
+        scene: &Scene,
+        tick: f64,
+        from: f64,
+        moves: &[Move],
+        tolerance: &Tolerance,
+    ) -> Result<(Self, Choice), Error> {
+        let motion = Moves::new(from, moves, check_tick(tick)?)?;
+        let choice = choose(scene, tick, &motion, tolerance, &mut |_| ())?;
+        Ok((Self::chosen(scene, tick, &choice)?, choice))
+    }
+
+    /// Sets up what was chosen.
+    pub fn chosen(scene: &Scene, tick: f64, choice: &Choice) -> Result<Self, Error> {
+        Self::new(scene, tick, choice.rung, choice.bend)
+    }
+}
+
+impl<T: Scalar> Stepper for Auto<T> {
+    type Scalar = T;
+    type State = AutoState<T>;
+
+    // Every rung has both, so that each ticks on the paths that it takes when it is linked itself.
+    const PLAIN: bool = every_rung_is(
+        true,
+        [
+            Rigid::<T>::PLAIN,
+            Modal::<T, 1>::PLAIN,
+            Modal::<T, 2>::PLAIN,
+            Modal::<T, 3>::PLAIN,
+            Elastica::<T, 1>::PLAIN,
+            Elastica::<T, 2>::PLAIN,
+            Elastica::<T, 3>::PLAIN,
+        ],
+    );
+    const RESTS: bool = every_rung_is(
+        true,
+        [
+            Rigid::<T>::RESTS,
+            Modal::<T, 1>::RESTS,
+            Modal::<T, 2>::RESTS,
+            Modal::<T, 3>::RESTS,
+            Elastica::<T, 1>::RESTS,
+            Elastica::<T, 2>::RESTS,
+            Elastica::<T, 3>::RESTS,
+        ],
+    );
+
+    fn tick(&self) -> f64 {
+        each!(self, s => s.tick())
+    }
+
+    #[inline(always)]
+    fn is_directed(&self) -> bool {
+        each!(self, s => s.is_directed())
+    }
+
+    fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error> {
+        each!(self, s => s.admit(peaks, held))
+    }
+
+    fn equilibrium(&self, hub: &HubState<T>) -> AutoState<T> {
+        match self {
+            Auto::Rigid(_) => AutoState::Rigid(()),
+            Auto::Modal1(s) => AutoState::Modal1(s.equilibrium(hub)),
+            Auto::Modal2(s) => AutoState::Modal2(s.equilibrium(hub)),
+            Auto::Modal3(s) => AutoState::Modal3(s.equilibrium(hub)),
+            Auto::Elastica1(s) => AutoState::Elastica1(s.equilibrium(hub)),
+            Auto::Elastica2(s) => AutoState::Elastica2(s.equilibrium(hub)),
+            Auto::Elastica3(s) => AutoState::Elastica3(s.equilibrium(hub)),
+        }
+    }
+
+    #[inline(always)]
+    fn step(&self, state: &mut AutoState<T>, before: &HubState<T>, after: &HubState<T>) {
+        each_with_state!(self, state, (s, own) => s.step(own, before, after), ());
+    }
+
+    #[inline(always)]
+    fn is_plain(&self, rate: T) -> bool {
+        each!(self, s => s.is_plain(rate))
+    }
+
+    #[inline(always)]
+    fn advance_in_cubic(
+        &self,
+        state: &mut AutoState<T>,
+        before: &HubState<T>,
+        after: &HubState<T>,
+    ) -> Response<T> {
+        each_with_state!(
+            self, state,
+            (s, own) => s.advance_in_cubic(own, before, after),
+            Self::NOTHING
+        )
+    }
+
+    #[inline(always)]
+    fn swing(&self, state: &mut AutoState<T>, hub: &HubState<T>) {
+        each_with_state!(self, state, (s, own) => s.swing(own, hub), ());
+    }
+
+    #[inline(always)]
+    fn response_at_rest(&self, state: &AutoState<T>, hub: &HubState<T>) -> Response<T> {
+        each_with_state!(self, state, (s, own) => s.response_at_rest(own, hub), Self::NOTHING)
+    }
+
+    fn shift(&self, state: &mut AutoState<T>, moment: T) {
+        each_with_state!(self, state, (s, own) => s.shift(own, moment), ());
+    }
+
+    fn kink(&self, state: &mut AutoState<T>, kink: &Kink<T>) {
+        each_with_state!(self, state, (s, own) => s.kink(own, kink), ());
+    }
+
+    #[inline(always)]
+    fn is_settled(&self, state: &AutoState<T>) -> bool {
+        each_with_state!(self, state, (s, own) => s.is_settled(own), false)
+    }
+
+    #[inline(always)]
+    fn response(&self, state: &AutoState<T>, hub: &HubState<T>) -> Response<T> {
+        each_with_state!(self, state, (s, own) => s.response(own, hub), Self::NOTHING)
+    }
+}
+
+/// `value`, which every rung must have: one that differed would tick otherwise than when it is linked.
+const fn every_rung_is(value: bool, rungs: [bool; 7]) -> bool {
+    let mut k = 0;
+    while k < rungs.len() {
+        assert!(rungs[k] == value, "the rungs differ");
+        k += 1;
+    }
+    value
+}

@@ -1,0 +1,16 @@
+//! A motion behind an input shaper, tick by tick.
+
+use super::Stepper;
+use crate::math::Scalar;
+use crate::motion::Shaped;
+
+impl<T: Scalar> Shaped<'_, T> {
+    /// Advances an arm from tick `k` to tick `k + 1`, with what jumps at its ends and within.
+    pub fn advance<S: Stepper<Scalar = T>>(&self, stepper: &S, state: &mut S::State, k: u32) {
+        let kink = self.kink(k);
+        if !kink.is_none() {
+            stepper.kink(state, &kink);
+        }
+        stepper.step(state, &self.hub(k), &self.arrival(k + 1));
+    }
+}

@@ -1,0 +1,72 @@
+//! The terminal: lines out, one line where something fails, and an exit code.
+
+use std::io::{ErrorKind, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+use clap::error::ErrorKind as Clap;
+
+use crate::error::Error;
+use crate::scene_file::SceneFile;
+use crate::scenes;
+
+/// Prints a line as std's macro does. Where the terminal or pipe takes no more the program ends, in
+/// one line unless a reader closed it, and does not panic.
+#[macro_export]
+macro_rules! println {
+    () => { $crate::console::say(format_args!("\n")) };
+    ($($words:tt)*) => { $crate::console::say(format_args!("{}\n", format_args!($($words)*))) };
+}
+
+/// Writes to standard output; see [`println!`](crate::println).
+pub fn say(words: std::fmt::Arguments<'_>) {
+    let Err(error) = std::io::stdout().write_fmt(words) else { return };
+    if error.kind() == ErrorKind::BrokenPipe {
+        // Somebody has read enough.
+        std::process::exit(0);
+    }
+    complain(format_args!("standard output: {error}; must be one that can be written"));
+    std::process::exit(Error::EXIT_CODE.into());
+}
+
+/// Writes one line to standard error. Where that fails too, the exit code has to do.
+fn complain(words: std::fmt::Arguments<'_>) {
+    let _ = writeln!(std::io::stderr(), "error: {words}");
+}
+
+/// Parses the command line, carries it out, and turns an error into one line and exit code 2.
+pub fn run<C: Parser>(execute: impl FnOnce(C) -> Result<ExitCode, Error>) -> ExitCode {
+    let result = match C::try_parse() {
+        Ok(command) => execute(command),
+        Err(error) if matches!(error.kind(), Clap::DisplayHelp | Clap::DisplayVersion) => {
+            say(format_args!("{error}"));
+            return ExitCode::SUCCESS;
+        }
+        Err(error) => Err(usage(&error)),
+    };
+    result.unwrap_or_else(|error| {
+        complain(format_args!("{error}"));
+        ExitCode::from(Error::EXIT_CODE)
+    })
+}
+
+/// Returns the first paragraph of clap's message, without its own `error:`: one line.
+fn usage(error: &clap::Error) -> Error {
+    let text = error.to_string();
+    let message = text.split("\n\nUsage").next().unwrap_or(&text);
+    Error::new(message.trim_start_matches("error:").split("\n\nFor more").next().unwrap_or(message))
+}
+
+/// Writes a line to standard error that is no error. Where it cannot be written, nobody reads it.
+pub fn note(words: &str) {
+    let _ = writeln!(std::io::stderr(), "note: {words}");
+}
+
+/// Opens a scene and notes what in it is probably in another unit.
+pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
+    let scene = scenes::open(name_or_path)?;
+    for line in &scene.remarks {
+        note(line);
+    }
+    Ok(scene)
+}

@@ -1,0 +1,217 @@
+//! `docs/auto.md` and its picture.
+
+use std::fmt::Write as _;
+
+use stillbeam::select::Rung;
+
+use super::judge::{CLOSE, JUDGE, MARGIN, STRICT, STRICT_EACH};
+use super::random::DISTRIBUTION;
+use super::summary::Summary;
+use super::verdict::Verdict;
+use crate::sweep::tables::{aligned, grouped};
+use stillbeam_sim::error::Error;
+use stillbeam_sim::plot::{Axis, Chart, Colour, Dash, Series};
+
+/// Borders of the histogram of true error over tolerance.
+const BORDERS: [f64; 8] = [0.0, 1e-3, 1e-2, 0.1, 0.5, 0.9, 1.0, f64::INFINITY];
+
+/// Points of a curve in the picture.
+const POINTS: usize = 120;
+
+/// The page, whole.
+pub fn page(seed: u64, verdicts: &[Verdict]) -> String {
+    let summary = Summary::of(verdicts);
+    let count = summary.arms;
+    let blocks = [
+        introduction(&summary, seed),
+        format!(
+            "## Command\n\n```sh\ncargo run --release -p stillbeam-lab --example auto_choice -- {count} \
+             docs/auto.md\n```\n\nThe same verdicts on any number of cores; `tests/run/auto.rs` judges \
+             the first 60 arms of another seed in every test run and asserts both bounds.\n"
+        ),
+        outcomes(&summary),
+        histogram(verdicts),
+        "![Share of the choices that err by more](auto.svg)\n".to_owned(),
+        rungs(&summary),
+        set_up(verdicts),
+        distribution(seed),
+        judge(&summary),
+    ];
+    blocks.join("\n")
+}
+
+fn introduction(summary: &Summary, seed: u64) -> String {
+    format!(
+        "# How good the choices of `auto` are\n\n\
+         `Auto::choose` is given an arm, its moves, the tick and two tolerances: of the tip, a fraction of \
+         the link's length, and of the torque, a fraction of its peak. It tries the rungs of a ladder, \
+         cheapest tick first, on the moves themselves beside the exact rod in six modes and small steps, \
+         takes the first that keeps both tolerances, and says what errors to expect. Torques are \
+         compared at the ticks; those less than one and a half ticks from a jump of the commanded \
+         acceleration are left out, as in `compare`. Here {} random arms, seed {seed}, are judged by the \
+         reference rod of the host, which shares no method with it: {} of {} choices err by more than a \
+         tolerance (wanted: fewer than 1 in 1,000), {} are at most one rung above the cheapest that met \
+         both (wanted: 99 %). This page is written whole by a command.\n",
+        thousands(summary.arms),
+        thousands(summary.exceeded),
+        thousands(summary.choices()),
+        percent(summary.at_most_one_too_dear(), summary.choices()),
+    )
+}
+
+fn outcomes(summary: &Summary) -> String {
+    let choices = summary.choices();
+    let mut lines = vec![line("what came out", "arms", "")];
+    let mut add = |what: &str, n: usize, of: usize| {
+        lines.push(line(what, &thousands(n), &percent(n, of)));
+    };
+    add("chosen", choices, summary.arms);
+    add("… a true error above its tolerance", summary.exceeded, choices);
+    add("… of these, the torque's", summary.torque_exceeded, choices);
+    add("… the torque is nearer to its tolerance than the tip", summary.torque_decides, choices);
+    add("… true error above the expected one", summary.underestimated, choices);
+    add("… the cheapest rung that met both tolerances", summary.too_dear[0], choices);
+    add("… one rung above it", summary.too_dear[1], choices);
+    add("… two rungs or more", choices - summary.at_most_one_too_dear(), choices);
+    add("refused: no rung is expected to keep both tolerances", summary.tolerance, summary.arms);
+    add("refused: bends too far for the exact kinematics", summary.bends, summary.arms);
+    add("refused: the finest rung cannot be set up", summary.other, summary.arms);
+    add("… of all refused, a rung met both tolerances", summary.needless, summary.arms);
+    format!("## What came out\n\n{}", table(&lines))
+}
+
+fn histogram(verdicts: &[Verdict]) -> String {
+    let ratios: Vec<f64> = ratios(verdicts).map(|[error, _]| error).collect();
+    let mut lines = vec![line("true error over tolerance", "choices", "")];
+    for pair in BORDERS.windows(2) {
+        let n = ratios.iter().filter(|&&ratio| pair[0] < ratio && ratio <= pair[1]).count();
+        let what = if pair[1].is_finite() {
+            format!("{} to {}", pair[0], pair[1])
+        } else {
+            format!("above {}", pair[0])
+        };
+        lines.push(line(&what, &thousands(n), &percent(n, ratios.len())));
+    }
+    let most = ratios.iter().copied().fold(0.0, f64::max);
+    format!("{}\nThe largest is {most:.3}.\n", table(&lines))
+}
+
+fn rungs(summary: &Summary) -> String {
+    let mut lines = vec![line("rung, by cost of a plain tick", "chosen", "cheapest that met it")];
+    for (k, rung) in Rung::LADDER.into_iter().enumerate() {
+        let [chosen, cheapest] = [summary.chosen[k], summary.cheapest[k]].map(thousands);
+        lines.push(line(&rung.to_string(), &chosen, &cheapest));
+    }
+    format!(
+        "## The ladder\n\nThe order is that of the instructions in \
+         [instructions.csv](instructions.csv), compared in every test run; with damping or gravity \
+         elastica with 1 mode stands before modal with 2, and with 3 modes, fast, before 2, fine.\n\n{}",
+        table(&lines)
+    )
+}
+
+fn set_up(verdicts: &[Verdict]) -> String {
+    let choices = || verdicts.iter().filter_map(|verdict| verdict.choice.as_ref().ok());
+    let mut steps: Vec<u32> = choices().map(|choice| choice.expected.steps).collect();
+    let mut a_tick: Vec<f64> = verdicts
+        .iter()
+        .filter_map(|v| Some(f64::from(v.choice.as_ref().ok()?.expected.steps) / v.ticks as f64))
+        .collect();
+    steps.sort_unstable();
+    a_tick.sort_unstable_by(f64::total_cmp);
+    let [some, many] = [0.5, 0.99].map(|part| thousands(quantile(&steps, part) as usize));
+    let [few, lots] = [0.5, 0.99].map(|part| quantile(&a_tick, part));
+    format!(
+        "## What the choice costs at set-up\n\nIts steps are counted in `Choice::expected.steps`: {some} for the \
+         median arm, {many} for all but one in a hundred; {few:.0} and {lots:.0} for each tick of the \
+         moves; the exact rod flies once for the first four rungs and once more if none of them is good enough. A step is four evaluations of the six-mode rod, \
+         each some 2,400 multiplications and as many additions in f32; the ticks of the rungs beside it \
+         are small against that. It was not counted on the target: at two instructions an operation it \
+         would be 35,000 a step, a second for 4,800 steps at 168 MHz. It needs no heap. A firmware that \
+         knows its moves lets the host choose, `run --method auto`, and links the rung.\n"
+    )
+}
+
+fn distribution(seed: u64) -> String {
+    let mut text = format!(
+        "## The arms\n\nArm `i` is drawn with seed {seed} and `i` alone, by \
+         `tests/lab/src/choice/random.rs`; periods, lengths, masses, ticks, durations and tolerances \
+         uniformly in the logarithm.\n\n"
+    );
+    for (what, from) in DISTRIBUTION {
+        let _ = writeln!(text, "- **{what}**: {from}");
+    }
+    text
+}
+
+fn judge(summary: &Summary) -> String {
+    format!(
+        "## The judge\n\nThe reference rod with {} polynomials, every step of which is shorter than its \
+         highest vibration asks for; where that finds a rung within {:.0} % of the tolerance, on either \
+         side, with {} polynomials ({} arms). On every {}th arm all is judged once more with {} \
+         polynomials and {:e} a step: over {} arms the errors of the rungs that meet twice the tolerance \
+         change by at most {:.3} of the tolerance.\n",
+        JUDGE.order,
+        100.0 * MARGIN,
+        CLOSE.order,
+        thousands(summary.closely),
+        STRICT_EACH,
+        STRICT.order,
+        STRICT.tolerance,
+        thousands(summary.doubted),
+        summary.doubt
+    )
+}
+
+/// Share of the choices that err by more than so much of the tolerance.
+pub fn picture(verdicts: &[Verdict]) -> Result<String, Error> {
+    let curve = |of: usize| {
+        let mut ratios: Vec<f64> = ratios(verdicts).map(|pair| pair[of]).collect();
+        ratios.sort_unstable_by(f64::total_cmp);
+        let n = ratios.len() as f64;
+        (0..=POINTS).filter_map(move |k| {
+            let ratio = 10f64.powf(-3.0 + 3.2 * k as f64 / POINTS as f64);
+            let above = ratios.len() - ratios.partition_point(|&other| other <= ratio);
+            (above > 0).then_some((ratio, above as f64 / n))
+        })
+    };
+    Chart::new(
+        "Share of the choices that err by more",
+        Axis::log("error over tolerance"),
+        Axis::log("share of the choices"),
+    )
+    .sized(760, 400)
+    .with(Series::line("true error", curve(0)))
+    .with(Series::line("expected error", curve(1)).dash(Dash::Dashed).colour(Colour::Orange))
+    .mark(1.0, "tolerance")
+    .svg()
+}
+
+/// True and expected error over tolerance of every choice.
+fn ratios(verdicts: &[Verdict]) -> impl Iterator<Item = [f64; 2]> {
+    verdicts.iter().filter_map(|verdict| {
+        let expected = verdict.choice.as_ref().ok()?.expected.excess(&verdict.tolerance);
+        Some([verdict.error()?, expected])
+    })
+}
+
+fn line(a: &str, b: &str, c: &str) -> Vec<String> {
+    [a, b, c].map(str::to_owned).to_vec()
+}
+
+fn table(lines: &[Vec<String>]) -> String {
+    aligned(lines)
+}
+
+fn quantile<T: Copy + Default>(sorted: &[T], part: f64) -> T {
+    let index = (part * sorted.len().saturating_sub(1) as f64).round() as usize;
+    sorted.get(index).copied().unwrap_or_default()
+}
+
+fn percent(n: usize, of: usize) -> String {
+    if of == 0 { "–".into() } else { format!("{:.2} %", 100.0 * n as f64 / of as f64) }
+}
+
+fn thousands(n: usize) -> String {
+    grouped(n as u64)
+}

@@ -1,0 +1,284 @@
+//! The firmware around one axis: bytes in, requests carried out, a tick when it comes. The axis, the
+//! frames, the pace and the motor side are the firmware's own; what stands here is its wiring.
+
+use std::collections::VecDeque;
+
+use stillbeam::axis::{Axis, Cause, Mode, Pace, Refused, Tick};
+use stillbeam::drive::ClassicFrame;
+use stillbeam::drive::odrive::Node;
+use stillbeam::model::OneElement;
+use stillbeam::motor::{Demand, Drivetrain};
+use stillbeam::stepper::Newmark;
+use stillbeam::{Angle, Error as CoreError, Move, Payload, Planned, Rejected, Scene};
+use stillbeam_protocol::frame::{Splitter, decode};
+use stillbeam_protocol::{Command, Refusal, Request};
+
+use super::machine::{Configuration, TICK};
+use stillbeam_sim::error::Error;
+
+/// Counts of the board's clock, in µs, a tick.
+pub const PERIOD: u32 = Pace::period(TICK, 1_000_000).expect("TICK is a whole number of µs");
+
+/// Jobs that wait for the planner, as in the application; one more is refused.
+const JOBS: usize = 2;
+
+type Stepper = Newmark<f32, 2, 2, false>;
+
+/// What the board said to a request.
+pub type Answer = Result<u32, Refusal<'static>>;
+
+/// One axis of the application.
+pub struct Board {
+    axis: Axis<Stepper, 8>,
+    train: Drivetrain<f32>,
+    node: Node,
+    scene: Scene,
+    measured: Option<Angle<f32>>,
+    splitter: Splitter,
+    pace: Pace,
+    /// What is to be planned or set up next; every other request is carried out as it comes.
+    jobs: VecDeque<Work>,
+    under_way: Option<UnderWay>,
+    /// Ticks that planning a move and setting an arm up take.
+    takes: u32,
+    /// Answers so far.
+    pub answers: Vec<Answer>,
+    /// Frames that came in garbled.
+    pub garbled: u64,
+    /// Ticks that did not take place.
+    pub missed: u64,
+    /// Ticks that came before they were due, and were not made.
+    pub early: u64,
+    /// The axis was switched on since the last tick, where the drive stands.
+    begins: bool,
+}
+
+#[derive(Clone, Copy)]
+enum Work {
+    Move(Move),
+    Still,
+    Payload(Payload),
+}
+
+/// A job whose result is there in so many ticks.
+struct UnderWay {
+    left: u32,
+    result: Ready,
+}
+
+// One at a time.
+#[allow(clippy::large_enum_variant)]
+enum Ready {
+    /// `again`: where the axis' motion has changed meanwhile it is planned once more.
+    Plan {
+        motion: Move,
+        planned: Planned<f32>,
+        again: bool,
+    },
+    Arm {
+        scene: Scene,
+        stepper: Stepper,
+    },
+}
+
+/// One tick of the board.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// Number, mode, setpoint.
+    pub tick: Tick<f32>,
+    /// The demand on the shaft.
+    pub demand: Demand<f32>,
+    /// It is the first since the axis was switched on.
+    pub begins: bool,
+}
+
+impl Board {
+    /// Powers up. `takes` ticks go by while a move is planned.
+    pub fn new(configuration: &Configuration, takes: u32) -> Result<Self, Error> {
+        let Configuration { scene, policy, joint, direction, zero } = *configuration;
+        let origin = Angle { turns: 0, part: 0.0 };
+        Ok(Self {
+            axis: Axis::new(stepper(&scene)?, origin, policy)?,
+            train: Drivetrain::new(&joint, direction, zero)?,
+            node: Node::new(1)?,
+            scene,
+            measured: None,
+            splitter: Splitter::new(),
+            pace: Pace::new(PERIOD),
+            jobs: VecDeque::new(),
+            under_way: None,
+            takes,
+            answers: Vec::new(),
+            garbled: 0,
+            missed: 0,
+            early: 0,
+            begins: false,
+        })
+    }
+
+    /// Bytes from the host.
+    pub fn receive(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            let Some(frame) = self.splitter.push(byte) else { continue };
+            match frame.and_then(decode::<Request>) {
+                Ok(request) => self.answer(&request),
+                Err(_) => self.garbled += 1,
+            }
+        }
+    }
+
+    /// A request as if its frame had come, for those who have no use for bytes.
+    pub fn ask(&mut self, command: Command) {
+        self.answer(&Request { sequence: 0, axis: 0, command });
+    }
+
+    /// A frame from the drive.
+    pub fn hear_drive(&mut self, frame: &ClassicFrame) {
+        if let Some(estimates) = self.node.estimates(frame) {
+            // As the application.
+            self.measured = estimates.angle();
+        }
+    }
+
+    /// A tick at that reading of the clock; `None` if it is not due, for then there is none.
+    pub fn tick(&mut self, now: u32) -> Option<Step> {
+        let timing = self.pace.arrive(now);
+        let Some(tick) = self.axis.tick_if_due(&timing) else {
+            self.early += 1;
+            return None;
+        };
+        self.missed += u64::from(timing.missed);
+        let begins = std::mem::take(&mut self.begins);
+        let step = Step { tick, demand: self.train.demand(&tick.setpoint), begins };
+        if let Some(job) = &mut self.under_way {
+            job.left = job.left.saturating_sub(1);
+        }
+        self.work();
+        Some(step)
+    }
+
+    /// The axis.
+    pub fn axis(&self) -> &Axis<Stepper, 8> {
+        &self.axis
+    }
+
+    /// The drive's node.
+    pub fn node(&self) -> Node {
+        self.node
+    }
+
+    /// Carries a request out, or hands it down to the planner.
+    fn answer(&mut self, request: &Request) {
+        self.axis.heard();
+        if request.axis > 0 {
+            self.answers.push(Err(Refusal::Axis(1)));
+            return;
+        }
+        let job = match request.command {
+            Command::Move(motion) => Work::Move(motion),
+            Command::Still { .. } => Work::Still,
+            Command::Payload(payload) => Work::Payload(payload),
+            command => {
+                let tick = self.axis.clock();
+                let answer = self.carry_out(command).map(|()| tick);
+                self.answers.push(answer);
+                return;
+            }
+        };
+        if self.jobs.len() == JOBS {
+            self.answers.push(Err(Refusal::Busy));
+        } else {
+            self.jobs.push_back(job);
+            self.work();
+        }
+    }
+
+    /// Does what the planner can have done by now, one job after the other.
+    fn work(&mut self) {
+        loop {
+            if self.under_way.as_ref().is_some_and(|job| job.left > 0) {
+                return;
+            }
+            if let Some(job) = self.under_way.take() {
+                self.hand_over(job.result);
+                continue;
+            }
+            let Some(job) = self.jobs.pop_front() else { return };
+            let begun = match job {
+                Work::Move(motion) => self.plan(motion, true),
+                Work::Payload(payload) => self.set_up(payload),
+                // As a firmware without the planner of still moves.
+                Work::Still => Err(Refusal::NoPlanner),
+            };
+            self.begin(begun);
+        }
+    }
+
+    fn begin(&mut self, result: Result<Ready, Refusal<'static>>) {
+        match result {
+            Ok(result) => self.under_way = Some(UnderWay { left: self.takes, result }),
+            Err(refusal) => self.answers.push(Err(refusal)),
+        }
+    }
+
+    fn plan(&self, motion: Move, again: bool) -> Result<Ready, Refusal<'static>> {
+        let planned = self.axis.departure()?.plan(&motion)?;
+        Ok(Ready::Plan { motion, planned, again })
+    }
+
+    fn set_up(&self, payload: Payload) -> Result<Ready, Refusal<'static>> {
+        let scene = Scene { payload, ..self.scene };
+        Ok(Ready::Arm { scene, stepper: stepper(&scene)? })
+    }
+
+    fn hand_over(&mut self, result: Ready) {
+        let tick = self.axis.clock();
+        let done = match result {
+            Ready::Plan { motion, planned, again } => match self.axis.take(&planned) {
+                Err(Refused::Queue(Rejected::Stale)) if again => {
+                    let begun = self.plan(motion, false);
+                    return self.begin(begun);
+                }
+                taken => taken.map(drop),
+            },
+            Ready::Arm { scene, stepper } => {
+                self.axis.replace(stepper).map(|()| self.scene = scene)
+            }
+        };
+        self.answers.push(done.map(|()| tick).map_err(Refusal::from));
+    }
+
+    fn carry_out(&mut self, command: Command) -> Result<(), Refusal<'static>> {
+        match command {
+            Command::Enable => {
+                let shaft = self.measured.ok_or(Refusal::NotMeasured)?;
+                let begins = self.axis.mode() == Mode::Disabled;
+                self.axis.enable(self.train.mapping().to_link(shaft))?;
+                self.begins |= begins;
+            }
+            Command::Disable => self.axis.disable(),
+            Command::Stop => self.axis.stop(Cause::Requested),
+            Command::Home(angle) => {
+                if !(-1e6..=1e6).contains(&angle) {
+                    let (min, max, unit) = (-1e6, 1e6, "rad");
+                    let parameter = "home.angle";
+                    return Err(
+                        CoreError::OutOfRange { parameter, value: angle, min, max, unit }.into()
+                    );
+                }
+                let shaft = self.measured.ok_or(Refusal::NotMeasured)?;
+                match self.axis.mode() {
+                    Mode::Disabled => self.train.home(shaft, Angle::from_radians(angle).cast()),
+                    mode => return Err(Refusal::Mode(mode)),
+                }
+            }
+            // Moves, still moves and payloads are the planner's.
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+fn stepper(scene: &Scene) -> Result<Stepper, CoreError> {
+    Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>())?, TICK)
+}

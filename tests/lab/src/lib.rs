@@ -1,0 +1,16 @@
+#![forbid(unsafe_code)]
+//! The proof behind stillbeam's pages: campaigns that no user runs, and what they write into docs/.
+//!
+//! [`sweep`] measures run time against error, beside [`baseline`]; [`stress`] runs random scenes and
+//! long runs; [`stability`] maps where the methods are stable; [`choice`] tries `auto` on random arms;
+//! [`still`] judges moves that arrive still; [`faults`] injects what can go wrong around an axis.
+//! [`markers`] puts what they find into a page.
+
+pub mod baseline;
+pub mod choice;
+pub mod faults;
+pub mod markers;
+pub mod stability;
+pub mod still;
+pub mod stress;
+pub mod sweep;

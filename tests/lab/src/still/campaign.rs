@@ -1,0 +1,261 @@
+//! Still moves by the thousand: random arms from rest to rest, and random interruptions.
+
+use std::collections::BTreeMap;
+
+use rand::rngs::StdRng;
+use rand::{Rng, SeedableRng};
+use rayon::prelude::*;
+use stillbeam::model::Rod;
+use stillbeam::planner::{Course, Still, StillMove};
+use stillbeam::stepper::{Elastica, Flex, Quality};
+use stillbeam::{
+    Damping, Error as CoreError, Generator, Hub, Limits, Link, Move, Payload, Profile, Scene,
+};
+
+use stillbeam_sim::error::Error;
+use stillbeam_sim::plan::judge::Motion;
+use stillbeam_sim::reference::rod;
+
+/// How often each refusal was given, by its kind.
+pub type Refusals = BTreeMap<&'static str, usize>;
+
+/// A random arm: first period 0.1 to 2 s, payload to four link masses, hub radius to 0.3 L, half of
+/// them damped, a third under gravity that bends them by at most 5 % of L.
+fn arm(rng: &mut StdRng) -> Scene {
+    let (length, mass, period) =
+        (rng.random_range(0.1..2.0), rng.random_range(0.005..2.0), rng.random_range(0.1..2.0));
+    let payload: f64 = rng.random_range(0.0..4.0);
+    let omega: f64 = std::f64::consts::TAU / period;
+    let moved: f64 = mass * (0.2427 + payload);
+    let damped = if rng.random_bool(0.5) { 1.0 } else { 0.0 };
+    let upright = rng.random_bool(0.33);
+    let bending_stiffness = omega * omega * moved * f64::powi(length, 3) / 3.0;
+    let sag = moved * 9.81 * length * length / (3.0 * bending_stiffness);
+    Scene {
+        link: Link { length, mass, bending_stiffness },
+        hub: Hub { radius: length * rng.random_range(0.0..0.3), inertia: 0.0 },
+        payload: Payload {
+            mass: payload * mass,
+            inertia: mass * length * length * rng.random_range(0.0..0.02),
+        },
+        damping: Damping {
+            alpha: damped * rng.random_range(0.0..1.0),
+            beta: damped * period * rng.random_range(0.0..0.01),
+        },
+        gravity: if upright { 9.81 * f64::min(1.0, 0.05 / sag) } else { 0.0 },
+    }
+}
+
+/// A setpoint every 10 ms, or a twentieth of a first period where that is less.
+fn tick(arm: &Scene) -> Result<f64, Error> {
+    Ok(f64::min(0.01, rod::first_period(arm)? / 20.0))
+}
+
+fn kind(error: &CoreError) -> &'static str {
+    match error {
+        CoreError::TooShort { .. } => "too short",
+        CoreError::NotStill { .. } => "rings on",
+        CoreError::DeflectsTooFar { .. } | CoreError::BendsTooFar { .. } => "bends too far",
+        CoreError::LimitExceeded { parameter, .. } => parameter,
+        _ => "other",
+    }
+}
+
+/// One move from rest to rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Rest {
+    /// Duration in first periods.
+    pub ratio: f64,
+    /// Residual of the still move, and of the linear one, by the judge; of L. None if refused.
+    pub residual: Result<(f64, f64), &'static str>,
+    /// Whether the reference rod was the judge, else three modes in f64 at half the step.
+    pub by_rod: bool,
+}
+
+/// Random moves from rest to rest, 0.9 to 4 first periods; every `rod_each`-th judged by the
+/// reference rod.
+pub fn rests(
+    seed: u64,
+    count: usize,
+    rod_each: usize,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Rest>, Error> {
+    (0..count)
+        .into_par_iter()
+        .map(|index| {
+            let mut rng = StdRng::seed_from_u64(seed.wrapping_add(index as u64));
+            let arm = arm(&mut rng);
+            let tick = tick(&arm)?;
+            let planner = Still::<f32, 2>::new(&arm, tick)?;
+            let (from, to) = (rng.random_range(-3.2..3.2), rng.random_range(-3.2..3.2));
+            let ratio = rng.random_range(0.9..4.0);
+            let duration = ratio * planner.first_period() + 0.5 * tick;
+            let by_rod = index % rod_each == 0;
+            let plan = planner.plan(from, to, duration).and_then(|plan| {
+                planner.survey(&plan, None).admit(&Limits::default(), arm.link.length)?;
+                Ok(plan)
+            });
+            let residual = match plan {
+                Err(error) => Err(kind(&error)),
+                Ok(plan) => {
+                    let linear = planner.linear(from, to, duration)?;
+                    let length = arm.link.length;
+                    let judge = |motion: Move| -> Result<f64, Error> {
+                        Ok(Motion::of(from, motion, tick).judge(&arm, 0.0)?.residual)
+                    };
+                    Ok(if by_rod {
+                        (judge(plan.motion())?, judge(linear.motion())?)
+                    } else {
+                        let fine = Still::<f64, 3>::new(&arm, tick)?;
+                        let left = |plan| fine.survey(plan, None).residual / length;
+                        (left(&plan), left(&linear))
+                    })
+                }
+            };
+            done();
+            Ok(Rest { ratio, residual, by_rod })
+        })
+        .collect()
+}
+
+/// One interrupted move.
+#[derive(Clone, Copy, Debug)]
+pub struct Interruption {
+    /// What came of it, or why it was refused.
+    pub outcome: Result<Outcome, &'static str>,
+}
+
+/// What came of an interruption.
+#[derive(Clone, Copy, Debug)]
+pub struct Outcome {
+    /// Largest of rate and acceleration at any tick over its limit, less 1.
+    pub excess: f64,
+    /// Residual that the planner stated, of L.
+    pub stated: f64,
+    /// Residual by a finer flight in f64 from the same state, of L.
+    pub residual: f64,
+    /// Whether the hub stops on its way.
+    pub by_way_of_rest: bool,
+}
+
+/// Random interruptions of random moves: a new target, a stop, another payload.
+pub fn interruptions(
+    seed: u64,
+    arms: usize,
+    each: usize,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Interruption>, Error> {
+    let of_arm = |index: usize| -> Result<Vec<Interruption>, Error> {
+        let mut rng = StdRng::seed_from_u64(seed.wrapping_add(index as u64));
+        let arm = arm(&mut rng);
+        let case = Case::new(&arm, &mut rng)?;
+        let found = (0..each).map(|_| case.interrupt(&mut rng)).collect();
+        done();
+        found
+    };
+    let all: Result<Vec<_>, Error> = (0..arms).into_par_iter().map(of_arm).collect();
+    Ok(all?.into_iter().flatten().collect())
+}
+
+/// An arm, as it is and with another payload.
+struct Case {
+    arm: Scene,
+    tick: f64,
+    period: f64,
+    planners: [Still<f32, 2>; 2],
+    fine: [Still<f64, 2>; 2],
+    rod: Rod<2>,
+}
+
+impl Case {
+    fn new(arm: &Scene, rng: &mut StdRng) -> Result<Self, Error> {
+        let tick = tick(arm)?;
+        let mut other = *arm;
+        other.payload.mass *= rng.random_range(0.7..1.4);
+        let rod = Rod::new(arm)?;
+        Ok(Self {
+            arm: *arm,
+            tick,
+            period: rod::first_period(arm)?,
+            planners: [Still::new(arm, tick)?, Still::new(&other, tick)?],
+            fine: [Still::new(arm, tick / 3.0)?, Still::new(&other, tick / 3.0)?],
+            rod,
+        })
+    }
+
+    fn interrupt(&self, rng: &mut StdRng) -> Result<Interruption, Error> {
+        let to: f64 = rng.random_range(-3.0..3.0);
+        let duration = self.period * rng.random_range(1.5..4.0);
+        let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
+        let peaks = profile.peaks(to, duration);
+        // For what the redirected move may need, see the limits below.
+        let most = peaks.acceleration.max(0.5 / (self.period * self.period));
+        let bend = self.rod.bend(1.5 * most).min(1.5);
+        let stepper = Elastica::<f32, 2>::new(&self.rod, self.tick, Quality::Fine, bend)?;
+        let mut generator = Generator::<_, 8>::new(stepper, 0.0)?;
+        // A first move that the stepper itself refuses is nothing to interrupt.
+        let Ok(outline) = generator.push(&Move::To { profile, duration, to }) else {
+            return Ok(Interruption { outcome: Err("first move bends too far") });
+        };
+        // Before its end, or shortly after it with the arm still ringing.
+        let when = rng.random_range(1..outline.ticks + outline.ticks / 4);
+        for _ in 0..=when {
+            generator.tick();
+        }
+        // The plan begins three ticks from now.
+        let mut ahead = generator.clone();
+        for _ in 0..3 {
+            ahead.tick();
+        }
+        let hub = *ahead.hub();
+        let flex = ahead.stepper().flex(ahead.state(), &hub);
+        let (planner, target) = match rng.random_range(0..3) {
+            0 => (0, Some(rng.random_range(-3.0..3.0))),
+            // A stop, wherever that is.
+            1 => (0, None),
+            _ => (1, Some(to)),
+        };
+        // At least what the hub does already: a quarter more than what either takes.
+        let rate = 1.25 * f64::max(peaks.rate, f64::from(hub.rate).abs()).max(0.2 / self.period);
+        let acceleration = f64::max(peaks.acceleration, f64::from(hub.acceleration).abs());
+        let acceleration = 1.25 * acceleration.max(0.5 / (self.period * self.period));
+        let limits =
+            Limits { rate: Some(rate), acceleration: Some(acceleration), ..Limits::default() };
+        let from = hub.precise();
+        let plans = &self.planners[planner];
+        let found = match target {
+            Some(to) => plans.course(&from, Some(&flex), to, &limits),
+            None => plans.stop(&from, Some(&flex), &limits).map(Course::from),
+        };
+        let course = match found {
+            Err(error) => return Ok(Interruption { outcome: Err(kind(&error)) }),
+            Ok(course) => course,
+        };
+        if let Err(error) = generator.redirect(2, &course.first) {
+            return Ok(Interruption { outcome: Err(kind(&error)) });
+        }
+        if let Some(then) = course.then {
+            generator.push(&then.motion())?;
+        }
+        let mut excess = f64::NEG_INFINITY;
+        let ticks = course.first.ticks + course.then.map_or(0, |then| then.ticks);
+        for _ in 0..ticks + 3 {
+            generator.tick();
+            let hub = *generator.hub();
+            let over = |value: f32, limit: f64| f64::from(value).abs() / limit - 1.0;
+            excess = excess.max(over(hub.rate, rate)).max(over(hub.acceleration, acceleration));
+        }
+        let wide =
+            Flex { coordinate: flex.coordinate.map(f64::from), rate: flex.rate.map(f64::from) };
+        let length = self.arm.link.length;
+        // What the first of two moves leaves goes on through the second.
+        let left = |plan: StillMove, flex| {
+            let finer = StillMove { ticks: 3 * plan.ticks, tick: self.tick / 3.0, ..plan };
+            self.fine[planner].survey(&finer, flex).residual / length
+        };
+        let residual = left(course.first, Some(&wide)) + course.then.map_or(0.0, |t| left(t, None));
+        let stated = course.survey.residual / length;
+        let by_way_of_rest = course.then.is_some();
+        Ok(Interruption { outcome: Ok(Outcome { excess, stated, residual, by_way_of_rest }) })
+    }
+}

@@ -1,0 +1,194 @@
+//! `docs/still.md`: its tables and its picture, by a command.
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+use stillbeam::planner::Still;
+use stillbeam::{Error as CoreError, Profile, Scene};
+
+use super::duration::durations;
+use crate::sweep::tables::aligned;
+use stillbeam_sim::error::Error;
+use stillbeam_sim::output::Files;
+use stillbeam_sim::plan::contest::{self, ERRORS, Entry, percent};
+use stillbeam_sim::plan::judge::Motion;
+use stillbeam_sim::plan::picture;
+use stillbeam_sim::reference::rod;
+use stillbeam_sim::scenes;
+
+/// Setpoint interval of every motion, s.
+const TICK: f64 = 0.01;
+
+/// Durations of the residual table, first periods.
+const RATIOS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
+
+/// Durations of the contest, first periods.
+const CONTEST: [f64; 3] = [1.5, 2.0, 3.0];
+
+/// Bands of the table of robust moves.
+const SPREADS: [f64; 2] = [0.05, 0.15];
+
+/// Steps of [`blocks`], for a progress bar.
+pub const STEPS: usize = 112;
+
+/// Steps of [`pictures`].
+pub const PICTURE_STEPS: usize = 28;
+
+/// Everything between markers, by name.
+pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<(String, String)>, Error> {
+    let mut blocks = vec![("residual".to_owned(), residuals(done)?)];
+    let arm = arm("a-tip30")?;
+    let period = rod::first_period(&arm)?;
+    for ratio in CONTEST {
+        let duration = (ratio * period / TICK).round() * TICK;
+        let entries = contest::entries(&arm, PI, duration, TICK, done)?;
+        blocks.push((format!("contest-{ratio}"), contest_table(&entries, duration)));
+    }
+    blocks.push(("robust".to_owned(), robust_table(done)?));
+    blocks.push(("durations".to_owned(), duration_table(&arm, period)?));
+    Ok(blocks)
+}
+
+fn arm(scene: &str) -> Result<Scene, Error> {
+    Ok(scenes::open(scene)?.arm)
+}
+
+/// Arms of the residual table.
+fn arms() -> Result<Vec<(&'static str, Scene)>, Error> {
+    let mut all = Vec::new();
+    for (name, scene) in [
+        ("member A with 30 g", "a-tip30"),
+        ("member B with 30 g", "b-tip30"),
+        ("member C with 30 g", "c-tip30"),
+        ("member D with 30 g", "d-tip30"),
+        ("member D bare", "d-fast"),
+        ("B with 30 g, damped, hub 40 mm", "b-tip30-damped-hub"),
+        ("1 m arm, gravity, payload inertia", "s-gravity"),
+    ] {
+        all.push((name, arm(scene)?));
+    }
+    Ok(all)
+}
+
+fn residuals(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
+    let mut lines = vec![
+        std::iter::once("arm".to_owned())
+            .chain(RATIOS.map(|ratio| format!("{ratio} T\u{2081}")))
+            .collect::<Vec<_>>(),
+    ];
+    let rows = arms()?
+        .into_par_iter()
+        .map(|(name, arm)| {
+            let period = rod::first_period(&arm)?;
+            // Fast arms at ticks that divide their period as finely as slow ones'.
+            let tick = TICK.min(period / 10.0);
+            let planner = Still::<f32, 2>::new(&arm, tick)?;
+            let mut line = vec![name.to_owned()];
+            for ratio in RATIOS {
+                let plan = planner.plan(0.0, PI, ratio * period)?;
+                let judged = Motion::of(0.0, plan.motion(), tick).judge(&arm, 0.0)?;
+                line.push(percent(judged.residual));
+                done();
+            }
+            Ok(line)
+        })
+        .collect::<Result<Vec<_>, Error>>()?;
+    lines.extend(rows);
+    Ok(aligned(&lines))
+}
+
+fn contest_table(entries: &[Entry], duration: f64) -> String {
+    let header = contest::HEADER.map(str::to_owned).to_vec();
+    let rows = entries.iter().map(|entry| entry.cells(duration));
+    aligned(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
+}
+
+/// Robust moves for bands of other widths, with damping and gravity too.
+fn robust_table(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
+    let mut header = ["arm", "planned for", "duration"].map(str::to_owned).to_vec();
+    header.extend(contest::HEADER[1..=ERRORS.len()].iter().map(|&error| error.to_owned()));
+    header.push("acceleration".to_owned());
+    let shown = [0, 5, 6];
+    let arms: Vec<_> = arms()?.into_iter().enumerate().filter(|(k, _)| shown.contains(k)).collect();
+    let cases: Vec<_> = arms
+        .iter()
+        .flat_map(|(_, arm)| SPREADS.map(|spread| (arm, spread)))
+        .flat_map(|(arm, spread)| CONTEST.map(|ratio| (arm, spread, ratio)))
+        .collect();
+    let rows = cases
+        .into_par_iter()
+        .map(|((name, arm), spread, ratio)| {
+            let period = rod::first_period(arm)?;
+            let tick = TICK.min(period / 10.0);
+            let planner = Still::<f32, 2>::robust(arm, tick, spread)?;
+            let found = planner.plan(0.0, PI, ratio * period);
+            let mut line = vec![
+                (*name).to_owned(),
+                format!("\u{b1}{:.0} %", 100.0 * spread),
+                format!("{ratio} T\u{2081}"),
+            ];
+            let plan = match found {
+                Ok(plan) => plan,
+                // No move for three arms in so short a time.
+                Err(CoreError::NotStill { .. }) => {
+                    line.extend(std::iter::repeat_n("\u{2013}".to_owned(), ERRORS.len() + 1));
+                    done();
+                    return Ok(line);
+                }
+                Err(error) => return Err(error.into()),
+            };
+            let motion = Motion::of(0.0, plan.motion(), tick);
+            for error in ERRORS {
+                line.push(percent(motion.judge(arm, error)?.residual));
+            }
+            let duration = plan.duration();
+            line.push(format!("{:.2}", plan.peaks.acceleration * duration * duration / PI));
+            done();
+            Ok(line)
+        })
+        .collect::<Result<Vec<_>, Error>>()?;
+    let lines: Vec<_> = std::iter::once(header).chain(rows).collect();
+    Ok(aligned(&lines))
+}
+
+fn duration_table(arm: &Scene, period: f64) -> Result<String, Error> {
+    let mut lines = vec![
+        ["limits of a", "that takes", "still", "rigid time-optimal"].map(str::to_owned).to_vec(),
+    ];
+    let in_periods = |seconds: f64| format!("{:.2} T\u{2081}", seconds / period);
+    for (profile, what) in [
+        (Profile::Cubic, "cubic, acceleration only"),
+        (Profile::SCurve, "S-curve, rate, acceleration, jerk"),
+    ] {
+        for ratio in [1.0, 1.5, 2.0, 2.5, 3.0, 4.0] {
+            let found = durations(arm, profile, PI, ratio * period, TICK)?;
+            let share = format!("{} ({:.2})", in_periods(found.still), found.still / found.profile);
+            let rigid = found.rigid.map_or("\u{2013}".to_owned(), in_periods);
+            lines.push(vec![what.to_owned(), in_periods(found.profile), share, rigid]);
+        }
+    }
+    Ok(aligned(&lines))
+}
+
+/// Draws the pictures beside the text, `still.svg` and `still-swing.svg` for `still.md`. Returns
+/// their paths.
+pub fn pictures(
+    files: &mut Files,
+    text: &Path,
+    done: &(dyn Fn() + Sync),
+) -> Result<[PathBuf; 2], Error> {
+    let arm = arm("a-tip30")?;
+    let period = rod::first_period(&arm)?;
+    let duration = (2.0 * period / TICK).round() * TICK;
+    let curves = picture::curves(&arm, PI, duration, TICK, done)?;
+    let entries = contest::entries(&arm, PI, duration, TICK, done)?;
+    let swing = picture::swing(&entries, duration, arm.link.length);
+    let stem = text.file_stem().unwrap_or_default().to_string_lossy();
+    let paths = [text.with_extension("svg"), text.with_file_name(format!("{stem}-swing.svg"))];
+    for (chart, path) in [picture::sensitivity(&curves), swing].iter().zip(&paths) {
+        let svg = chart.svg()?;
+        files.add(path, |file| file.write_all(svg.as_bytes()))?;
+    }
+    Ok(paths)
+}

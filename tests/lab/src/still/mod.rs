@@ -1,0 +1,5 @@
+//! Moves that arrive still, judged: the page's tables and the campaign over random moves.
+
+pub mod campaign;
+pub mod document;
+pub mod duration;

@@ -1,0 +1,190 @@
+//! Random scenes, each from its own number.
+
+use std::f64::consts::TAU;
+
+use rand::rngs::StdRng;
+use rand::{Rng, SeedableRng};
+use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Profile, Scene};
+
+use stillbeam_sim::scene_file::{SceneFile, Step};
+use stillbeam_sim::solver::{Mass, Method, Quality, Scalar, Solver, SolverKeys};
+
+/// What is drawn, for a page: quantity and range.
+pub const RANGES: [(&str, &str); 10] = [
+    ("link", "length 0.03 to 10 m, mass 1 g to 100 kg"),
+    ("bending stiffness", "10⁻⁶ to 10⁶ N m², or such that ω₁h is 10⁻³·⁵ to 10²"),
+    ("payload over link mass", "0, 10⁻³ to 10³; with rotary inertia in half of the scenes"),
+    ("hub radius", "0, 10⁻² L to 10 L"),
+    ("tick", "0.1 ms to 1 s"),
+    ("damping of the first mode", "0, 10⁻⁴ to 10 of critical, by α, by β or by both"),
+    ("gravity", "0, 10⁻² to 100 m/s²"),
+    ("moves", "1 µrad to 100 turns, in 5 to 5,000 ticks, every profile"),
+    ("spin", "up to 5 ω₁, held"),
+    ("after the move", "as long as the move, at most 200 ticks"),
+];
+
+/// A scene and what runs on it.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The scene; its `[solver]` table is empty.
+    pub scene: SceneFile,
+    /// One solver of each family, in f64.
+    pub solvers: Vec<Solver>,
+    /// Rayleigh's estimate of the first frequency, rad/s.
+    pub omega: f64,
+}
+
+/// The scene of that number under that seed.
+pub fn draw(seed: u64, index: u64) -> Drawn {
+    let mut rng = StdRng::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index);
+    let rng = &mut rng;
+    let length = decades(rng, -1.5, 1.0);
+    let mass = decades(rng, -3.0, 2.0);
+    let tick = decades(rng, -4.0, 0.0);
+    let payload = Payload {
+        mass: if rng.random_bool(0.1) { 0.0 } else { mass * decades(rng, -3.0, 3.0) },
+        inertia: 0.0,
+    };
+    let inertia = if rng.random_bool(0.5) { decades(rng, -4.0, -1.0) } else { 0.0 };
+    let payload = Payload { inertia: inertia * payload.mass * length * length, ..payload };
+    let moved = 0.2427 * mass + payload.mass + payload.inertia * 2.25 / (length * length);
+    let stiffness = if rng.random_bool(0.5) {
+        decades(rng, -6.0, 6.0)
+    } else {
+        let omega = decades(rng, -3.5, 2.0) / tick;
+        omega * omega * moved * length.powi(3) / 3.0
+    };
+    let omega = (3.0 * stiffness / (moved * length.powi(3))).sqrt();
+    let radius = if rng.random_bool(0.2) { 0.0 } else { length * decades(rng, -2.0, 1.0) };
+    let hub_inertia = if rng.random_bool(0.5) { 0.0 } else { mass * decades(rng, -4.0, 1.0) };
+    let arm = Scene {
+        link: Link { length, mass, bending_stiffness: stiffness },
+        hub: Hub { radius, inertia: hub_inertia },
+        payload,
+        damping: damping(rng, omega),
+        gravity: gravity(rng, moved * length * length / (3.0 * stiffness)),
+    };
+    let bends = omega * omega * length / (length + radius);
+    let (from, moves) = moves(rng, omega, tick, bends);
+    let solvers = solvers(rng, tick);
+    let scene = SceneFile {
+        shaper: None,
+        name: format!("stress {seed}/{index}"),
+        arm,
+        from,
+        moves,
+        limits: Limits::default(),
+        solver: SolverKeys::default(),
+        remarks: Vec::new(),
+    };
+    Drawn { scene, solvers, omega }
+}
+
+impl Drawn {
+    /// What the tip would sag by with the arm level, of L.
+    pub fn sag(&self) -> f64 {
+        self.scene.arm.gravity / (self.omega * self.omega * self.scene.arm.link.length)
+    }
+}
+
+fn decades(rng: &mut StdRng, low: f64, high: f64) -> f64 {
+    10f64.powf(rng.random_range(low..high))
+}
+
+fn sign(rng: &mut StdRng) -> f64 {
+    if rng.random_bool(0.5) { 1.0 } else { -1.0 }
+}
+
+/// Of critical damping of the first mode, by α, by β or by both.
+fn damping(rng: &mut StdRng, omega: f64) -> Damping {
+    let ratio = if rng.random_bool(0.4) { 0.0 } else { decades(rng, -4.0, 1.0) };
+    let share = match rng.random_range(0..3) {
+        0 => 0.0,
+        1 => 1.0,
+        _ => rng.random_range(0.0..1.0),
+    };
+    Damping { alpha: 2.0 * ratio * omega * share, beta: 2.0 * ratio / omega * (1.0 - share) }
+}
+
+/// Half of the arms that feel gravity carry it; `softness` is what the tip sags at 1 m/s², of L.
+fn gravity(rng: &mut StdRng, softness: f64) -> f64 {
+    if rng.random_bool(0.4) {
+        return 0.0;
+    }
+    let gravity = decades(rng, -2.0, 2.0);
+    if rng.random_bool(0.5) { gravity.min(0.3 / softness) } else { gravity }
+}
+
+/// A move, a move and back, or a spin-up that goes on turning; each with a rest. `bends` is about
+/// the acceleration that bends the arm by a radian.
+fn moves(rng: &mut StdRng, omega: f64, tick: f64, bends: f64) -> (f64, Vec<Step>) {
+    let few = rng.random_bool(0.95);
+    let ticks: f64 =
+        if few { decades(rng, 0.7, 2.3) } else { decades(rng, 2.3, 3.7) }.max(5.0).round();
+    // Most moves are such that a stepper could take them; the others show that it says no.
+    let tame = rng.random_bool(0.75);
+    let from = sign(rng) * decades(rng, -3.0, 2.0) * f64::from(u8::from(rng.random_bool(0.5)));
+    let settle = |ticks: f64| ticks.min(200.0) * tick;
+    if rng.random_bool(0.2) {
+        let mut rate: f64 = omega * rng.random_range(0.0..5.0);
+        let mut duration = ticks * tick;
+        if tame {
+            rate = rate.min(0.9 / tick);
+            duration = duration.max((2.0 * rate / bends).min(5000.0 * tick));
+        }
+        let motion = Move::SpinUp { duration, rate: sign(rng) * rate };
+        let held = 4.0 * ticks;
+        return (from, vec![Step { motion, settle: held.min(1000.0) * tick }]);
+    }
+    let mut angle = decades(rng, -6.0, (100.0 * TAU).log10());
+    let mut ticks = ticks;
+    if tame {
+        ticks = ticks.max((2.2 * angle).ceil()).min(5000.0);
+        if rng.random_bool(0.6) {
+            let duration = ticks * tick;
+            angle = angle.min(bends * duration * duration / 6.3);
+        }
+    }
+    // Not a whole number of ticks.
+    let duration = (ticks + rng.random_range(-0.4..0.4)) * tick;
+    let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
+    let to = from + sign(rng) * angle;
+    let there = Step { motion: Move::To { profile, duration, to }, settle: settle(ticks) };
+    if rng.random_bool(0.2) {
+        let back = Step { motion: Move::To { profile, duration, to: from }, ..there };
+        return (from, vec![Step { settle: 0.0, ..there }, back]);
+    }
+    (from, vec![there])
+}
+
+/// One solver of each family; `auto` for one scene in four hundred: it runs the ladder beside the exact rod.
+fn solvers(rng: &mut StdRng, tick: f64) -> Vec<Solver> {
+    let base = Solver { tick, scalar: Scalar::F64, ..Solver::PAPER };
+    let pick = |rng: &mut StdRng, n: usize| rng.random_range(0..n);
+    let elements = [1, 2, 4, 8][pick(rng, 4)];
+    let mass = [Mass::Consistent, Mass::Lumped][pick(rng, 2)];
+    let quality = [Quality::Fast, Quality::Fine][pick(rng, 2)];
+    let mut all = vec![
+        Solver { method: Method::Rigid, ..base },
+        Solver { method: Method::Newmark, elements, mass, ..base },
+        Solver { method: Method::Modal, elements: 8, modes: 1 + pick(rng, 3), ..base },
+        Solver { method: Method::Elastica, quality, modes: 1 + pick(rng, 3), ..base },
+    ];
+    let tolerance = decades(rng, -4.0, -1.0);
+    if rng.random_bool(0.0025) {
+        let torque_tolerance = (10.0 * tolerance).min(1.0);
+        all.push(Solver { method: Method::Auto, tolerance, torque_tolerance, ..base });
+    }
+    all
+}
+
+/// A solver without its tick and precision, e.g. `newmark, 4 consistent elements`.
+pub fn method_name(solver: &Solver) -> String {
+    match solver.method {
+        Method::Rigid => "rigid".into(),
+        Method::Newmark => format!("newmark, {} {}", solver.elements, solver.mass.name()),
+        Method::Modal => format!("modal, {}", solver.modes),
+        Method::Elastica => format!("elastica, {} {}", solver.modes, solver.quality.name()),
+        Method::Auto => "auto".into(),
+    }
+}

@@ -1,0 +1,197 @@
+//! One method on one scene, in f64 and in f32.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use stillbeam::stepper::Stepper;
+use stillbeam::{Move, Scalar as Real, Setpoint};
+
+use super::draw::Drawn;
+use super::growth::grows;
+use stillbeam_sim::error::Error;
+use stillbeam_sim::model_choice::{StepperVisitor, with_stepper};
+use stillbeam_sim::run::each_tick;
+use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::solver::{Method, Scalar, Solver};
+
+/// Deflections are compared relative to the peak, but at least to this fraction of L: a thousand
+/// times what an arm may still swing by when it is let sleep.
+pub const FLOOR: f64 = 1000.0 * stillbeam::stepper::SLEEP;
+
+/// Relative change of EI that a run's condition is measured with, in f64.
+const NUDGE: f64 = 1e-8;
+
+/// What a run has come to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Not accepted; the reason with its numbers left out.
+    Refused(String),
+    /// The program broke off: the message.
+    Panicked(String),
+    /// Ran to its end.
+    Ran(Run),
+}
+
+/// A run in both precisions, and once more of an arm that is a little stiffer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// First tick with a field that is not finite, or an angle's part outside ±½ turn, f64 and f32.
+    pub broken: [Option<u64>; 2],
+    /// Distance from the last move's target, rad, f32.
+    pub off_target: f64,
+    /// Largest deflection, of L, f64.
+    pub peak: f64,
+    /// Largest difference of deflections, of their peak, see [`FLOOR`].
+    pub deflection: f64,
+    /// Largest difference of torques, of their peak.
+    pub torque: f64,
+    /// Condition of the deflection: by how much of its peak it changes for a relative change of EI, at
+    /// least 1. A vibration of N rad has ½N and more, a resonance or a step that feeds
+    /// the arm has any.
+    pub condition: f64,
+    /// The arm swings up during the last rest, by its own physics or by the method's, or that of elastica
+    /// deflects by more than its length: there is nothing to compare then.
+    pub rings_up: bool,
+    /// Ticks.
+    pub ticks: u64,
+    /// Peak rate of the hub, rad/s.
+    pub rate: f64,
+}
+
+/// Runs one solver of a scene.
+pub fn trial(drawn: &Drawn, solver: &Solver) -> Verdict {
+    let run = AssertUnwindSafe(|| both(drawn, solver));
+    match catch_unwind(run) {
+        Ok(Ok(run)) => Verdict::Ran(run),
+        Ok(Err(error)) => Verdict::Refused(reason(&error.to_string())),
+        Err(payload) => {
+            let text = payload.downcast_ref::<String>().map(String::as_str);
+            let text = text.or(payload.downcast_ref::<&str>().copied()).unwrap_or("?");
+            Verdict::Panicked(reason(text))
+        }
+    }
+}
+
+/// What is kept of a setpoint.
+#[derive(Clone, Copy)]
+struct Sample {
+    deflection: f64,
+    torque: f64,
+}
+
+struct Record<'a> {
+    scene: &'a SceneFile,
+    samples: Vec<Sample>,
+    broken: Option<u64>,
+    angle: f64,
+    rate: f64,
+}
+
+impl StepperVisitor for &mut Record<'_> {
+    type Output = ();
+
+    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<(), Error> {
+        each_tick(stepper, self.scene, |generator, k, _| {
+            let setpoint = generator.tick();
+            if self.broken.is_none() && !is_sound(&setpoint) {
+                self.broken = Some(k);
+            }
+            let (deflection, torque) = (setpoint.deflection().to_f64(), setpoint.torque.to_f64());
+            self.samples.push(Sample { deflection, torque });
+            self.angle = setpoint.angle.radians();
+            self.rate = self.rate.max(setpoint.rate.to_f64().abs());
+        })
+    }
+}
+
+fn is_sound<T: Real>(s: &Setpoint<T>) -> bool {
+    let all = [s.angle.part, s.rate, s.acceleration, s.torque, s.tip[0], s.tip[1]];
+    all.iter().all(|x| x.is_finite()) && s.angle.part.to_f64().abs() <= 0.5
+}
+
+fn both(drawn: &Drawn, solver: &Solver) -> Result<Run, Error> {
+    let scene = &drawn.scene;
+    fn run<'a>(scene: &'a SceneFile, solver: &Solver, scalar: Scalar) -> Result<Record<'a>, Error> {
+        let mut record = Record { scene, samples: Vec::new(), broken: None, angle: 0.0, rate: 0.0 };
+        with_stepper(scene, &Solver { scalar, ..*solver }, &mut record)?;
+        Ok(record)
+    }
+    let (double, single) = (run(scene, solver, Scalar::F64)?, run(scene, solver, Scalar::F32)?);
+    let mut stiffer = scene.clone();
+    stiffer.arm.link.bending_stiffness *= 1.0 + NUDGE;
+    // At the edge of what is accepted it may be refused: then it says nothing.
+    let nudged = run(&stiffer, solver, Scalar::F64).ok();
+    let length = scene.arm.link.length;
+    let most = |of: &dyn Fn(&Sample) -> f64| {
+        double.samples.iter().map(|sample| of(sample).abs()).fold(0.0, f64::max)
+    };
+    let apart = |other: &[Sample], of: &dyn Fn(&Sample) -> f64| {
+        let pairs = double.samples.iter().zip(other);
+        // f64::max would drop what is no number.
+        pairs.map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, |most: f64, apart| {
+            if apart.is_nan() { f64::INFINITY } else { most.max(apart) }
+        })
+    };
+    let (peak, torque) = (most(&|s| s.deflection), most(&|s| s.torque));
+    let target = scene.moves.last().and_then(|step| match step.motion {
+        Move::To { to, .. } => Some(to),
+        _ => None,
+    });
+    let scale = peak.max(FLOOR * length);
+    let condition = nudged.map_or(f64::INFINITY, |nudged| {
+        apart(&nudged.samples, &|s| s.deflection) / (peak.max(f64::MIN_POSITIVE) * NUDGE)
+    });
+    let rest = scene.moves.last().map_or(0.0, |step| step.settle / solver.tick) as usize;
+    // What rests for less than four periods cannot be seen to swing up.
+    let seen = rest as f64 * drawn.omega * solver.tick > 4.0 * std::f64::consts::TAU;
+    let rest = if seen { rest } else { 0 };
+    let rings_up = [&double, &single].into_iter().any(|record| {
+        let deflections: Vec<f64> = record.samples.iter().map(|s| s.deflection).collect();
+        grows(&deflections, rest, length)
+    });
+    Ok(Run {
+        broken: [double.broken, single.broken],
+        off_target: target.map_or(0.0, |to| (single.angle - to).abs()),
+        peak: peak / length,
+        deflection: apart(&single.samples, &|s| s.deflection) / scale,
+        torque: apart(&single.samples, &|s| s.torque) / torque.max(f64::MIN_POSITIVE),
+        condition: condition.max(1.0),
+        rings_up: rings_up || (solver.method == Method::Elastica && peak > length),
+        ticks: double.samples.len() as u64,
+        rate: double.rate,
+    })
+}
+
+/// A message with every number left out, so that equal reasons read the same.
+pub fn reason(message: &str) -> String {
+    let mut text = String::new();
+    let mut inside = false;
+    let chars: Vec<char> = message.chars().collect();
+    for (i, &c) in chars.iter().enumerate() {
+        let next_is_digit = chars.get(i + 1).is_some_and(char::is_ascii_digit);
+        let after_word = i > 0 && (chars[i - 1].is_alphanumeric() || chars[i - 1] == '_');
+        let begins = (c.is_ascii_digit() && !after_word) || (c == '-' && next_is_digit);
+        inside = begins || (inside && (c.is_ascii_digit() || matches!(c, '.' | 'e' | '-')));
+        // A full stop or an exponent's letter ends a number too.
+        if inside && matches!(c, '.' | 'e') && !next_is_digit && chars.get(i + 1) != Some(&'-') {
+            inside = false;
+        }
+        if !inside {
+            text.push(c);
+        } else if !text.ends_with('…') {
+            text.push('…');
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reason;
+
+    #[test]
+    fn reasons_hold_no_numbers() {
+        let given = "link.mass = 1e-9: must be 0.0000001 to 100000 kg, not -3.5.";
+        assert_eq!(reason(given), "link.mass = …: must be … to … kg, not ….");
+        assert_eq!(reason("N m^2 and rad/s^2"), "N m^… and rad/s^…");
+    }
+}

@@ -1,0 +1,157 @@
+//! What a choice costs, everything else equal: pairs of rows that differ in one key.
+
+use super::row::Row;
+use stillbeam_sim::solver::{Mass, Scalar, Solver, SolverKeys};
+use stillbeam_sim::table::significant;
+
+/// A choice that a reader has to make.
+pub struct Question {
+    /// In words.
+    pub text: &'static str,
+    names: [&'static str; 2],
+    set: [fn(&mut SolverKeys); 2],
+}
+
+/// The choices, each between a cheap and a dear side.
+pub const QUESTIONS: [Question; 5] = [
+    Question {
+        text: "10 ms against 1 ms",
+        names: ["10 ms", "1 ms"],
+        set: [|keys| keys.tick = Some(0.010), |keys| keys.tick = Some(0.001)],
+    },
+    Question {
+        text: "1 element against 4",
+        names: ["1 element", "4 elements"],
+        set: [|keys| keys.elements = Some(1), |keys| keys.elements = Some(4)],
+    },
+    Question {
+        text: "f32 against f64",
+        names: ["f32", "f64"],
+        set: [|keys| keys.scalar = Some(Scalar::F32), |keys| keys.scalar = Some(Scalar::F64)],
+    },
+    Question {
+        text: "lumped against consistent mass",
+        names: ["lumped", "consistent"],
+        set: [|keys| keys.mass = Some(Mass::Lumped), |keys| keys.mass = Some(Mass::Consistent)],
+    },
+    Question {
+        text: "without spin terms against with them",
+        names: ["no spin terms", "spin terms"],
+        set: [|keys| keys.spin = Some(false), |keys| keys.spin = Some(true)],
+    },
+];
+
+/// One question on one scene around one solver.
+pub struct Answer<'a> {
+    /// The question.
+    pub question: &'static Question,
+    /// The two rows.
+    pub rows: [&'a Row; 2],
+}
+
+/// The solvers around which the questions are asked: the paper's, where the tick is long and the
+/// mesh coarse, and its opposite, where neither hides what the other choices do.
+pub fn bases() -> [SolverKeys; 2] {
+    let coarse = SolverKeys::from(Solver::PAPER).relevant();
+    [coarse, SolverKeys { elements: Some(4), tick: Some(0.001), ..coarse }]
+}
+
+/// The questions that the rows can answer on a scene around `base`.
+pub fn answers<'a>(rows: &'a [Row], scene: &str, base: SolverKeys) -> Vec<Answer<'a>> {
+    let find = |set: fn(&mut SolverKeys)| {
+        let mut keys = base;
+        set(&mut keys);
+        rows.iter().find(|row| row.id.scene == scene && row.keys == keys)
+    };
+    QUESTIONS
+        .iter()
+        .filter_map(|question| {
+            let [a, b] = question.set.map(find);
+            Some(Answer { question, rows: [a?, b?] })
+        })
+        .collect()
+}
+
+impl Answer<'_> {
+    /// The difference in a sentence with its numbers.
+    pub fn sentence(&self) -> String {
+        let [a, b] = self.question.names;
+        let [x, y] = self.rows.map(|row| row.errors);
+        let mut text = format!(
+            "{a}: tip error {}, torque error {}; {b}: {}, {}: {}",
+            percent(x.tip_max),
+            percent(x.torque),
+            percent(y.tip_max),
+            percent(y.torque),
+            compare(a, b, x.tip_max, y.tip_max),
+        );
+        if let [Some(x), Some(y)] =
+            self.rows.map(|row| row.cost.map(|c| (c, c.load_us(row.tick_s()))))
+        {
+            text += &format!(
+                ". A tick takes {} ns against {} ns, a second of motion {} µs against {} µs",
+                short(x.0.tick_ns),
+                short(y.0.tick_ns),
+                short(x.1),
+                short(y.1),
+            );
+        }
+        text + "."
+    }
+}
+
+/// Which of two errors is the larger, and how much.
+fn compare(a: &str, b: &str, x: f64, y: f64) -> String {
+    let ratio = x.max(y) / x.min(y);
+    let larger = if x > y { a } else { b };
+    if x == y {
+        "the same".into()
+    } else if ratio.is_infinite() {
+        format!("nothing to compare with {larger}")
+    } else if ratio < 1.01 {
+        "the same to 1 %".into()
+    } else if ratio < 2.0 {
+        format!("{:.0} % more with {larger}", 100.0 * (ratio - 1.0))
+    } else {
+        format!("{} times as much with {larger}", short(ratio))
+    }
+}
+
+/// A fraction as percent, three digits.
+pub fn percent(fraction: f64) -> String {
+    let unit = if fraction.is_finite() { " %" } else { "" };
+    format!("{}{unit}", short(100.0 * fraction))
+}
+
+/// Three significant digits, plain where that is short; what is infinite has diverged.
+pub fn short(x: f64) -> String {
+    let x = significant(x, 3);
+    let digits = if x == 0.0 { 0 } else { 2 - x.abs().log10().floor() as i32 };
+    match digits {
+        _ if x.is_infinite() => "diverges".into(),
+        ..=0 => format!("{x:.0}"),
+        1..=6 => format!("{x:.*}", digits as usize),
+        _ => format!("{x:.2e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn three_digits() {
+        let cases = [
+            (0.0, "0"),
+            (13.04, "13.0"),
+            (9.996, "10.0"),
+            (0.001234, "0.00123"),
+            (1234.0, "1230"),
+            (1.234e-6, "1.23e-6"),
+            (f64::INFINITY, "diverges"),
+        ];
+        for (x, text) in cases {
+            assert_eq!(short(x), text);
+        }
+    }
+}
