@@ -38,9 +38,9 @@ impl Material {
 /// A rectangular cross-section that bends about its thickness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strip {
-    /// Across the plane of motion, m.
+    /// Size across the plane of motion, m.
     pub width: f64,
-    /// In the plane of motion, m.
+    /// Size in the plane of motion, m.
     pub thickness: f64,
 }
 

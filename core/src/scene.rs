@@ -147,8 +147,8 @@ impl<T: Scalar> Scene<T> {
         Error::check("hub.radius", self.hub.radius, 0.0, 1e3, "m")?;
         Error::check("hub.inertia", self.hub.inertia, 0.0, 1e6, "kg m^2")?;
         Error::check("payload.mass", self.payload.mass, 0.0, 1e5, "kg")?;
-        // A radius of gyration of ten lengths. Far beyond it, the mass of what turns hides the mass of
-        // what moves from an f32.
+        // A radius of gyration of ten lengths. Far beyond it, the mass of what turns hides the mass
+        // of what moves from an f32.
         let mass = self.link.mass + self.payload.mass;
         let square = self.link.length * self.link.length;
         let most = (T::from_f64(100.0) * mass * square).to_f64().min(1e6);

@@ -121,8 +121,9 @@ pub struct InterpolationPeriod {
 }
 
 impl InterpolationPeriod {
-    /// The period of a tick of `tick` s, exact to 1e-9 of it. In milliseconds where that can be, the
-    /// unit that every drive takes; else in the coarsest unit from 10⁻⁴ to 10⁻⁶ s, then 10⁻² to 1 s.
+    /// The period of a tick of `tick` s, exact to 1e-9 of it. In milliseconds where that can be,
+    /// the unit that every drive takes; else in the coarsest unit from 10⁻⁴ to 10⁻⁶ s, then 10⁻² to
+    /// 1 s.
     ///
     /// # Errors
     /// The tick is not 1 to 255 of any of these units. What it must be is the nearest that is.

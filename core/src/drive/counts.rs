@@ -9,7 +9,7 @@ pub(super) fn count(value: f32, per_unit: f32, min: i32, max: i32) -> (i32, bool
     (clamped as i32, clamped != counts)
 }
 
-/// As [`count`], for an i16.
+/// Counts in an i16, in the same way as [`count`].
 pub(super) fn count_i16(value: f32, per_unit: f32) -> (i16, bool) {
     let (counts, saturated) = count(value, per_unit, i16::MIN.into(), i16::MAX.into());
     (counts as i16, saturated)

@@ -9,8 +9,9 @@
 //! | [`cia402`] CSP | i32 increments | i32 increments/s | i16 ‰ of rated torque | 10, or two PDOs |
 //! | [`moteus`] | f32 turns | f32 turns/s | f32 N m | 24, CAN FD |
 //!
-//! None of them has room for a count of its own, so a [`Sequence`](crate::axis::Sequence) travels beside each payload: to the
-//! task that sends it, in the stamp of a captured frame, as the counter of CANopen's SYNC.
+//! None of them has room for a count of its own, so a [`Sequence`](crate::axis::Sequence) travels
+//! beside each payload: to the task that sends it, in the stamp of a captured frame, as the counter
+//! of CANopen's SYNC.
 
 pub mod cia402;
 mod counts;
@@ -48,7 +49,7 @@ impl Saturated {
 pub struct Encoded<P> {
     /// The payload.
     pub payload: P,
-    /// What was cut to the nearest value.
+    /// Fields that were cut to the nearest value the format holds.
     pub saturated: Saturated,
 }
 

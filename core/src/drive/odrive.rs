@@ -25,7 +25,7 @@ const PER_UNIT: f32 = 1000.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node(u8);
 
-/// Where the encoder says that the shaft is.
+/// Angle and rate of the shaft as the encoder measures them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EncoderEstimates {
     /// Turns.
@@ -68,7 +68,8 @@ impl Node {
         F::new(self.id(SET_AXIS_STATE), &[if on { 8 } else { 1 }, 0, 0, 0])
     }
 
-    /// Whether such a frame of this node switches on or off.
+    /// Reads Set_Axis_State for this node: true if it switches on, false if off, `None` if it is
+    /// another frame.
     pub fn axis_state(self, frame: &impl Frame) -> Option<bool> {
         let ours = frame.id() == self.id(SET_AXIS_STATE).into() && frame.is_data_frame();
         match frame.data() {

@@ -1,4 +1,4 @@
-//! Whether a format resolves the torques of a move.
+//! Warns of a move whose torques a format resolves too coarsely.
 
 /// Counts that a move's torque peak should have at least: 1 % steps.
 const ENOUGH: f32 = 100.0;

@@ -20,7 +20,7 @@ pub struct Angle<T> {
 }
 
 impl<T: Scalar> Angle<T> {
-    /// The angle that many turns from `self`. `|delta|` below 2²¹ − 1 turns.
+    /// Returns the angle `delta` turns further on; `|delta|` below 2²¹ − 1 turns.
     #[inline(always)]
     pub fn plus(self, delta: T) -> Self {
         let (whole, part) = (self.part + delta).split();
@@ -52,7 +52,7 @@ impl<T: Scalar> Angle<T> {
 }
 
 impl Angle<f64> {
-    /// From radians; `|radians|` below 2³¹ − 1 turns.
+    /// Converts an angle in radians; `|radians|` below 2³¹ − 1 turns.
     pub fn from_radians(radians: f64) -> Self {
         Self { turns: 0, part: 0.0 }.plus(radians / TAU)
     }

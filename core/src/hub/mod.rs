@@ -1,4 +1,4 @@
-//! Where the hub is and how it turns at one instant.
+//! Angle, rate and acceleration of the hub at one instant.
 
 mod angle;
 
@@ -12,8 +12,8 @@ pub(crate) const MAX_ANGLE: f64 = 1e6;
 
 /// The hub at one instant.
 ///
-/// Set-up and planning hold it in f64, the tick in its own scalar. Where the acceleration jumps it is
-/// the right-hand value.
+/// Set-up and planning hold it in f64, the tick in its own scalar. Where the acceleration jumps it
+/// is the right-hand value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HubState<T> {
     /// θ.

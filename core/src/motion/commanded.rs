@@ -30,13 +30,14 @@ pub trait Commanded {
     /// Greatest magnitudes over the motion, between the ticks too.
     fn peaks(&self) -> Peaks;
 
-    /// The moves that the motion consists of, if a [`Generator`](crate::Generator) that is given them
-    /// commands it. A motion behind an input shaper has none: a stepper is then given the hub itself.
+    /// The moves that the motion consists of, if a [`Generator`](crate::Generator) that is given
+    /// them commands it. A motion behind an input shaper has none: a stepper is then given the hub
+    /// itself.
     fn moves(&self) -> Option<&[Move]>;
 
-    /// What [`Stepper::kink`](crate::Stepper::kink) is to be given before the step from tick `tick` to
-    /// the next. Asked only of a motion that is not one of [moves](Self::moves), and only for
-    /// ticks inside which a stretch begins.
+    /// The kink that the step from tick `tick` to the next is to be given. It is asked for only of
+    /// a motion that does not consist of [moves](Self::moves), and only for ticks inside which a
+    /// stretch begins.
     fn kink(&self, tick: u64) -> Kink<f32>;
 
     /// Hands over the stretches, first to last and without a gap, until `each` breaks off.

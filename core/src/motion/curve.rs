@@ -10,8 +10,8 @@ pub const BULGE: usize = 6;
 /// `(Δ, dΔ/du, ½ d²Δ/du²)` of a shape in turns.
 pub(super) type Derivatives<T> = (T, T, T);
 
-/// By repeated synthetic division: value, slope and half the curvature out of one chain, without
-/// multiplying coefficients by their powers.
+/// Evaluates a cubic by repeated synthetic division: value, slope and half the curvature out of one
+/// chain, without multiplying coefficients by their powers.
 #[inline(always)]
 pub(super) fn cubic<T: Scalar>([c1, c2, c3]: [T; 3], u: T) -> Derivatives<T> {
     let p = c3 * u;
@@ -21,7 +21,7 @@ pub(super) fn cubic<T: Scalar>([c1, c2, c3]: [T; 3], u: T) -> Derivatives<T> {
     (p1 * u, q2 * u + p1, q2 + p)
 }
 
-/// As [`cubic`].
+/// Evaluates a quintic in the same way as [`cubic`].
 #[inline(always)]
 pub(super) fn quintic<T: Scalar>([c1, c2, c3, c4, c5]: [T; 5], u: T) -> Derivatives<T> {
     let p = c5 * u;

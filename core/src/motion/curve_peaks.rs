@@ -12,8 +12,8 @@ const DEGREE: usize = BULGE + 5;
 const NODES: u32 = 128;
 
 /// Greatest magnitudes on the quintic `c` with the bulge `d`, both in turns, over `duration` s: the
-/// largest of 129 nodes, dense at the ends where a curve may be steep, refined by the parabola through
-/// its neighbours. Error 1e-4 of a peak. Not finite where a coefficient is not.
+/// largest of 129 nodes, dense at the ends where a curve may be steep, refined by the parabola
+/// through its neighbours. Error 1e-4 of a peak. Not finite where a coefficient is not.
 pub(crate) fn curve_peaks<T: Scalar>(c: &[T; 5], d: &[T; BULGE], duration: f64) -> Peaks {
     let mut derivative = monomials(c, d);
     let mut scale = TAU;

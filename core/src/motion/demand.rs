@@ -1,4 +1,4 @@
-//! What a move asks of the drive, whatever time it is given, and what would keep the limits.
+//! Peaks of a move as a function of its duration, and the shortest duration that keeps the limits.
 
 use core::f64::consts::TAU;
 
@@ -46,13 +46,13 @@ impl Demand {
         admit(limits, &peaks, tick).map(|()| peaks)
     }
 
-    /// What would keep every limit: the shortest duration in whole ticks. Found by halving, as no peak
-    /// grows with the duration.
+    /// Returns the shortest duration in whole ticks that keeps every limit, or why none does. It is
+    /// found by bisection, as no peak grows with the duration.
     pub fn remedy(&self, limits: &Limits, tick: f64) -> Remedy {
         let peaks = |ticks: u32| self.peaks(f64::from(ticks) * tick);
         let fits = |ticks: u32| admit(limits, &peaks(ticks), tick).is_ok();
         if !fits(MAX_TICKS) {
-            // What stands in the way of the longest move stands in the way of all.
+            // A limit that the longest move exceeds is exceeded by every shorter one.
             let peaks = peaks(MAX_TICKS);
             return match *self {
                 Self::Turn(..) if peaks.jerk.is_infinite() && limits.jerk.is_some() => {

@@ -1,4 +1,4 @@
-//! What the drive may do, and what a move needs.
+//! Limits of the drive, and the peaks of a move that are held against them.
 
 use crate::Error;
 
@@ -9,10 +9,10 @@ use crate::Error;
 ///
 /// Torque and moment limit what the arm answers with, which depends on its vibration. Only a layer
 /// that flies the arm through the move knows them: the planner of still moves
-/// ([`Still`](super::Still)) and the desktop's `run`. The others ([`Generator::limit`],
-/// [`Axis::new`], [`Plan::new`](super::Plan::new), [`Braking::new`](super::Braking::new)) see a tick
-/// of one method at a time, whose peak may lie between the ticks, and refuse these two limits rather
-/// than ignore them.
+/// ([`Still`](crate::planner::Still)) and the desktop's `run`. The others ([`Generator::limit`],
+/// [`Axis::new`], [`Plan::new`](super::Plan::new), [`Braking::new`](super::Braking::new)) see a
+/// tick of one method at a time, whose peak may lie between the ticks, and refuse these two limits
+/// rather than ignore them.
 ///
 /// [`Generator::limit`]: crate::Generator::limit
 /// [`Axis::new`]: crate::axis::Axis::new

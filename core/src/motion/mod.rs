@@ -2,6 +2,7 @@
 //! [`Limits`] and cut into [`Segment`]s that cost a few multiplications a tick.
 
 mod commanded;
+mod cubics;
 mod curve;
 mod curve_peaks;
 mod demand;
@@ -11,6 +12,7 @@ mod profile;
 mod remedy;
 pub(crate) mod segment;
 mod shaper;
+mod shapes;
 
 pub use commanded::{Commanded, Moves, Stretch};
 pub use curve::BULGE;

@@ -89,7 +89,8 @@ pub enum Move {
         rate: f64,
     },
     /// Rest to rest by a quintic that bulges: `θ = quintic + (1 − u²)³ Σ bₖuᵏ`, `u = 2t/T − 1`.
-    /// With the bulge that [`Still`](super::Still) plans, the arm arrives without vibration.
+    /// With the bulge that [`Still`](crate::planner::Still) plans, the arm arrives without
+    /// vibration.
     Still {
         /// T, s; rounded to the nearest whole tick.
         duration: f64,
@@ -116,8 +117,8 @@ impl Move {
         }
     }
 
-    /// The same move in another time, s. A still move is one no longer: its curve is that of the
-    /// time it was planned for.
+    /// Returns the move with another duration, s. A still move no longer arrives still: its bulge
+    /// belongs to the duration that it was planned for.
     pub fn lasting(self, duration: f64) -> Self {
         match self {
             Self::To { profile, to, .. } => Self::To { profile, duration, to },

@@ -1,9 +1,9 @@
-//! What would keep a limit that a move exceeds: told apart from the refusal, so that a target that asks
-//! for no remedy links none.
+//! The remedy for a limit that a move exceeds. It is separate from the error, so that a target
+//! which asks for no remedy does not link the search for one.
 
 use core::fmt;
 
-/// What would keep a limit that a move exceeds.
+/// A change that would keep a limit which a move exceeds, or the reason why no duration does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Remedy {

@@ -22,7 +22,7 @@ pub struct Joint<T> {
     pub torque_constant: T,
 }
 
-/// What the motor gives.
+/// Torque and current of the motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorTorque<T> {
     /// N m at the motor's shaft, positive with the motor's own positive turn.
@@ -72,10 +72,10 @@ impl Joint<f64> {
 impl<T: Scalar> Joint<T> {
     /// Motor torque and current for a hub torque τ (N m) at rate θ̇ and acceleration θ̈.
     ///
-    /// `τ_l = τ + τ_C sgn θ̇ + bθ̇` with `sgn 0 = 0`; the motor gives `τ_l/(nη)` where it drives the
-    /// load (`τ_l θ̇ > 0`), `ητ_l/n` where the load drives it, `τ_l/n` at rest, and `J_m nθ̈` for its
-    /// own rotor; current is torque over `k_t`. Signs are the hub's: [`super::Mapping::signed`] turns
-    /// them where the gear does.
+    /// `τ_l = τ + τ_C sgn θ̇ + bθ̇` with `sgn 0 = 0`; the motor gives `τ_l/(nη)` where it drives
+    /// the load (`τ_l θ̇ > 0`), `ητ_l/n` where the load drives it, `τ_l/n` at rest, and `J_m nθ̈`
+    /// for its own rotor; current is torque over `k_t`. Signs are the hub's:
+    /// [`super::Mapping::signed`] turns them where the gear does.
     pub fn motor(&self, torque: T, rate: T, acceleration: T) -> MotorTorque<T> {
         let n = self.ratio.value::<T>();
         let sign = match rate.partial_cmp(&T::ZERO) {

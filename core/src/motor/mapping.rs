@@ -16,7 +16,7 @@ pub struct Ratio {
     pub link: u16,
 }
 
-/// Whether motor and hub turn the same way.
+/// Sign between the motor's turn and the hub's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Direction {
@@ -106,7 +106,8 @@ impl<T: Scalar> Mapping<T> {
         self.zero
     }
 
-    /// The same gear, with a zero such that `shaft` is where the hub is at `hub`.
+    /// Returns the same gear with the zero at which the shaft's angle `shaft` belongs to the hub
+    /// angle `hub`.
     pub fn homed(self, shaft: Angle<T>, hub: Angle<T>) -> Self {
         let from_zero = self.turned(self.ratio.scale(hub));
         Self { zero: sum(shaft, negative(from_zero)), ..self }

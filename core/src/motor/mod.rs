@@ -11,7 +11,7 @@ use crate::hub::Angle;
 use crate::math::Scalar;
 use crate::{Error, Setpoint};
 
-/// What the drive shall do with the motor's shaft.
+/// Setpoint of the drive, at the motor's shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Demand<T> {
@@ -61,8 +61,8 @@ impl<T: Scalar> Drivetrain<T> {
         &self.mapping
     }
 
-    /// From now on the hub's angle is `hub` where the shaft stands at `shaft`: re-homing. No demand
-    /// moves, because the shaft's counts stay what they are.
+    /// Re-homes the joint: from now on the shaft's angle `shaft` belongs to the hub angle `hub`. No
+    /// demand moves, because the shaft's counts stay what they are.
     pub fn home(&mut self, shaft: Angle<T>, hub: Angle<T>) {
         self.mapping = self.mapping.homed(shaft, hub);
     }

@@ -4,14 +4,14 @@ use crate::math::Scalar;
 
 /// Jumps of θ̈ and of its first two derivatives inside one tick.
 ///
-/// A stepper takes θ̈ within a tick as a parabola through the values at both ends, with the mean that
-/// the rate gained. A jump at a fraction `x` of the tick is far from a parabola. Its departure is kept
-/// as Legendre moments, the jump's part of θ̈ being `J(s)`, `s = 0..1` over the tick:
+/// A stepper takes θ̈ within a tick as a parabola through the values at both ends, with the mean
+/// that the rate gained. A jump at a fraction `x` of the tick is far from a parabola. Its departure
+/// is kept as Legendre moments, the jump's part of θ̈ being `J(s)`, `s = 0..1` over the tick:
 ///
 /// `mₖ = ∫₀¹ J(s) Pₖ(2s − 1) ds`, `k = 0..8`, in rad/s².
 ///
-/// A mode that turns by `ωh` in a tick answers to `mₖ` by `jₖ(ωh/2)`, a spherical Bessel function: of
-/// a mode with `ωh = 12.6` (`2.0`) the moments leave out 6e-5 (1e-12) of the answer to a jump.
+/// A mode that turns by `ωh` in a tick answers to `mₖ` by `jₖ(ωh/2)`, a spherical Bessel function:
+/// of a mode with `ωh = 12.6` (`2.0`) the moments leave out 6e-5 (1e-12) of the answer to a jump.
 ///
 /// The moments come from repeated integrals of Legendre polynomials, without cancellation: error
 /// 3e-7 of the jump in f32.
@@ -44,8 +44,8 @@ impl<T: Scalar> Kink<T> {
         Kink { moments: self.moments.map(cast), end: cast(self.end) }
     }
 
-    /// Adds jumps at `left` ticks, 0 to 1, before the end of the tick: of θ̈, rad/s², and of its first
-    /// and second derivatives by the tick.
+    /// Adds jumps at `left` ticks, 0 to 1, before the end of the tick: of θ̈, rad/s², and of its
+    /// first and second derivatives by the tick.
     pub(super) fn add(&mut self, left: T, jumps: [T; 3]) {
         let mut integrals = legendre(T::ONE - T::TWO * left);
         let mut power = T::ONE;
@@ -69,7 +69,7 @@ impl<T: Scalar> Kink<T> {
         excess
     }
 
-    /// By how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola, rad/s²: what
+    /// Excess of `∫₀¹(1 − s)θ̈ ds` over that of the parabola, rad/s²: the value that
     /// [`Segment::entry`](crate::motion::Segment::entry) says of a border inside a tick.
     pub fn moment(&self) -> T {
         -(T::HALF * self.excess()[0])
@@ -88,8 +88,8 @@ fn legendre<T: Scalar>(x: T) -> [T; POLYNOMIALS + 1] {
     p
 }
 
-/// `∫ₓ¹` of each over `s = 0..1`, by `(2k + 1)Pₖ = P′ₖ₊₁ − P′ₖ₋₁`, in the same places: degree −1 again
-/// equals degree 0. Each integral loses the highest degree.
+/// `∫ₓ¹` of each over `s = 0..1`, by `(2k + 1)Pₖ = P′ₖ₊₁ − P′ₖ₋₁`, in the same places: degree −1
+/// again equals degree 0. Each integral loses the highest degree.
 fn integrated<T: Scalar>(p: &[T; POLYNOMIALS + 1]) -> [T; POLYNOMIALS + 1] {
     let mut integral = [T::ZERO; POLYNOMIALS + 1];
     for k in 0..POLYNOMIALS - 1 {

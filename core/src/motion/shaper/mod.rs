@@ -49,7 +49,8 @@ pub enum ShaperKind {
     Zvd,
     /// Three pulses over three quarters of a period: between the two.
     Mzv,
-    /// Extra insensitive: as long as ZVD, 5 % of vibration at the frequency itself for a wider band.
+    /// Extra insensitive: as long as ZVD, 5 % of vibration at the frequency itself for a wider
+    /// band.
     Ei,
     /// Two-hump extra insensitive: four pulses over one and a half periods, 5 % within the band.
     TwoHumpEi,
@@ -59,7 +60,7 @@ impl ShaperKind {
     /// Every kind.
     pub const ALL: [Self; 5] = [Self::Zv, Self::Mzv, Self::Zvd, Self::Ei, Self::TwoHumpEi];
 
-    /// As it is typed.
+    /// Name in scene files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Zv => "zv",
@@ -85,14 +86,14 @@ impl ShaperKind {
 const TOLERATED: f64 = 0.05;
 
 impl Shaper {
-    /// For vibration of `frequency` Hz (undamped, 0.01 to 10,000) and damping ratio `damping`, 0 to
-    /// 0.9.
+    /// Computes the pulses for a vibration of `frequency` Hz (undamped, 0.01 to 10,000) and damping
+    /// ratio `damping`, 0 to 0.9.
     pub fn new(kind: ShaperKind, frequency: f64, damping: f64) -> Result<Self, Error> {
         let frequency = Error::check("shaper.frequency", frequency, 0.01, 1e4, "Hz")?;
         let zeta = Error::check("shaper.damping", damping, 0.0, 0.9, "")?;
         let shrink = sqrt(1.0 - zeta * zeta);
         let period = 1.0 / (frequency * shrink);
-        // What half a damped period, or any share of one, leaves of the vibration.
+        // Amplitude of the vibration after so many damped periods, of what it was.
         let decay = |periods: f64| libm::exp(-2.0 * periods * zeta * PI / shrink);
         let v = TOLERATED;
         let shares: &[(f64, f64)] = match kind {
@@ -144,7 +145,7 @@ impl Shaper {
         &self.pulses
     }
 
-    /// What the shaper adds to a motion's duration, s.
+    /// Time that the shaper adds to a motion, s.
     pub fn delay(&self) -> f64 {
         self.pulses.last().map_or(0.0, |pulse| pulse.delay)
     }

@@ -46,8 +46,8 @@ pub struct Shaped<'a, T> {
     ticks: u32,
 }
 
-/// A copy of the motion: its share, and its delay in whole ticks and a part of one. Apart, so that f32
-/// resolves the part however long the delay and the motion are.
+/// A copy of the motion: its share, and its delay in whole ticks and a part of one. Apart, so that
+/// f32 resolves the part however long the delay and the motion are.
 #[derive(Clone, Copy, Debug)]
 struct Delayed<T> {
     share: T,
@@ -55,14 +55,14 @@ struct Delayed<T> {
     part: T,
 }
 
-/// Where a segment begins or the motion ends: `part` ticks, 0 to 1, after tick `tick`.
+/// Time at which a segment begins or the motion ends: `part` ticks, 0 to 1, after tick `tick`.
 #[derive(Clone, Copy)]
 struct Border<T> {
     tick: u32,
     part: T,
 }
 
-/// From which side the hub is looked at where it jumps.
+/// Side of a jump of the acceleration from which the hub is evaluated.
 #[derive(Clone, Copy, PartialEq)]
 enum Side {
     Left,
@@ -102,7 +102,7 @@ impl<'a, T: Scalar> Shaped<'a, T> {
         self.at(k, Side::Left)
     }
 
-    /// What jumps inside the tick from `k` to `k + 1`.
+    /// Jumps inside the tick from `k` to `k + 1`.
     pub fn kink(&self, k: u32) -> Kink<T> {
         let rest = [[T::ZERO; 3]; 2];
         let mut kink = Kink::NONE;
@@ -177,7 +177,8 @@ impl<'a, T: Scalar> Shaped<'a, T> {
 }
 
 impl<T: Scalar> Delayed<T> {
-    /// Where the copy passes a border that lies `before` ticks before the motion's tick `first`.
+    /// Time at which the copy passes a border that lies `before` ticks before the motion's tick
+    /// `first`.
     fn border(&self, first: u32, before: T) -> Border<T> {
         let close = T::from_f64(f64::max(CLOSE, 16.0 * T::EPSILON.to_f64()));
         let (tick, part) = (first.saturating_add(self.whole), self.part - before);
@@ -195,7 +196,7 @@ impl<T: Scalar> Delayed<T> {
 }
 
 impl<T: Scalar> Border<T> {
-    /// The same on a tick if it is as close to one as rounding.
+    /// Moves the border onto a tick that it misses by rounding only.
     fn snapped(self, close: T) -> Self {
         if self.part < close {
             Self { part: T::ZERO, ..self }
