@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use stillbeam::hub::HubState;
 use stillbeam::motion::{Segment, Shaped, Shaper};
 use stillbeam::select::Choice;
-use stillbeam::stepper::{Response, Stepper};
+use stillbeam::stepper::{AnyMotion, Response, Stepper};
 use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
 use crate::error::Error;
@@ -141,7 +141,7 @@ fn drive_shaped<S: Stepper>(
             motion.advance(stepper, &mut state, k - 1);
         }
         let hub = if ends.contains(&k) { motion.arrival(k) } else { motion.hub(k) };
-        let Response { torque, tip } = stepper.response(&state, &hub);
+        let Response { torque, tip } = stepper.response::<AnyMotion>(&state, &hub);
         let HubState { angle, rate, acceleration, .. } = hub;
         let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
         rows.push(row(f64::from(k) * tick, &setpoint));

@@ -189,16 +189,16 @@ fn borders_inside_a_tick_have_their_moment() {
         for ticks in (2..30).chain([100, 1001]) {
             let plan = plan(profile, f64::from(ticks) * tick, 2e-3 * f64::from(ticks), tick);
             let peak = plan.outline.peaks.acceleration;
-            assert_eq!(plan.segments[0].entry(), 0.0);
+            assert_eq!(plan.segments[0].kink_moment(), 0.0);
             for (before, segment) in plan.segments.iter().zip(&plan.segments[1..]) {
                 let from = before.hub_at(f64::from(before.count()) - 1.0);
                 let to = segment.hub_at(0.0);
                 let turned = to.angle.radians() - from.angle.radians();
                 let moment = (turned / tick - from.rate) / tick;
                 let mean = (to.rate - from.rate) / tick;
-                let parabola = 0.5 * mean + (from.acceleration - before.landing()) / 12.0;
-                assert_near(profile.name(), segment.entry(), moment - parabola, 1e-9 * peak);
-                inside += u32::from(segment.entry().abs() > 1e-3 * peak);
+                let parabola = 0.5 * mean + (from.acceleration - before.end_acceleration()) / 12.0;
+                assert_near(profile.name(), segment.kink_moment(), moment - parabola, 1e-9 * peak);
+                inside += u32::from(segment.kink_moment().abs() > 1e-3 * peak);
             }
         }
     }

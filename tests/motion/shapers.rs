@@ -141,13 +141,13 @@ fn one_pulse_gives_the_moments_of_the_segments() {
         if first > 0 {
             // A generator's parabola ends at the border's left-hand value.
             let beyond = (shaped.arrival(first).acceleration - landing) / 12.0;
-            let expected = segment.entry() + beyond;
+            let expected = segment.kink_moment() + beyond;
             let moment = shaped.kink(first - 1).moment();
             assert!((moment - expected).abs() < 1e-9, "{moment} is not {expected}");
             assert!(expected.abs() > 0.1);
         }
         first += segment.count();
-        landing = segment.landing();
+        landing = segment.end_acceleration();
     }
     assert!(shaped.kink(first - 1).is_none(), "the end is a tick");
 }

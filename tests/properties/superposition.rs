@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use stillbeam::hub::HubState;
+use stillbeam::stepper::AnyMotion;
 use stillbeam::{Angle, Move, Profile, Scene, Stepper};
 
 use crate::arms::{TICK, Turn, level_arms, turns};
@@ -103,9 +104,9 @@ fn follow<S: Stepper<Scalar = f64>>(stepper: &S, hubs: &[HubState<f64>]) -> Vec<
     let mut before = rest;
     hubs.iter()
         .map(|hub| {
-            stepper.step(&mut state, &before, hub);
+            stepper.step::<AnyMotion>(&mut state, &before, hub);
             before = *hub;
-            let answer = stepper.response(&state, hub);
+            let answer = stepper.response::<AnyMotion>(&state, hub);
             [hub.rate, hub.acceleration, answer.torque, answer.tip[0], answer.tip[1]]
         })
         .collect()

@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use stillbeam::hub::HubState;
 use stillbeam::model::{EightElements, FourElements, Rod};
-use stillbeam::stepper::{Elastica, Modal, Newmark, Quality};
+use stillbeam::stepper::{AnyMotion, Elastica, Modal, Newmark, Quality};
 use stillbeam::{Damping, Generator, Move, Profile, Scalar, Scene, Stepper};
 
 use crate::arms::{BEND, TICK, Turn, arms, turns};
@@ -55,14 +55,14 @@ fn miss<S: Reverse<Scalar = f64> + Copy>(stepper: S, from: f64, motion: &Move) -
             (*arm.hub(), *arm.state())
         })
         .collect();
-    let tip = |state: &S::State, hub: &HubState<f64>| stepper.response(state, hub).tip;
+    let tip = |state: &S::State, hub: &HubState<f64>| stepper.response::<AnyMotion>(state, hub).tip;
     let reach = tip(&stepper.equilibrium(&there[0].0), &there[0].0)[0];
     let (hub, state) = there[there.len() - 1];
     let (mut state, mut before) = (stepper.reversed(&state, &hub), turned_round(&hub));
     let (mut apart, mut peak) = (0.0_f64, 1e-3 * reach);
     for (hub, old) in there.iter().rev().skip(1) {
         let after = turned_round(hub);
-        stepper.step(&mut state, &before, &after);
+        stepper.step::<AnyMotion>(&mut state, &before, &after);
         before = after;
         apart = apart.max((tip(&state, &after)[1] - tip(old, hub)[1]).abs());
         peak = peak.max(tip(old, hub)[1].abs());

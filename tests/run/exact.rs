@@ -3,8 +3,10 @@
 use proptest::prelude::*;
 use stillbeam::hub::HubState;
 use stillbeam::model::{EightElements, Rod};
-use stillbeam::motion::{Kink, Peaks};
-use stillbeam::stepper::{Elastica, Modal, Quality as Work, Response, Stepper};
+use stillbeam::motion::Peaks;
+use stillbeam::stepper::{
+    Elastica, FastPaths, HubMotion, KinkMoments, Modal, Quality as Work, Response, Stepper,
+};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scalar as Real, Scene, Setpoint};
 use stillbeam_sim::compare::{Comparison, compare};
 use stillbeam_sim::run::run;
@@ -126,15 +128,18 @@ impl<S: Stepper> Stepper for Unguarded<S> {
     type Scalar = S::Scalar;
     type State = S::State;
 
-    const PLAIN: bool = S::PLAIN;
-    const RESTS: bool = S::RESTS;
+    const FAST: FastPaths = S::FAST;
 
     fn tick(&self) -> f64 {
         self.0.tick()
     }
 
-    fn is_directed(&self) -> bool {
-        self.0.is_directed()
+    fn feels_gravity(&self) -> bool {
+        self.0.feels_gravity()
+    }
+
+    fn fastest_linear(&self) -> S::Scalar {
+        self.0.fastest_linear()
     }
 
     fn admit(&self, _: &Peaks, _: f64) -> Result<(), Error> {
@@ -145,50 +150,29 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         self.0.equilibrium(hub)
     }
 
-    fn step(
+    fn step<M: HubMotion>(
         &self,
         state: &mut S::State,
         before: &HubState<S::Scalar>,
         after: &HubState<S::Scalar>,
     ) {
-        self.0.step(state, before, after);
+        self.0.step::<M>(state, before, after);
     }
 
-    fn is_plain(&self, rate: S::Scalar) -> bool {
-        self.0.is_plain(rate)
-    }
-
-    fn advance_in_cubic(
+    fn response<M: HubMotion>(
         &self,
-        state: &mut S::State,
-        before: &HubState<S::Scalar>,
-        after: &HubState<S::Scalar>,
+        state: &S::State,
+        hub: &HubState<S::Scalar>,
     ) -> Response<S::Scalar> {
-        self.0.advance_in_cubic(state, before, after)
+        self.0.response::<M>(state, hub)
     }
 
-    fn swing(&self, state: &mut S::State, hub: &HubState<S::Scalar>) {
-        self.0.swing(state, hub);
-    }
-
-    fn response_at_rest(&self, state: &S::State, hub: &HubState<S::Scalar>) -> Response<S::Scalar> {
-        self.0.response_at_rest(state, hub)
-    }
-
-    fn shift(&self, state: &mut S::State, moment: S::Scalar) {
-        self.0.shift(state, moment);
-    }
-
-    fn kink(&self, state: &mut S::State, kink: &Kink<S::Scalar>) {
-        self.0.kink(state, kink);
+    fn kink(&self, state: &mut S::State, moments: KinkMoments<'_, S::Scalar>) {
+        self.0.kink(state, moments);
     }
 
     fn is_settled(&self, state: &S::State) -> bool {
         self.0.is_settled(state)
-    }
-
-    fn response(&self, state: &S::State, hub: &HubState<S::Scalar>) -> Response<S::Scalar> {
-        self.0.response(state, hub)
     }
 }
 

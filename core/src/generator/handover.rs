@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-use super::Generator;
+use super::{Generator, Part};
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
@@ -110,7 +110,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             // There is room: just counted.
             let _ = self.queue.push_back(segment.shifted(by, first.take()));
         }
-        self.end_hold();
+        self.current.end_hold();
         let end = planned.outline.end;
         self.end = HubState::turning(end.angle.plus(turned), end.rate);
         self.tail = super::hold(self.end, self.stepper.tick());
@@ -125,17 +125,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Begins anew, at rest and in static equilibrium at `angle`; no move waits.
     pub fn restart(&mut self, angle: Angle<S::Scalar>) {
         self.hub = HubState { angle, ..HubState::ZERO };
-        if self.stepper.is_directed() {
+        if self.stepper.feels_gravity() {
             self.hub.update_sin_cos();
         }
-        self.landing = S::Scalar::ZERO;
+        self.end_acceleration = S::Scalar::ZERO;
         self.state = self.stepper.equilibrium(&self.hub);
         self.rest_at(angle);
-        self.current = self.tail;
-        self.set_path();
-        self.k = 0;
-        self.holding = true;
-        self.asleep = false;
+        self.current.take_up(&self.tail, Part::Hold, 0, &self.stepper);
     }
 
     /// Another arm on the same hub, from the angle where it rests.

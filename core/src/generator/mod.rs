@@ -1,9 +1,11 @@
 //! The one type the firmware drives.
 
+mod current;
 mod handover;
 mod redirect;
 mod stop;
 
+use current::{Current, Part};
 pub use handover::{Departure, Planned, Rejected};
 use heapless::Deque;
 pub(crate) use redirect::Branch;
@@ -13,7 +15,7 @@ use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
 use crate::motion::{Limits, Move, Outline, Plan, Remedy, Segment, lay};
-use crate::stepper::{Response, Stepper};
+use crate::stepper::{AnyMotion, AtRest, KinkMoments, Linear, Response, Stepper};
 
 /// What the motor controller gets every tick. SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,19 +62,10 @@ impl<T: Scalar> Setpoint<T> {
 #[repr(C)]
 #[derive(Clone, Debug)]
 pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
-    /// Ticks since the current segment's first; wraps to 0 at the very first tick.
-    k: u32,
-    /// Below this many, ticks of the current segment are [plain](Stepper::is_plain) ones in a cubic.
-    plain: u32,
-    holding: bool,
-    /// The hub rests until the current segment ends.
-    resting: bool,
-    /// The hub is at rest and the arm with it: see [`Stepper::is_settled`].
-    asleep: bool,
+    current: Current<S::Scalar>,
     hub: HubState<S::Scalar>,
-    /// θ̈ just before the current segment began; within it, there is no other than the hub's.
-    landing: S::Scalar,
-    current: Segment<S::Scalar>,
+    /// θ̈ just before the current segment began, rad/s². Within a segment θ̈ does not jump.
+    end_acceleration: S::Scalar,
     state: S::State,
     stepper: S,
     /// What follows the queue: its end, held.
@@ -88,12 +81,9 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn new(stepper: S, from: f64) -> Result<Self, Error> {
         let end = HubState::resting_at(from)?;
         let tail = hold(end, stepper.tick());
-        // The hold before the first tick has no length: a move pushed now begins at t = 0.
-        let mut current = tail;
-        current.cut(0);
         let mut hub = HubState::ZERO;
-        current.begin(&mut hub);
-        if stepper.is_directed() {
+        tail.begin(&mut hub);
+        if stepper.feels_gravity() {
             hub.update_sin_cos();
         }
         let state = stepper.equilibrium(&hub);
@@ -101,17 +91,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             stepper,
             state,
             hub,
-            landing: S::Scalar::ZERO,
-            current,
-            k: u32::MAX,
-            plain: 0,
+            end_acceleration: S::Scalar::ZERO,
+            current: Current::unstarted(&tail),
             queue: Deque::new(),
             tail,
             end,
             limits: Limits::default(),
-            holding: true,
-            resting: false,
-            asleep: false,
         })
     }
 
@@ -143,7 +128,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             }
             return Err(error);
         }
-        self.end_hold();
+        self.current.end_hold();
         self.end = outline.end;
         self.tail = hold(outline.end, tick);
         Ok(outline)
@@ -158,94 +143,90 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// The next setpoint. Never fails, never allocates; the same operations on host and target.
     #[inline(always)]
     pub fn tick(&mut self) -> Setpoint<S::Scalar> {
-        let k = self.next_k();
-        if S::PLAIN && k < self.plain {
+        let k = self.current.next_k();
+        if S::FAST.linear && self.current.is_linear(k) {
             let before = self.hub;
-            self.k = k;
-            self.current.drive_cubic(&mut self.hub, k);
-            let response = self.stepper.advance_in_cubic(&mut self.state, &before, &self.hub);
-            respond(&self.hub, response)
-        } else if S::RESTS && self.resting {
+            self.current.advance_to(k);
+            self.current.segment().drive_cubic(&mut self.hub, k);
+            self.stepper.step::<Linear>(&mut self.state, &before, &self.hub);
+            respond(&self.hub, self.stepper.response::<Linear>(&self.state, &self.hub))
+        } else if S::FAST.at_rest && self.current.is_at_rest() {
             self.tick_at_rest(k)
         } else {
-            self.tick_otherwise(k)
+            self.tick_any(k)
         }
     }
 
-    /// All other ticks, out of the way of the plain ones, which then need not save the registers that
-    /// these take.
+    /// Makes a tick of any kind. Apart from the linear ones, which then need not save the registers
+    /// that these take.
     #[inline(never)]
-    fn tick_otherwise(&mut self, k: u32) -> Setpoint<S::Scalar> {
+    fn tick_any(&mut self, k: u32) -> Setpoint<S::Scalar> {
         let before = self.hub;
-        let mut landing = None;
-        let mut at_rest = false;
-        let mut rested = false;
-        self.k = k;
-        if k >= self.current.count() {
-            rested = self.resting;
-            self.turn_over();
-            landing = Some(self.landing);
-        } else if S::RESTS || !self.resting {
-            self.current.drive(&mut self.hub, k);
-            if self.stepper.is_directed() {
+        let rests = self.current.is_at_rest();
+        let mut end_acceleration = None;
+        self.current.advance_to(k);
+        if k >= self.current.segment().count() {
+            self.take_up_next();
+            end_acceleration = Some(self.end_acceleration);
+        } else if S::FAST.at_rest || !rests {
+            self.current.segment().drive(&mut self.hub, k);
+            if self.stepper.feels_gravity() {
                 self.hub.update_sin_cos();
             }
-        } else if self.asleep {
+        } else if self.current.is_asleep() {
             return self.setpoint();
-        } else {
-            at_rest = true;
         }
-        let acceleration = landing.unwrap_or(self.hub.acceleration);
+        let acceleration = end_acceleration.unwrap_or(self.hub.acceleration);
         let arrival = HubState { acceleration, ..self.hub };
-        if S::RESTS && rested {
+        if S::FAST.at_rest && rests {
             // The last tick of a rest as all others of it, to the bit.
-            self.stepper.swing(&mut self.state, &arrival);
+            self.stepper.step::<AtRest>(&mut self.state, &arrival, &arrival);
         } else {
             // The first tick too: the arm was at rest before it, and stays so.
-            self.stepper.step(&mut self.state, &before, &arrival);
+            self.stepper.step::<AnyMotion>(&mut self.state, &before, &arrival);
         }
-        if at_rest {
-            self.asleep = self.holding && self.stepper.is_settled(&self.state);
+        if !S::FAST.at_rest && rests && end_acceleration.is_none() {
+            self.current.sleep_if(|| self.stepper.is_settled(&self.state));
         }
         self.setpoint()
     }
 
-    /// A tick of a hub that rests: the arm rings, or sleeps.
+    /// Makes a tick of a hub that rests: the arm vibrates, or sleeps.
     #[inline(never)]
     fn tick_at_rest(&mut self, k: u32) -> Setpoint<S::Scalar> {
-        if k >= self.current.count() {
-            return self.tick_otherwise(k);
+        if k >= self.current.segment().count() {
+            return self.tick_any(k);
         }
-        self.k = k;
-        if !self.asleep {
-            self.stepper.swing(&mut self.state, &self.hub);
-            self.asleep = self.holding && self.stepper.is_settled(&self.state);
+        self.current.advance_to(k);
+        if !self.current.is_asleep() {
+            self.stepper.step::<AtRest>(&mut self.state, &self.hub, &self.hub);
+            self.current.sleep_if(|| self.stepper.is_settled(&self.state));
         }
-        respond(&self.hub, self.stepper.response_at_rest(&self.state, &self.hub))
+        respond(&self.hub, self.stepper.response::<AtRest>(&self.state, &self.hub))
     }
 
     /// The latest setpoint again.
     #[inline(always)]
     pub fn setpoint(&self) -> Setpoint<S::Scalar> {
-        respond(&self.hub, self.stepper.response(&self.state, &self.hub))
+        respond(&self.hub, self.stepper.response::<AnyMotion>(&self.state, &self.hub))
     }
 
     /// The latest setpoint as it was just before: it differs where a move has ended with an
     /// acceleration, which the torque jumps with.
     pub fn setpoint_before(&self) -> Setpoint<S::Scalar> {
-        let hub = HubState { acceleration: self.landing(), ..self.hub };
-        respond(&hub, self.stepper.response(&self.state, &hub))
+        let hub = HubState { acceleration: self.acceleration_before(), ..self.hub };
+        respond(&hub, self.stepper.response::<AnyMotion>(&self.state, &hub))
     }
 
     /// The hub rests and the arm with it, within [`SLEEP`](crate::stepper::SLEEP): it is left as it is
     /// until the next move.
     pub fn is_asleep(&self) -> bool {
-        self.asleep
+        self.current.is_asleep()
     }
 
     /// No move under way or waiting.
     pub fn is_holding(&self) -> bool {
-        self.queue.is_empty() && self.holding
+        self.queue.is_empty() && self.current.is_holding()
     }
 
     /// The arm's state at the latest setpoint.
@@ -263,41 +244,15 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         &self.stepper
     }
 
-    /// Index of the coming tick in the current segment.
-    #[inline(always)]
-    fn next_k(&self) -> u32 {
-        self.k.wrapping_add(1)
-    }
-
-    /// θ̈ just before the latest setpoint.
-    fn landing(&self) -> S::Scalar {
-        if self.next_k() <= 1 { self.landing } else { self.hub.acceleration }
-    }
-
-    /// Ends a hold at the next tick, where the queue goes on.
-    ///
-    /// The path of its ticks stays as it is: a hold is no cubic, so none of its ticks is plain, and
-    /// whether the hub rests does not depend on the count.
-    fn end_hold(&mut self) {
-        if self.holding {
-            self.current.cut(self.next_k());
-        }
-    }
-
-    /// Decides which way the ticks of the current segment go. To be called whenever the current
-    /// segment is another one, and when a cubic is broken off, whose plain ticks are counted.
-    #[inline(always)]
-    fn set_path(&mut self) {
-        let plain =
-            S::PLAIN && self.current.is_cubic() && self.stepper.is_plain(self.current.rate_bound());
-        self.plain = if plain { self.current.count() } else { 0 };
-        self.resting = self.current.is_rest();
+    /// θ̈ just before the latest setpoint, rad/s².
+    fn acceleration_before(&self) -> S::Scalar {
+        if self.current.next_k() <= 1 { self.end_acceleration } else { self.hub.acceleration }
     }
 
     /// Where a move that is pushed now begins.
     fn next_start(&self) -> HubState<f64> {
-        if self.queue.is_empty() && self.holding {
-            let angle = self.current.angle(self.next_k());
+        if self.is_holding() {
+            let angle = self.current.segment().angle(self.current.next_k());
             let angle = Angle { turns: angle.turns, part: angle.part.to_f64() };
             HubState::turning(angle, self.end.rate)
         } else {
@@ -305,38 +260,34 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
     }
 
-    /// Takes up the next segment, or the hold: apart, for the registers that it takes.
+    /// Takes up the next segment of the queue, or the hold behind it, and moves the hub to its first
+    /// tick. A function of its own, for the registers that it takes.
     #[inline(never)]
-    fn turn_over(&mut self) {
-        self.asleep = false;
-        self.landing = self.current.landing();
-        match self.queue.front() {
-            Some(segment) => {
-                // Copied once, not by way of what `pop_front` returns.
-                self.current.become_like(segment);
-                let _ = self.queue.pop_front();
-                self.holding = false;
-            }
-            None if self.holding => self.current = self.renewed(),
-            None => {
-                self.current.become_like(&self.tail);
-                self.holding = true;
-            }
+    fn take_up_next(&mut self) {
+        self.end_acceleration = self.current.segment().end_acceleration();
+        if self.queue.is_empty() && self.current.is_holding() {
+            self.renew_hold();
         }
-        self.k = 0;
-        self.set_path();
-        self.current.begin(&mut self.hub);
-        if self.stepper.is_directed() {
+        // Copied once, not by way of what `pop_front` returns.
+        let (next, part) = match self.queue.front() {
+            Some(segment) => (segment, Part::Move),
+            None => (&self.tail, Part::Hold),
+        };
+        self.current.take_up(next, part, 0, &self.stepper);
+        let _ = self.queue.pop_front();
+        self.current.segment().begin(&mut self.hub);
+        if self.stepper.feels_gravity() {
             self.hub.update_sin_cos();
         }
-        self.stepper.shift(&mut self.state, self.current.entry());
+        let moment = self.current.segment().kink_moment();
+        self.stepper.kink(&mut self.state, KinkMoments::First(moment));
     }
 
-    /// A hold that has run out (after 497 days at 10 ms) goes on from where it is.
+    /// Lets a hold that has run out (after 497 days at 10 ms) go on from where it is.
     #[cold]
     #[inline(never)]
-    fn renewed(&self) -> Segment<S::Scalar> {
-        self.tail.moved(self.current.angle(self.k))
+    fn renew_hold(&mut self) {
+        self.tail = self.tail.moved(self.current.segment().angle(self.current.k()));
     }
 }
 

@@ -50,10 +50,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return Err(Error::QueueFull { needed, free });
         }
         match place {
-            Place::Current(k) => {
-                self.current = self.current.broken_off(k);
-                self.set_path();
-            }
+            Place::Current(k) => self.current.break_off(k),
             Place::Waiting(index, k) => {
                 if let Some(segment) = self.queue.iter_mut().nth(index) {
                     *segment = segment.broken_off(k);
@@ -79,14 +76,15 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// [`Elastica::state_of`](crate::stepper::Elastica::state_of).
     pub fn set_state(&mut self, state: S::State) {
         self.state = state;
-        self.asleep = false;
+        self.current.wake();
     }
 
     fn place(&self, lead: u32) -> Place {
-        let left = self.current.count() - self.next_k().min(self.current.count());
+        let (count, next_k) = (self.current.segment().count(), self.current.next_k());
+        let left = count - next_k.min(count);
         // A current segment of no length has ended already.
         if lead < left {
-            return Place::Current(self.next_k() + lead);
+            return Place::Current(next_k + lead);
         }
         let mut lead = lead - left;
         for (index, segment) in self.queue.iter().enumerate() {
@@ -101,7 +99,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     fn hub_of(&self, place: &Place) -> HubState<S::Scalar> {
         let waiting = |index| self.queue.iter().nth(index).unwrap_or(&self.tail);
         let (segment, k): (&Segment<_>, u32) = match *place {
-            Place::Current(k) => (&self.current, k),
+            Place::Current(k) => (self.current.segment(), k),
             Place::Waiting(index, k) => (waiting(index), k),
             Place::Held(k) => (&self.tail, k),
         };

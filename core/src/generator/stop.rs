@@ -1,6 +1,6 @@
 //! Coming to rest before the moves are done, in the tick if need be: no f64 planning, no panic.
 
-use super::Generator;
+use super::{Generator, Part};
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
 use crate::motion::{Braking, Segment};
@@ -26,17 +26,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// A move that would be over before the hub could be stopped is finished: that is the quickest
     /// stop on its path, and within the limits it was accepted for.
     pub(crate) fn brake(&mut self, braking: &Braking<S::Scalar>, arrival: Option<Arrival>) {
-        self.landing = self.landing();
+        self.end_acceleration = self.acceleration_before();
         if self.hub.rate == S::Scalar::ZERO {
             self.queue.clear();
             self.rest_at(self.hub.angle);
             // A move that was about to begin does not.
             self.hub.acceleration = S::Scalar::ZERO;
-            self.current = self.tail;
-            self.set_path();
-            self.k = 0;
-            self.holding = true;
-            self.asleep = false;
+            self.current.take_up(&self.tail, Part::Hold, 0, &self.stepper);
             return;
         }
         let (segment, rest, acceleration) = braking.stop(&self.hub);
@@ -49,19 +45,15 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         self.queue.clear();
         self.rest_at(rest);
-        self.current = segment;
-        self.set_path();
+        // Its tick 0 is the next.
+        self.current.take_up(&segment, Part::Move, u32::MAX, &self.stepper);
         // The right-hand value, where it drops.
         self.hub.acceleration = acceleration;
-        // Wraps to the segment's tick 0 at the next tick.
-        self.k = u32::MAX;
-        self.holding = false;
-        self.asleep = false;
     }
 
     /// Drops what lies behind the arrival.
     fn finish(&mut self, arrival: Arrival) {
-        let under_way = self.current.count().saturating_sub(self.k);
+        let under_way = self.current.segment().count().saturating_sub(self.current.k());
         let mut waiting = self.queue.iter().fold(0u32, |n, s| n.saturating_add(s.count()));
         let keep = arrival.ticks.saturating_sub(under_way);
         while waiting > keep

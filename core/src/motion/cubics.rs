@@ -26,32 +26,33 @@ pub(super) fn lay_cubics<T: Scalar>(
     let duration = f64::from(ticks) * tick;
     let rate_scale = TAU * turn / duration;
     let acceleration_scale = rate_scale / duration;
-    let (mut first, mut border, mut entry) = (0, 0, T::ZERO);
+    let (mut first, mut border, mut kink_moment) = (0, 0, T::ZERO);
     for piece in pieces {
         let end = border + ticks;
         let next = end.div_ceil(share);
         let (before, after) = (shares(first * share - border), shares(next * share - end));
         let shape = Shape::Cubic(piece.cubic.map(|c| T::from_f64(c) * T::from_f64(turn)));
         let start = start.plus(piece.start * turn);
-        let [begin, landing] = piece.accelerations.map(|a| T::from_f64(acceleration_scale * a));
+        let [begin, end_acceleration] =
+            piece.accelerations.map(|a| T::from_f64(acceleration_scale * a));
         let mut segment =
-            Segment::new(start, shape, length, before, next - first, tick).landing_with(landing);
+            Segment::new(start, shape, length, before, next - first, tick).ending(end_acceleration);
         if before == T::ZERO {
             segment = segment.beginning(T::from_f64(rate_scale * piece.rate), begin);
         }
         let [at_first, at_last] = segment.accelerations();
         if next == first {
-            entry += moment(T::ONE - before, T::ONE - after, begin, landing);
+            kink_moment += moment(T::ONE - before, T::ONE - after, begin, end_acceleration);
         } else {
             if before == T::ZERO {
-                entry = T::ZERO;
+                kink_moment = T::ZERO;
             }
-            entry += moment(T::ONE - before, T::ONE, begin, at_first);
-            segment.enter(entry);
+            kink_moment += moment(T::ONE - before, T::ONE, begin, at_first);
+            segment.set_kink_moment(kink_moment);
             sink(&segment);
             // The tick's parabola goes up to the left-hand value at the border.
-            let parabola = T::from_f64(1.0 / 12.0) * (at_last - landing);
-            entry = moment(T::ZERO, T::ONE - after, at_last, landing) - parabola;
+            let parabola = T::from_f64(1.0 / 12.0) * (at_last - end_acceleration);
+            kink_moment = moment(T::ZERO, T::ONE - after, at_last, end_acceleration) - parabola;
         }
         (first, border) = (next, end);
     }

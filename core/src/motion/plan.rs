@@ -132,7 +132,7 @@ pub(crate) fn lay<T: Scalar>(
             let segment = Segment::new(start.angle, shape, length, T::ZERO, ticks, tick);
             // Every shape of one piece begins and ends without acceleration.
             let rate = T::from_f64(start.rate);
-            sink(&segment.beginning(rate, T::ZERO).landing_with(T::ZERO));
+            sink(&segment.beginning(rate, T::ZERO).ending(T::ZERO));
         }
         Shapes::Cubics(pieces, turn) => lay_cubics(pieces, turn, start.angle, ticks, tick, sink),
     }

@@ -9,7 +9,7 @@ use crate::hub::HubState;
 use crate::math::{Scalar, cast, sqrt};
 use crate::model::{Chain, Load, Rod};
 use crate::motion::Segment;
-use crate::stepper::{Drive, Flex, Oscillator};
+use crate::stepper::{Flex, Forcing, Oscillator};
 
 /// The modes of one arm that a move is planned for.
 #[derive(Clone, Copy, Debug)]
@@ -141,7 +141,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         let mut change = [T::ZERO; K];
         for k in 1..=steps {
             let after = curve.hub(k);
-            let drive = Drive::between(&hub, &after, per_step, self.alpha);
+            let drive = Forcing::between(&hub, &after, per_step, self.alpha);
             let mut y = [[T::ZERO; 2]; K];
             for k in 0..K {
                 let at = [flex.coordinate[k], flex.rate[k]];

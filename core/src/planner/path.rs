@@ -52,6 +52,6 @@ impl Path {
         let length = f64::from(self.ticks);
         Segment::new(self.from.angle, shape, length, 0.0, self.ticks, self.tick)
             .beginning(self.from.rate, self.from.acceleration)
-            .landing_with(0.0)
+            .ending(0.0)
     }
 }

@@ -5,7 +5,7 @@ use crate::generator::Generator;
 use crate::hub::HubState;
 use crate::math::{Scalar, sqrt};
 use crate::motion::{Commanded, Kink, MAX_SEGMENTS};
-use crate::stepper::{Response, Stepper};
+use crate::stepper::{AnyMotion, KinkMoments, Response, Stepper};
 
 /// Segments that wait in the candidate's generator: two of the longest moves.
 const QUEUE: usize = 2 * MAX_SEGMENTS;
@@ -96,11 +96,11 @@ impl<S: Stepper> Candidate<S> {
             Lead::HubState { stepper, state } => {
                 if tick.number > 0 {
                     if !tick.kink.is_none() {
-                        stepper.kink(state, &tick.kink.cast());
+                        stepper.kink(state, KinkMoments::All(&tick.kink.cast()));
                     }
-                    stepper.step(state, &cast(&tick.before), &cast(&tick.arrival));
+                    stepper.step::<AnyMotion>(state, &cast(&tick.before), &cast(&tick.arrival));
                 }
-                Some(stepper.response(state, &cast(&tick.after)))
+                Some(stepper.response::<AnyMotion>(state, &cast(&tick.after)))
             }
         }
     }

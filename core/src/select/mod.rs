@@ -13,9 +13,10 @@ pub use ladder::{Assessment, Choice, Rung, Tolerance};
 use crate::hub::HubState;
 use crate::math::Scalar;
 use crate::model::{EightElements, Rod};
-use crate::motion::{Kink, Move, Moves, Peaks};
+use crate::motion::{Move, Moves, Peaks};
 use crate::stepper::{
-    Elastica, ElasticaState, Modal, ModalState, Response, Rigid, Stepper, check_tick,
+    Elastica, ElasticaState, FastPaths, HubMotion, KinkMoments, Modal, ModalState, Response, Rigid,
+    Stepper, check_tick,
 };
 use crate::{Error, Scene};
 
@@ -132,29 +133,17 @@ impl<T: Scalar> Stepper for Auto<T> {
     type Scalar = T;
     type State = AutoState<T>;
 
-    // Every rung has both, so that each ticks on the paths that it takes when it is linked itself.
-    const PLAIN: bool = every_rung_is(
-        true,
+    // The same for every rung, so that each ticks on the paths that it takes when it is linked itself.
+    const FAST: FastPaths = every_rung_has(
+        FastPaths::BOTH,
         [
-            Rigid::<T>::PLAIN,
-            Modal::<T, 1>::PLAIN,
-            Modal::<T, 2>::PLAIN,
-            Modal::<T, 3>::PLAIN,
-            Elastica::<T, 1>::PLAIN,
-            Elastica::<T, 2>::PLAIN,
-            Elastica::<T, 3>::PLAIN,
-        ],
-    );
-    const RESTS: bool = every_rung_is(
-        true,
-        [
-            Rigid::<T>::RESTS,
-            Modal::<T, 1>::RESTS,
-            Modal::<T, 2>::RESTS,
-            Modal::<T, 3>::RESTS,
-            Elastica::<T, 1>::RESTS,
-            Elastica::<T, 2>::RESTS,
-            Elastica::<T, 3>::RESTS,
+            Rigid::<T>::FAST,
+            Modal::<T, 1>::FAST,
+            Modal::<T, 2>::FAST,
+            Modal::<T, 3>::FAST,
+            Elastica::<T, 1>::FAST,
+            Elastica::<T, 2>::FAST,
+            Elastica::<T, 3>::FAST,
         ],
     );
 
@@ -163,8 +152,8 @@ impl<T: Scalar> Stepper for Auto<T> {
     }
 
     #[inline(always)]
-    fn is_directed(&self) -> bool {
-        each!(self, s => s.is_directed())
+    fn feels_gravity(&self) -> bool {
+        each!(self, s => s.feels_gravity())
     }
 
     fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error> {
@@ -184,64 +173,44 @@ impl<T: Scalar> Stepper for Auto<T> {
     }
 
     #[inline(always)]
-    fn step(&self, state: &mut AutoState<T>, before: &HubState<T>, after: &HubState<T>) {
-        each_with_state!(self, state, (s, own) => s.step(own, before, after), ());
+    fn fastest_linear(&self) -> T {
+        each!(self, s => s.fastest_linear())
     }
 
     #[inline(always)]
-    fn is_plain(&self, rate: T) -> bool {
-        each!(self, s => s.is_plain(rate))
-    }
-
-    #[inline(always)]
-    fn advance_in_cubic(
+    fn step<M: HubMotion>(
         &self,
         state: &mut AutoState<T>,
         before: &HubState<T>,
         after: &HubState<T>,
-    ) -> Response<T> {
-        each_with_state!(
-            self, state,
-            (s, own) => s.advance_in_cubic(own, before, after),
-            Self::NOTHING
-        )
+    ) {
+        each_with_state!(self, state, (s, own) => s.step::<M>(own, before, after), ());
     }
 
     #[inline(always)]
-    fn swing(&self, state: &mut AutoState<T>, hub: &HubState<T>) {
-        each_with_state!(self, state, (s, own) => s.swing(own, hub), ());
+    fn response<M: HubMotion>(&self, state: &AutoState<T>, hub: &HubState<T>) -> Response<T> {
+        each_with_state!(self, state, (s, own) => s.response::<M>(own, hub), Self::NOTHING)
     }
 
     #[inline(always)]
-    fn response_at_rest(&self, state: &AutoState<T>, hub: &HubState<T>) -> Response<T> {
-        each_with_state!(self, state, (s, own) => s.response_at_rest(own, hub), Self::NOTHING)
-    }
-
-    fn shift(&self, state: &mut AutoState<T>, moment: T) {
-        each_with_state!(self, state, (s, own) => s.shift(own, moment), ());
-    }
-
-    fn kink(&self, state: &mut AutoState<T>, kink: &Kink<T>) {
-        each_with_state!(self, state, (s, own) => s.kink(own, kink), ());
+    fn kink(&self, state: &mut AutoState<T>, moments: KinkMoments<'_, T>) {
+        each_with_state!(self, state, (s, own) => s.kink(own, moments), ());
     }
 
     #[inline(always)]
     fn is_settled(&self, state: &AutoState<T>) -> bool {
         each_with_state!(self, state, (s, own) => s.is_settled(own), false)
     }
-
-    #[inline(always)]
-    fn response(&self, state: &AutoState<T>, hub: &HubState<T>) -> Response<T> {
-        each_with_state!(self, state, (s, own) => s.response(own, hub), Self::NOTHING)
-    }
 }
 
-/// `value`, which every rung must have: one that differed would tick otherwise than when it is linked.
-const fn every_rung_is(value: bool, rungs: [bool; 7]) -> bool {
+/// Returns `paths`, which every rung must have: one that differed would tick otherwise than when it is
+/// linked.
+const fn every_rung_has(paths: FastPaths, rungs: [FastPaths; 7]) -> FastPaths {
     let mut k = 0;
     while k < rungs.len() {
-        assert!(rungs[k] == value, "the rungs differ");
+        let rung = rungs[k];
+        assert!(rung.linear == paths.linear && rung.at_rest == paths.at_rest, "the rungs differ");
         k += 1;
     }
-    value
+    paths
 }

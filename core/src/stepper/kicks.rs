@@ -8,13 +8,13 @@ use crate::motion::{Kink, ORDERS};
 ///
 /// With `J` the part of θ̈ that jumps and its moments `mₖ`, a mode ends the tick as if it had been
 /// driven by `J` itself, but for moments beyond the eighth. Nothing for modes that turn by more than
-/// [`MOST`] in a tick or that the tick damps out.
+/// [`LARGEST_NORM`] in a tick or that the tick damps out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kicks<T>([[T; 2]; ORDERS]);
 
 /// Largest norm of `hA` for which a jump's answer is told. A mode beyond turns ten times in a tick, and
 /// answers to a jump by less than a sixtieth of what a mode at rest does.
-const MOST: f64 = 60.0;
+const LARGEST_NORM: f64 = 60.0;
 
 impl<T: Scalar> Kicks<T> {
     /// Of the mode `ẏ = A y − (0, b θ̈)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`, over steps of `h` s. The
@@ -55,7 +55,7 @@ impl<T: Scalar> Kicks<T> {
 fn answers(z: &Matrix2) -> [Matrix2; ORDERS] {
     let mut answers = [[[0.0; 2]; 2]; ORDERS];
     let norm = z[1][0].abs() + z[1][1].abs();
-    if norm > MOST {
+    if norm > LARGEST_NORM {
         return answers;
     }
     let mut ratio = [[0.0; 2]; 2];

@@ -27,13 +27,13 @@ pub(crate) struct Oscillator<T> {
 /// What drives the modes within a step: a parabola with these values at the beginning and at the
 /// end, and this mean.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Drive<T> {
+pub(crate) struct Forcing<T> {
     pub begin: T,
     pub mean: T,
     pub end: T,
 }
 
-impl<T: Scalar> Drive<T> {
+impl<T: Scalar> Forcing<T> {
     /// The parabola of `u = θ̈ + αθ̇` over a tick: its mean is what the rate gained, so that a jump
     /// of the acceleration within the tick does its full work.
     #[inline(always)]
@@ -118,7 +118,7 @@ impl<T: Scalar> Oscillator<T> {
 
     /// A step of the hub at rest under a constant force in units of stiffness, damped or not.
     #[inline(always)]
-    pub(super) fn swing(&self, [a, v]: [T; 2], force: T) -> [T; 2] {
+    pub(super) fn step_at_rest(&self, [a, v]: [T; 2], force: T) -> [T; 2] {
         let [[versine, sin], [back, forth]] = self.gain;
         let off = a - force;
         [a + (versine * off + sin * v), v + (back * off + forth * v)]
@@ -132,9 +132,15 @@ impl<T: Scalar> Oscillator<T> {
 
     /// The state after a step if `n` goes on changing as it did.
     #[inline(always)]
-    pub(crate) fn predict(&self, y: [T; 2], drive: &Drive<T>, n: [T; 2], change: [T; 2]) -> [T; 2] {
+    pub(crate) fn predict(
+        &self,
+        y: [T; 2],
+        forcing: &Forcing<T>,
+        n: [T; 2],
+        change: [T; 2],
+    ) -> [T; 2] {
         [0, 1].map(|r| {
-            self.free(r, y, drive)
+            self.free(r, y, forcing)
                 + (self.constant[r][0] * n[0] + self.constant[r][1] * n[1])
                 + (self.slope[r][0] * change[0] + self.slope[r][1] * change[1])
         })
@@ -149,8 +155,8 @@ impl<T: Scalar> Oscillator<T> {
 
     /// The state after a step if `n` stays what it is, and `nₐ` is zero.
     #[inline(always)]
-    pub(super) fn predict_forced(&self, y: [T; 2], drive: &Drive<T>, force: T) -> [T; 2] {
-        [0, 1].map(|r| self.free(r, y, drive) + self.constant[r][1] * force)
+    pub(super) fn predict_forced(&self, y: [T; 2], forcing: &Forcing<T>, force: T) -> [T; 2] {
+        [0, 1].map(|r| self.free(r, y, forcing) + self.constant[r][1] * force)
     }
 
     /// What to add to that once the change of `n` over the step is known.
@@ -160,10 +166,10 @@ impl<T: Scalar> Oscillator<T> {
     }
 
     #[inline(always)]
-    fn free(&self, r: usize, y: [T; 2], drive: &Drive<T>) -> T {
-        let driven = self.drive[r][0] * drive.begin
-            + self.drive[r][1] * drive.mean
-            + self.drive[r][2] * drive.end;
+    fn free(&self, r: usize, y: [T; 2], forcing: &Forcing<T>) -> T {
+        let driven = self.drive[r][0] * forcing.begin
+            + self.drive[r][1] * forcing.mean
+            + self.drive[r][2] * forcing.end;
         y[r] + (self.gain[r][0] * y[0] + self.gain[r][1] * y[1] + driven)
     }
 }
@@ -188,7 +194,7 @@ fn phi_of(omega: f64, alpha: f64, beta: f64, h: f64) -> [[[f64; 2]; 2]; 5] {
 }
 
 /// Largest `(ω + α + βω²)h` of a mode that is advanced exactly: its phase is then known to 1e-10.
-const MOST: f64 = 1e6;
+const MOST_TURNS: f64 = 1e6;
 
 /// Refuses a tick in which a mode does far more than can be told: there the arm is rigid.
 pub(super) fn check_turns(
@@ -198,13 +204,13 @@ pub(super) fn check_turns(
     tick: f64,
 ) -> Result<(), Error> {
     let fastest = frequency.iter().map(|w| w + alpha + beta * w * w).fold(0.0, f64::max);
-    Error::check("solver.tick", tick, 1e-6, MOST / fastest, "s").map(drop)
+    Error::check("solver.tick", tick, 1e-6, MOST_TURNS / fastest, "s").map(drop)
 }
 
 /// What a step needs added to the state before it, per unit of the moment by which `u` departs from
 /// its parabola, see [`Segment`](crate::motion::Segment): the cubic `60 m s(1 − s)(1 − 2s)` has
 /// that moment, no mean and no ends. Zero for modes that the step damps out.
-pub(super) fn jolt<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> [T; 2] {
+pub(super) fn kick<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> [T; 2] {
     let [e, _, p2, p3, p4] = phi_of(omega, alpha, beta, h);
     let end = [0, 1].map(|r| -60.0 * b * h * (p2[r][1] - 6.0 * p3[r][1] + 12.0 * p4[r][1]));
     pulled_back(&e, end).map(T::from_f64)

@@ -1,10 +1,10 @@
 //! The arm that does not bend.
 
-use super::{Response, Stepper};
+use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper, any_rate_if};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Scalar, round};
-use crate::motion::{Kink, Peaks};
+use crate::motion::Peaks;
 use crate::scene::Scene;
 
 /// Rigid arm: `τ = (J_h + J_r)θ̈ + J_r αθ̇ + g cosθ S`, the tip at `(r + L, 0)`.
@@ -37,61 +37,47 @@ impl<T: Scalar> Stepper for Rigid<T> {
     type Scalar = T;
     type State = ();
 
+    const FAST: FastPaths = FastPaths::BOTH;
+
     fn tick(&self) -> f64 {
         self.tick
     }
 
     #[inline(always)]
-    fn is_directed(&self) -> bool {
+    fn feels_gravity(&self) -> bool {
         self.weight != T::ZERO
     }
 
-    const PLAIN: bool = true;
-    const RESTS: bool = true;
+    #[inline(always)]
+    fn fastest_linear(&self) -> T {
+        any_rate_if(self.weight == T::ZERO && self.drag == T::ZERO)
+    }
 
     /// Carries any move: it has no state that could run away.
     fn admit(&self, _: &Peaks, _: f64) -> Result<(), Error> {
         Ok(())
     }
 
-    #[inline(always)]
-    fn is_plain(&self, _: T) -> bool {
-        self.weight == T::ZERO && self.drag == T::ZERO
-    }
-
-    #[inline(always)]
-    fn advance_in_cubic(&self, (): &mut (), _: &HubState<T>, hub: &HubState<T>) -> Response<T> {
-        Response { torque: self.inertia * hub.acceleration, tip: [self.reach, T::ZERO] }
-    }
-
     fn equilibrium(&self, _: &HubState<T>) {}
 
     #[inline(always)]
-    fn step(&self, (): &mut (), _: &HubState<T>, _: &HubState<T>) {}
-
-    /// An arm that does not bend keeps nothing of it.
-    fn kink(&self, (): &mut (), _: &Kink<T>) {}
+    fn step<M: HubMotion>(&self, (): &mut (), _: &HubState<T>, _: &HubState<T>) {}
 
     #[inline(always)]
-    fn swing(&self, (): &mut (), _: &HubState<T>) {}
-
-    #[inline(always)]
-    fn response_at_rest(&self, (): &(), hub: &HubState<T>) -> Response<T> {
-        self.response(&(), hub)
+    fn response<M: HubMotion>(&self, (): &(), hub: &HubState<T>) -> Response<T> {
+        let mut torque = self.inertia * hub.acceleration;
+        if !M::LINEAR {
+            torque = torque + self.drag * hub.rate + self.weight * hub.cos;
+        }
+        Response { torque, tip: [self.reach, T::ZERO] }
     }
 
-    fn shift(&self, (): &mut (), _: T) {}
+    /// Does nothing: an arm that does not bend keeps nothing of a kink.
+    #[inline(always)]
+    fn kink(&self, (): &mut (), _: KinkMoments<'_, T>) {}
 
     #[inline(always)]
     fn is_settled(&self, (): &()) -> bool {
         true
-    }
-
-    #[inline(always)]
-    fn response(&self, (): &(), hub: &HubState<T>) -> Response<T> {
-        Response {
-            torque: self.inertia * hub.acceleration + self.drag * hub.rate + self.weight * hub.cos,
-            tip: [self.reach, T::ZERO],
-        }
     }
 }

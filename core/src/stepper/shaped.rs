@@ -1,6 +1,6 @@
 //! A motion behind an input shaper, tick by tick.
 
-use super::Stepper;
+use super::{AnyMotion, KinkMoments, Stepper};
 use crate::math::Scalar;
 use crate::motion::Shaped;
 
@@ -9,8 +9,8 @@ impl<T: Scalar> Shaped<'_, T> {
     pub fn advance<S: Stepper<Scalar = T>>(&self, stepper: &S, state: &mut S::State, k: u32) {
         let kink = self.kink(k);
         if !kink.is_none() {
-            stepper.kink(state, &kink);
+            stepper.kink(state, KinkMoments::All(&kink));
         }
-        stepper.step(state, &self.hub(k), &self.arrival(k + 1));
+        stepper.step::<AnyMotion>(state, &self.hub(k), &self.arrival(k + 1));
     }
 }

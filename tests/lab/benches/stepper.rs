@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use stillbeam::hub::{Angle, HubState};
-use stillbeam::stepper::Stepper;
+use stillbeam::stepper::{AnyMotion, Stepper};
 use stillbeam::{Generator, Move};
 use stillbeam_lab::baseline::Textbook;
 use stillbeam_lab::sweep::picture::describe;
@@ -68,8 +68,8 @@ impl StepperVisitor for Tick<'_> {
         let mut state = stepper.equilibrium(&hub);
         self.0.benchmark_group("tick").bench_function(self.1, |b| {
             b.iter(|| {
-                stepper.step(&mut state, &hub, &hub);
-                stepper.response(&state, &hub)
+                stepper.step::<AnyMotion>(&mut state, &hub, &hub);
+                stepper.response::<AnyMotion>(&state, &hub)
             });
         });
         Ok(())

@@ -125,8 +125,8 @@ impl<T: Scalar> Braking<T> {
             advance: T::TWO / n,
             rate_scale: tau / half,
             acceleration_scale: T::TWO * tau / (half * half),
-            landing: T::ZERO,
-            entry: T::ZERO,
+            end_acceleration: T::ZERO,
+            kink_moment: T::ZERO,
             low: [c1, c2, c3],
             rest: Rest::Quintic([c4, T::ZERO]),
         };

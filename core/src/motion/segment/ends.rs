@@ -20,8 +20,8 @@ impl<T: Scalar> Segment<T> {
     }
 
     /// The same segment with the acceleration (rad/s²) that it ends with, from the left.
-    pub(crate) fn landing_with(self, landing: T) -> Self {
-        Self { landing, ..self }
+    pub(crate) fn ending(self, end_acceleration: T) -> Self {
+        Self { end_acceleration, ..self }
     }
 
     /// Stores what the formula gives at tick 0.
@@ -39,7 +39,7 @@ impl<T: Scalar> Segment<T> {
 
     /// The same segment, broken off `count` ticks after its beginning.
     pub(crate) fn broken_off(self, count: u32) -> Self {
-        Self { count, landing: self.hub(count).acceleration, ..self }
+        Self { count, end_acceleration: self.hub(count).acceleration, ..self }
     }
 
     /// The same segment, beginning at the angle `start`, which lies `by` from where it began.

@@ -40,10 +40,9 @@ pub struct Segment<T> {
     /// `16π / D²`, half of `d²Δ/du²` to rad/s².
     acceleration_scale: T,
     /// θ̈ at `u = 1`, from the left.
-    landing: T,
-    /// What the tick before the first tick needs to know of the border within it: see
-    /// [`Stepper::shift`](crate::Stepper::shift). Zero where the border is a tick.
-    entry: T,
+    end_acceleration: T,
+    /// See [`Self::kink_moment`].
+    kink_moment: T,
     /// What a cubic consists of; of the other shapes, their first coefficients.
     low: [T; 3],
     rest: Rest<T>,
@@ -183,8 +182,8 @@ impl<T: Scalar> Segment<T> {
     }
 
     /// θ̈ at the segment's end, from the left, rad/s².
-    pub fn landing(&self) -> T {
-        self.landing
+    pub fn end_acceleration(&self) -> T {
+        self.end_acceleration
     }
 
     /// The same quintic with another bulge, turns; any other shape as it is.
@@ -198,14 +197,15 @@ impl<T: Scalar> Segment<T> {
 
     /// The moment of the border within the tick before, rad/s²: by how much `∫₀¹(1 − s)θ̈ ds` over
     /// that tick exceeds that of the parabola with its mean and its ends, the later one the left-hand
-    /// value at the border. Zero where the border is a tick.
-    pub fn entry(&self) -> T {
-        self.entry
+    /// value at the border. Zero where the border is a tick. The stepper takes it in by
+    /// [`Stepper::kink`](crate::Stepper::kink).
+    pub fn kink_moment(&self) -> T {
+        self.kink_moment
     }
 
     /// Gives the segment that moment.
-    pub(crate) fn enter(&mut self, entry: T) {
-        self.entry = entry;
+    pub(crate) fn set_kink_moment(&mut self, kink_moment: T) {
+        self.kink_moment = kink_moment;
     }
 
     /// θ̈ of a cubic at its first tick and at its last.
@@ -220,7 +220,7 @@ impl<T: Scalar> Segment<T> {
         [self.begin.acceleration, middle + slope * last]
     }
 
-    /// Whether it is a cubic: its θ̈ is then a straight line.
+    /// True if it is a cubic: its θ̈ is then a straight line.
     #[inline(always)]
     pub(crate) fn is_cubic(&self) -> bool {
         matches!(self.rest, Rest::Cubic { .. })
@@ -232,16 +232,16 @@ impl<T: Scalar> Segment<T> {
         if let Rest::Cubic { steepest } = self.rest { steepest * self.rate_scale } else { T::ZERO }
     }
 
-    /// Whether the hub stays where it is.
+    /// True if the hub stays where it is.
     #[inline(always)]
     pub(crate) fn is_rest(&self) -> bool {
         matches!(self.rest, Rest::Cruise { rate, step: 0 } if rate == T::ZERO)
     }
 
-    /// Becomes `other`. A cubic is copied in a fraction of the instructions that a segment with all
-    /// its coefficients takes.
+    /// Copies `other`. A cubic takes a fraction of the instructions that a segment with all its
+    /// coefficients takes.
     #[inline(never)]
-    pub(crate) fn become_like(&mut self, other: &Self) {
+    pub(crate) fn copy_from(&mut self, other: &Self) {
         self.origin = other.origin;
         self.count = other.count;
         self.begin = other.begin;
@@ -249,8 +249,8 @@ impl<T: Scalar> Segment<T> {
         self.advance = other.advance;
         self.rate_scale = other.rate_scale;
         self.acceleration_scale = other.acceleration_scale;
-        self.landing = other.landing;
-        self.entry = other.entry;
+        self.end_acceleration = other.end_acceleration;
+        self.kink_moment = other.kink_moment;
         self.low = other.low;
         if let Rest::Cubic { steepest } = other.rest {
             self.rest = Rest::Cubic { steepest };

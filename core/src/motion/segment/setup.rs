@@ -18,7 +18,7 @@ impl<T: Scalar> Segment<T> {
         tick: f64,
     ) -> Self {
         let half = T::HALF * length * T::from_f64(tick);
-        let [begin, _, landing] = shape.ends();
+        let [begin, _, end_acceleration] = shape.ends();
         let rate_scale = T::from_f64(TAU) / half;
         let acceleration_scale = T::TWO * rate_scale / half;
         let at_start = End { angle: start.cast(), rate: T::ZERO, acceleration: T::ZERO };
@@ -30,8 +30,8 @@ impl<T: Scalar> Segment<T> {
             advance: T::TWO / length,
             rate_scale,
             acceleration_scale,
-            landing: T::HALF * landing * acceleration_scale,
-            entry: T::ZERO,
+            end_acceleration: T::HALF * end_acceleration * acceleration_scale,
+            kink_moment: T::ZERO,
             low: shape.low(),
             rest: shape.rest(),
         }
@@ -65,8 +65,8 @@ impl<T: Scalar> Segment<T> {
             advance: T::ZERO,
             rate_scale: T::ZERO,
             acceleration_scale: T::ZERO,
-            landing: T::ZERO,
-            entry: T::ZERO,
+            end_acceleration: T::ZERO,
+            kink_moment: T::ZERO,
             low: [T::ZERO; 3],
             rest: Rest::Cruise { rate, step },
         }
@@ -89,8 +89,8 @@ impl Segment<f64> {
             advance: f(self.advance),
             rate_scale: f(self.rate_scale),
             acceleration_scale: f(self.acceleration_scale),
-            landing: f(self.landing),
-            entry: f(self.entry),
+            end_acceleration: f(self.end_acceleration),
+            kink_moment: f(self.kink_moment),
             low: self.low.map(f),
             rest: match self.rest {
                 Rest::Cubic { steepest } => Rest::Cubic { steepest: f(steepest) },

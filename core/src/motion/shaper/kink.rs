@@ -70,7 +70,7 @@ impl<T: Scalar> Kink<T> {
     }
 
     /// Excess of `∫₀¹(1 − s)θ̈ ds` over that of the parabola, rad/s²: the value that
-    /// [`Segment::entry`](crate::motion::Segment::entry) says of a border inside a tick.
+    /// [`Segment::kink_moment`](crate::motion::Segment::kink_moment) says of a border inside a tick.
     pub fn moment(&self) -> T {
         -(T::HALF * self.excess()[0])
     }

@@ -33,7 +33,7 @@ use crate::motion::Segment;
 /// let mut state = stepper.equilibrium(&shaped.hub(0));
 /// for k in 0..shaped.ticks() {
 ///     shaped.advance(&stepper, &mut state, k);
-///     let setpoint = stepper.response(&state, &shaped.hub(k + 1));
+///     let setpoint = stepper.response::<AnyMotion>(&state, &shaped.hub(k + 1));
 ///     assert!(setpoint.torque.abs() < 3.0);
 /// }
 /// # Ok::<(), stillbeam::Error>(())

@@ -25,9 +25,9 @@ const ROUNDS: usize = 16;
 impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// How the arm of a state bends and moves, the hub as it was at that instant.
     pub fn flex(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> Flex<T, K> {
-        let value = self.remainder.evaluate::<true, true>(&state.y, hub);
+        let value = self.nonlinear.evaluate::<true, true>(&state.y, hub);
         Flex {
-            coordinate: core::array::from_fn(|k| state.y[k][0] / self.remainder.omega(k)),
+            coordinate: core::array::from_fn(|k| state.y[k][0] / self.nonlinear.omega(k)),
             rate: core::array::from_fn(|k| state.y[k][1] + value.offset[k][1]),
         }
     }
@@ -36,13 +36,13 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// Set-up only.
     pub fn state_of(&self, flex: &Flex<T, K>, hub: &HubState<T>) -> ElasticaState<T, K> {
         let mut y: [[T; 2]; K] =
-            core::array::from_fn(|k| [self.remainder.omega(k) * flex.coordinate[k], flex.rate[k]]);
-        let mut value = self.remainder.evaluate::<true, true>(&y, hub);
+            core::array::from_fn(|k| [self.nonlinear.omega(k) * flex.coordinate[k], flex.rate[k]]);
+        let mut value = self.nonlinear.evaluate::<true, true>(&y, hub);
         for _ in 0..ROUNDS {
             for k in 0..K {
                 y[k][1] = flex.rate[k] - value.offset[k][1];
             }
-            value = self.remainder.evaluate::<true, true>(&y, hub);
+            value = self.nonlinear.evaluate::<true, true>(&y, hub);
         }
         ElasticaState::at(y, value)
     }

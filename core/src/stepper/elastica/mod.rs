@@ -15,29 +15,29 @@
 //! straight link's: the tick rarely resolves that mode, and then a frequency that varies would
 //! make an explicit step unstable; what drives it, and how it bends, is complete to second order.
 
-mod calm;
 mod flex;
 mod mode;
+mod nonlinear;
+mod numerical_damping;
 mod polynomial;
 mod reach;
-mod remainder;
-mod settle;
+mod stability_check;
+mod steps;
 
 pub use flex::Flex;
 
-use calm::Calm;
-use remainder::{Remainder, Value};
-
 use mode::Mode;
+use nonlinear::{Nonlinear, Value};
+use numerical_damping::NumericalDamping;
 
 use super::kicks::Kicks;
-use super::oscillator::{check_turns, jolt};
-use super::{Drive, Response, Stepper};
+use super::oscillator::{check_turns, kick};
+use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper, any_rate_if};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::Scalar;
 use crate::model::{Expansion, Rod};
-use crate::motion::{Kink, Peaks};
+use crate::motion::Peaks;
 
 /// How much work a tick does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +63,7 @@ pub enum Quality {
 #[derive(Clone, Copy, Debug)]
 pub struct Elastica<T, const K: usize> {
     modes: [Mode<T>; K],
-    remainder: Remainder<T, K>,
+    nonlinear: Nonlinear<T, K>,
     per_tick: T,
     quarter: T,
     /// ⅛ tick: Hermite interpolation to the middle.
@@ -72,14 +72,14 @@ pub struct Elastica<T, const K: usize> {
     /// Distance from where a mode rests, in `ωa`, below which it sleeps.
     asleep: [T; K],
     quality: Quality,
-    /// What a kink of the motion inside a tick moves `ωa` and `p̃` by, see [`jolt`].
-    jolt: [[T; 2]; K],
+    /// Changes of `ωa` and `p̃` per first moment of a kink, see [`kick`].
+    kink: [[T; 2]; K],
     tick: f64,
     /// What the range admits: see [`Rod::bend`].
     bend: f64,
     sag: f64,
     flexibility: f64,
-    calm: Calm<T, K>,
+    numerical_damping: NumericalDamping<T, K>,
     kicks: [Kicks<T>; K],
 }
 
@@ -141,11 +141,11 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         let damping = rod.scene().damping;
         check_turns(rod.frequency(), damping.alpha, damping.beta, tick)?;
         let stepper = Self::fitted(rod, tick, quality, bend, bend);
-        if !stepper.rests() {
+        if !stepper.is_stable_at_rest() {
             let mut shorter = tick;
             for _ in 0..HALVINGS {
                 shorter *= 0.5;
-                if Self::fitted(rod, shorter, quality, bend, bend).rests() {
+                if Self::fitted(rod, shorter, quality, bend, bend).is_stable_at_rest() {
                     break;
                 }
             }
@@ -176,17 +176,17 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
                 Mode::new(omega, damping.alpha, damping.beta, b, step)
             }),
-            jolt: core::array::from_fn(|k| {
+            kink: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                let [a, p] = jolt::<f64>(omega, damping.alpha, damping.beta, b, tick);
+                let [a, p] = kick::<f64>(omega, damping.alpha, damping.beta, b, tick);
                 [omega * a, p].map(T::from_f64)
             }),
             kicks: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
                 Kicks::new(omega, damping.alpha, damping.beta, b, tick)
             }),
-            remainder: Remainder::new(rod, &expansion, &range),
-            calm: Calm::new(rod, step, &range),
+            nonlinear: Nonlinear::new(rod, &expansion, &range),
+            numerical_damping: NumericalDamping::new(rod, step, &range),
             asleep: core::array::from_fn(|k| {
                 let floor = super::sleep_floor::<f64>(scene.link.length, expansion.linear[k].tip);
                 T::from_f64(rod.frequency()[k] * floor)
@@ -197,75 +197,15 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         }
     }
 
-    /// A step, of anything that a scene can hold.
-    #[inline(always)]
-    fn advance(&self, state: &mut ElasticaState<T, K>, drive: &Drive<T>, end: &HubState<T>) {
-        let damped = self.remainder.is_damped();
-        let ElasticaState { y, offset, drift, .. } = state;
-        let guess = core::array::from_fn(|k| {
-            self.modes[k].predict(y[k], offset[k], drift[k], drive, damped)
-        });
-        let value = self.remainder.evaluate::<true, true>(&guess, end);
-        state.follow(guess, value, |k, y, excess| self.modes[k].correct(y, excess));
-    }
-
-    /// A step without damping and gravity in which the hub's acceleration gains `gain` in a
-    /// straight line.
-    #[inline(always)]
-    fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gain: T, end: &HubState<T>) {
-        let ElasticaState { y, offset, drift, .. } = state;
-        let guess =
-            core::array::from_fn(|k| self.modes[k].rotate(y[k], offset[k], drift[k], begin, gain));
-        let value = self.remainder.evaluate::<false, true>(&guess, end);
-        state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
-    }
-
     /// Neither damping nor gravity.
     #[inline(always)]
     fn is_bare(&self) -> bool {
-        !self.remainder.is_damped() && !self.remainder.is_directed()
+        !self.nonlinear.is_damped() && !self.nonlinear.feels_gravity()
     }
 
     #[inline(always)]
     fn tip_of(&self, state: &ElasticaState<T, K>) -> [T; 2] {
-        self.remainder.tip(state.y.map(|y| y[0]))
-    }
-
-    /// A step without damping and gravity of an arm whose hub rests.
-    #[inline(always)]
-    fn ring(&self, state: &mut ElasticaState<T, K>, hub: &HubState<T>) {
-        let ElasticaState { y, offset, drift, .. } = state;
-        let off: [[T; 2]; K] =
-            core::array::from_fn(|k| self.modes[k].off(y[k], offset[k], drift[k]));
-        let calm = self.calm.at(&off[0]);
-        let guess = core::array::from_fn(|k| self.modes[k].swing(y[k], off[k], drift[k], calm[k]));
-        let value = self.remainder.evaluate::<false, false>(&guess, hub);
-        state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
-    }
-
-    /// θ̇ in the middle of a tick, by cubic Hermite interpolation.
-    #[inline(always)]
-    fn middle_rate(&self, before: &HubState<T>, after: &HubState<T>) -> T {
-        T::HALF * (before.rate + after.rate)
-            + self.eighth_tick * (before.acceleration - after.acceleration)
-    }
-
-    /// The hub in the middle of a tick.
-    #[inline(always)]
-    fn middle(&self, before: &HubState<T>, after: &HubState<T>) -> HubState<T> {
-        let between =
-            |x: T, x_dot: T, y: T, y_dot: T| T::HALF * (x + y) + self.eighth_tick * (x_dot - y_dot);
-        HubState {
-            rate: self.middle_rate(before, after),
-            sin: between(before.sin, before.cos * before.rate, after.sin, after.cos * after.rate),
-            cos: between(
-                before.cos,
-                -(before.sin * before.rate),
-                after.cos,
-                -(after.sin * after.rate),
-            ),
-            ..*after
-        }
+        self.nonlinear.tip(state.y.map(|y| y[0]))
     }
 }
 
@@ -273,8 +213,20 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     type Scalar = T;
     type State = ElasticaState<T, K>;
 
+    const FAST: FastPaths = FastPaths::BOTH;
+
     fn tick(&self) -> f64 {
         self.tick
+    }
+
+    #[inline(always)]
+    fn feels_gravity(&self) -> bool {
+        self.nonlinear.feels_gravity()
+    }
+
+    #[inline(always)]
+    fn fastest_linear(&self) -> T {
+        any_rate_if(self.is_bare())
     }
 
     /// Refuses what would bend the link beyond the range of the expansion, with 1e-6 of it for
@@ -291,98 +243,54 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         }
     }
 
-    #[inline(always)]
-    fn is_directed(&self) -> bool {
-        self.remainder.is_directed()
-    }
-
     fn equilibrium(&self, hub: &HubState<T>) -> ElasticaState<T, K> {
         let still = HubState { rate: T::ZERO, ..*hub };
         let mut y = [[T::ZERO; 2]; K];
-        let mut value = self.remainder.evaluate::<true, true>(&y, &still);
+        let mut value = self.nonlinear.evaluate::<true, true>(&y, &still);
         // Half-way steps to the centre: contracting as long as the link carries its weight.
         for _ in 0..EQUILIBRIUM_STEPS {
             for k in 0..K {
                 y[k][0] = T::HALF * (y[k][0] - value.offset[k][0]);
             }
-            value = self.remainder.evaluate::<true, true>(&y, &still);
+            value = self.nonlinear.evaluate::<true, true>(&y, &still);
         }
         ElasticaState::at(y, value)
     }
 
     #[inline(always)]
-    fn step(&self, state: &mut ElasticaState<T, K>, before: &HubState<T>, after: &HubState<T>) {
-        let drive = if self.remainder.is_damped() {
-            Drive::between(before, after, self.per_tick, self.alpha)
-        } else {
-            Drive::undamped(before, after, self.per_tick)
-        };
-        match self.quality {
-            Quality::Fast => self.advance(state, &drive, after),
-            Quality::Fine => {
-                let [first, second] = drive.halves(self.quarter);
-                self.advance(state, &first, &self.middle(before, after));
-                self.advance(state, &second, after);
-            }
-        }
-    }
-
-    const PLAIN: bool = true;
-    const RESTS: bool = true;
-
-    #[inline(always)]
-    fn is_plain(&self, _: T) -> bool {
-        self.is_bare()
-    }
-
-    #[inline(always)]
-    fn advance_in_cubic(
+    fn step<M: HubMotion>(
         &self,
         state: &mut ElasticaState<T, K>,
         before: &HubState<T>,
         after: &HubState<T>,
+    ) {
+        if M::LINEAR {
+            self.step_linear(state, before, after);
+        } else if M::AT_REST && self.is_bare() {
+            self.step_at_rest(state, after);
+        } else {
+            self.step_any(state, before, after);
+        }
+    }
+
+    #[inline(always)]
+    fn response<M: HubMotion>(
+        &self,
+        state: &ElasticaState<T, K>,
+        hub: &HubState<T>,
     ) -> Response<T> {
-        let begin = before.acceleration;
-        let gain = after.acceleration - begin;
-        match self.quality {
-            Quality::Fast => self.rotate(state, begin, gain, after),
-            Quality::Fine => {
-                let half = T::HALF * gain;
-                let middle = HubState { rate: self.middle_rate(before, after), ..*after };
-                self.rotate(state, begin, half, &middle);
-                self.rotate(state, begin + half, half, after);
-            }
-        }
-        self.response(state, after)
+        let torque =
+            if M::AT_REST { state.torque } else { state.torque + state.inertia * hub.acceleration };
+        Response { torque, tip: self.tip_of(state) }
     }
 
     #[inline(always)]
-    fn swing(&self, state: &mut ElasticaState<T, K>, hub: &HubState<T>) {
-        if !self.is_bare() {
-            return self.step(state, hub, hub);
-        }
-        if self.quality == Quality::Fine {
-            self.ring(state, hub);
-        }
-        self.ring(state, hub);
-    }
-
-    #[inline(always)]
-    fn response_at_rest(&self, state: &ElasticaState<T, K>, _: &HubState<T>) -> Response<T> {
-        Response { torque: state.torque, tip: self.tip_of(state) }
-    }
-
-    fn shift(&self, state: &mut ElasticaState<T, K>, moment: T) {
+    fn kink(&self, state: &mut ElasticaState<T, K>, moments: KinkMoments<'_, T>) {
         for k in 0..K {
-            for r in 0..2 {
-                state.y[k][r] += self.jolt[k][r] * moment;
-            }
-        }
-    }
-
-    fn kink(&self, state: &mut ElasticaState<T, K>, kink: &Kink<T>) {
-        for k in 0..K {
-            let kick = self.kicks[k].of(kink);
+            let kick = match moments {
+                KinkMoments::First(moment) => self.kink[k].map(|kick| kick * moment),
+                KinkMoments::All(kink) => self.kicks[k].of(kink),
+            };
             for r in 0..2 {
                 state.y[k][r] += kick[r];
             }
@@ -398,14 +306,6 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
                 off < floor && -off < floor
             })
         })
-    }
-
-    #[inline(always)]
-    fn response(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> Response<T> {
-        Response {
-            torque: state.torque + state.inertia * hub.acceleration,
-            tip: self.tip_of(state),
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! One mode, advanced exactly about a centre that moves.
 
 use crate::math::{Scalar, phi_functions};
-use crate::stepper::Drive;
+use crate::stepper::Forcing;
 use crate::stepper::oscillator::{contracting, gain};
 
 /// `ẏ = A(y − r) − (0, b u(t))`, `y = (ωa, p̃)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`.
@@ -66,7 +66,7 @@ impl<T: Scalar> Mode<T> {
         y: [T; 2],
         offset: [T; 2],
         drift: [T; 2],
-        u: &Drive<T>,
+        u: &Forcing<T>,
         damped: bool,
     ) -> [T; 2] {
         let mut lag = self.per_turn * drift[1];
@@ -81,7 +81,7 @@ impl<T: Scalar> Mode<T> {
         })
     }
 
-    /// The same for an undamped mode and a `u` that is `begin` and gains `gain` in a straight line:
+    /// The same for an undamped mode and a `u` that is `begin` and gains `gained` in a straight line:
     /// the centre moves with it, and all that is left is a rotation.
     #[inline(always)]
     pub(super) fn rotate(
@@ -90,10 +90,10 @@ impl<T: Scalar> Mode<T> {
         offset: [T; 2],
         drift: [T; 2],
         begin: T,
-        gain: T,
+        gained: T,
     ) -> [T; 2] {
         let offset = [offset[0] + self.lag * begin, offset[1]];
-        let drift = [drift[0] + self.lag * gain, drift[1]];
+        let drift = [drift[0] + self.lag * gained, drift[1]];
         let off = self.off(y, offset, drift);
         let [versine, sin] = self.turn[0];
         [
@@ -102,15 +102,15 @@ impl<T: Scalar> Mode<T> {
         ]
     }
 
-    /// The same without a load: the hub rests. Drawn towards the centre by the fraction `calm`: by twice
+    /// The same without a load: the hub rests. Drawn towards the centre by the fraction `damping`: by twice
     /// as much of `p̃` alone, which turns into the other.
     #[inline(always)]
-    pub(super) fn swing(&self, y: [T; 2], off: [T; 2], drift: [T; 2], calm: T) -> [T; 2] {
+    pub(super) fn step_at_rest(&self, y: [T; 2], off: [T; 2], drift: [T; 2], damping: T) -> [T; 2] {
         let [versine, sin] = self.turn[0];
         let turned = [versine * off[0] + sin * off[1], versine * off[1] - sin * off[0]];
-        // In the gain, not in `y`, of which f32 would round it away.
-        let calmed = turned[1] - calm * (off[1] + turned[1]);
-        [y[0] + (turned[0] - drift[0]), y[1] + (calmed - drift[1])]
+        // In the change, not in `y`, of which f32 would round it away.
+        let damped = turned[1] - damping * (off[1] + turned[1]);
+        [y[0] + (turned[0] - drift[0]), y[1] + (damped - drift[1])]
     }
 
     /// How far an undamped mode is from the centre that it turns about in the mean.

@@ -10,7 +10,7 @@ use super::{Modal, ModalState};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Band, Scalar, sqrt};
-use crate::stepper::Stepper;
+use crate::stepper::{AnyMotion, Linear, Stepper};
 
 /// A step at a constant rate, linear: the image of each unit of coordinate, rate and force.
 struct Step<T, const K: usize>([[[[T; 3]; K]; 3]; K]);
@@ -23,11 +23,11 @@ const SLOPES: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
 
 /// Rates and gravities are tried in this ratio, so many at most.
 const RATIO: f64 = 1.15;
-const MOST: u32 = 1000;
+const MOST_TRIES: u32 = 1000;
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Refuses a rate that would feed the modes a hundredfold within `2²⁰` ticks, held or passed through.
-    /// Set-up only: where the bound of the plain ticks does not settle it, a million operations.
+    /// Set-up only: where the bound of the linear ticks does not settle it, a million operations.
     pub(super) fn admit_rate(&self, rate: f64) -> Result<(), Error> {
         let settled = self.fastest.to_f64();
         let carries = |rate: f64| {
@@ -39,7 +39,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             return Ok(());
         }
         let mut max = rate / RATIO;
-        for _ in 0..MOST {
+        for _ in 0..MOST_TRIES {
             if carries(max) {
                 break;
             }
@@ -49,10 +49,10 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     }
 
     /// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken
-    /// at a predicted state, as within plain cubics; faster ones take the general step.
-    pub(super) fn fastest_plain(&self, omega: &[f64; K]) -> f64 {
-        let mut rate = surely_plain(&self.spin, omega, self.tick);
-        for _ in 0..MOST {
+    /// at a predicted state, as in linear ticks; faster ones take the general step.
+    pub(super) fn fastest_linear_rate(&self, omega: &[f64; K]) -> f64 {
+        let mut rate = surely_linear(&self.spin, omega, self.tick);
+        for _ in 0..MOST_TRIES {
             if rate * self.tick >= 1.0 || !self.held(rate * RATIO, 0.0, true).stays_bounded(10, 2.0)
             {
                 break;
@@ -69,7 +69,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             SLOPES.iter().all(|slope| self.held(0.0, slope * share, false).stays_bounded(20, 100.0))
         };
         let mut share = 1.0;
-        for _ in 0..MOST {
+        for _ in 0..MOST_TRIES {
             if carries(share) {
                 break;
             }
@@ -80,7 +80,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 
     /// The step without what shifts the modes and does not feed them: weight and the drag of the
     /// turning. The link points upwards by `sin`.
-    fn held(&self, rate: f64, sin: f64, plain: bool) -> Step<T, K> {
+    fn held(&self, rate: f64, sin: f64, linear: bool) -> Step<T, K> {
         let [rate, sin] = [rate, sin].map(T::from_f64);
         let hub = HubState { rate, sin, cos: T::ZERO, ..HubState::ZERO };
         let level = Self { alpha: T::ZERO, ..*self };
@@ -90,10 +90,10 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                 y[part][k] = T::ONE;
                 let [coordinate, rate, force] = y;
                 let mut state = ModalState { coordinate, rate, force, softening: [T::ZERO; K] };
-                if plain {
-                    level.advance_in_cubic(&mut state, &hub, &hub);
+                if linear {
+                    level.step::<Linear>(&mut state, &hub, &hub);
                 } else {
-                    level.step(&mut state, &hub, &hub);
+                    level.step::<AnyMotion>(&mut state, &hub, &hub);
                 }
                 core::array::from_fn(|j| [state.coordinate[j], state.rate[j], state.force[j]])
             })
@@ -102,7 +102,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 }
 
 impl<T: Scalar, const K: usize> Step<T, K> {
-    /// Whether the mean of the eigenvalues' powers stays below `most` through `2^doublings` ticks: a
+    /// True if the mean of the eigenvalues' powers stays below `most` through `2^doublings` ticks: a
     /// trace, which does not depend on how the state is scaled.
     fn stays_bounded(mut self, doublings: u32, most: f64) -> bool {
         let most = T::from_f64(most * 2.0 * K as f64);
@@ -136,7 +136,7 @@ impl<T: Scalar, const K: usize> Step<T, K> {
 /// A rate that feeds no mode: `θ̇²Γ` is compared with `2/h²`, above which a mode that the tick resolves
 /// blows up, or with a twentieth of the `ω²` of a mode that turns more than 2 rad a tick: beyond half a
 /// turn a predicted force always feeds a mode a little.
-fn surely_plain<T: Scalar, const K: usize>(
+fn surely_linear<T: Scalar, const K: usize>(
     spin: &Band<T, K, K>,
     omega: &[f64; K],
     tick: f64,

@@ -12,7 +12,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Taken at the predicted coordinates the force would feed modes that turn more than half a turn
     /// a tick: by `½r²` a tick and less, `r` the share of `S` in the mode's stiffness. So the step is
     /// the same forwards and backwards, and neither feeds nor damps. Under gravity it is clipped to
-    /// `MOST`.
+    /// `MOST_GRAVITY_CHANGE`.
     #[inline(always)]
     pub(super) fn implied(&self, mut change: [T; K], hub: &HubState<T>) -> [T; K] {
         let rate2 = if self.terms.spin { hub.rate * hub.rate } else { T::ZERO };

@@ -4,15 +4,16 @@ mod bounded;
 mod implied;
 mod respond;
 mod setup;
+mod steps;
 
 use super::kicks::Kicks;
-use super::oscillator::{Drive, Oscillator};
+use super::oscillator::Oscillator;
 use super::terms::Terms;
-use super::{Response, Stepper};
+use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Band, HalfForm, Scalar, dot};
-use crate::motion::{Kink, Peaks};
+use crate::motion::Peaks;
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
 ///
@@ -20,7 +21,7 @@ use crate::motion::{Kink, Peaks};
 ///
 /// with `Γ = ΦᵀGΦ`, `Π = ΦᵀK_PΦ`, `b = ΦᵀF`, `f = Φᵀf_g`. Exact for any tick where the right-hand
 /// side's last three terms, the force, vanish and `θ̈` is a parabola; the force is taken along as a
-/// straight line to its value at the end, of second order, within plain cubics at the predicted end.
+/// straight line to its value at the end, of second order, in linear ticks at the predicted end.
 /// What remains is the small-deflection model's own error, about 0.1 (w/L)².
 ///
 /// The tick works with `ωa`, `ωȧ` and the force over `ω`: a mode then rests at its force, and the
@@ -44,8 +45,8 @@ pub struct Modal<T, const K: usize> {
     inertia: T,
     terms: Terms,
     per_tick: T,
-    /// What a kink of the motion inside a tick moves `ωa` and `ωȧ` by, see [`jolt`](super::oscillator::jolt).
-    jolt: [[T; 2]; K],
+    /// Changes of `ωa` and `ωȧ` per first moment of a kink, see [`kick`](super::oscillator::kick).
+    kink: [[T; 2]; K],
     alpha: T,
     /// `α(J_r − bᵀb)` and `βbᵢωᵢ`.
     drag: T,
@@ -59,9 +60,9 @@ pub struct Modal<T, const K: usize> {
     /// arm is to sleep.
     awake: [[T; 2]; K],
     tick: f64,
-    /// Largest change of a force over `ω` in a tick, see [`super::MOST`].
+    /// Largest change of a force over `ω` in a tick, see [`super::MOST_GRAVITY_CHANGE`].
     most: T,
-    /// Rate up to which the spin terms may be taken at a predicted state, as within plain cubics, rad/s.
+    /// Rate up to which the spin terms may be taken at a predicted state, as in linear ticks, rad/s.
     fastest: T,
     kicks: [Kicks<T>; K],
 }
@@ -83,7 +84,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Leaves out every term in θ̇², as [`super::Newmark::without_spin`] does.
     pub fn without_spin(mut self) -> Self {
         self.terms.spin = false;
-        // Plain ticks do not ask.
+        // Linear ticks do not ask.
         self.spin = Band::ZERO;
         self
     }
@@ -121,13 +122,27 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     type Scalar = T;
     type State = ModalState<T, K>;
 
+    const FAST: FastPaths = FastPaths::BOTH;
+
     fn tick(&self) -> f64 {
         self.tick
     }
 
     #[inline(always)]
-    fn is_directed(&self) -> bool {
+    fn feels_gravity(&self) -> bool {
         self.terms.gravity
+    }
+
+    #[inline(always)]
+    fn fastest_linear(&self) -> T {
+        let Terms { spin, gravity, damping } = self.terms;
+        if gravity || damping {
+            -T::ONE
+        } else if spin {
+            self.fastest
+        } else {
+            T::from_f64(f64::INFINITY)
+        }
     }
 
     fn admit(&self, peaks: &Peaks, _: f64) -> Result<(), Error> {
@@ -146,118 +161,55 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     #[inline(always)]
-    fn step(&self, state: &mut ModalState<T, K>, before: &HubState<T>, after: &HubState<T>) {
-        let drive = if self.terms.damping {
-            Drive::between(before, after, self.per_tick, self.alpha)
-        } else {
-            Drive::undamped(before, after, self.per_tick)
-        };
-        let mut y = [[T::ZERO; 2]; K];
-        for k in 0..K {
-            y[k] = [state.coordinate[k], state.rate[k]];
-            y[k] = self.modes[k].predict_forced(y[k], &drive, state.force[k]);
-        }
-        if self.terms.spin || self.terms.gravity {
-            let [force, _] = self.force(&y.map(|y| y[0]), after);
-            let change = self.implied(core::array::from_fn(|k| force[k] - state.force[k]), after);
-            for k in 0..K {
-                y[k] = self.modes[k].correct_forced(y[k], change[k]);
-                state.force[k] += change[k];
-            }
-            state.softening = self.spin.times(&y.map(|y| y[0]));
-        }
-        state.coordinate = y.map(|y| y[0]);
-        state.rate = y.map(|y| y[1]);
-    }
-
-    fn shift(&self, state: &mut ModalState<T, K>, moment: T) {
-        for k in 0..K {
-            state.coordinate[k] += self.jolt[k][0] * moment;
-            state.rate[k] += self.jolt[k][1] * moment;
-        }
-    }
-
-    fn kink(&self, state: &mut ModalState<T, K>, kink: &Kink<T>) {
-        for k in 0..K {
-            let [a, v] = self.kicks[k].of(kink);
-            state.coordinate[k] += a;
-            state.rate[k] += v;
-        }
-    }
-
-    const PLAIN: bool = true;
-    const RESTS: bool = true;
-
-    #[inline(always)]
-    fn is_plain(&self, rate: T) -> bool {
-        let Terms { spin, gravity, damping } = self.terms;
-        !gravity && !damping && (!spin || rate <= self.fastest)
-    }
-
-    #[inline(always)]
-    fn advance_in_cubic(
+    fn step<M: HubMotion>(
         &self,
         state: &mut ModalState<T, K>,
         before: &HubState<T>,
         after: &HubState<T>,
-    ) -> Response<T> {
-        let gained = after.acceleration - before.acceleration;
-        let mut y = [[T::ZERO; 2]; K];
-        let (mut predicted, mut driven) = ([T::ZERO; K], [T::ZERO; K]);
-        for k in 0..K {
-            let (rest, force) = (self.rest[k], state.force[k]);
-            y[k] = [state.coordinate[k], state.rate[k]];
-            y[k] = self.modes[k].rotate(y[k], rest, before.acceleration, force);
-            driven[k] = rest * gained + force;
-            predicted[k] = y[k][0] - self.modes[k].ramp(0, rest * gained);
-        }
-        let softening = self.spin.times(&predicted);
-        let square = after.rate * after.rate;
-        let force = softening.map(|f| -(square * f));
-        let (mut coordinate, mut rate) = (state.coordinate, state.rate);
-        for k in 0..K {
-            let change = force[k] - driven[k];
-            coordinate[k] = y[k][0] + self.modes[k].ramp(0, change);
-            rate[k] = y[k][1] + self.modes[k].ramp(1, change);
-        }
-        let next = ModalState { coordinate, rate, force, softening };
-        *state = next;
-        let torque = self.inertial(&next, after.acceleration);
-        Response {
-            torque: torque - self.spin_torque(&next, after.acceleration, after.rate),
-            tip: self.tip_of(&next),
+    ) {
+        if M::LINEAR {
+            self.step_linear(state, before, after);
+        } else if M::AT_REST {
+            self.step_at_rest(state, after);
+        } else {
+            self.step_any(state, before, after);
         }
     }
 
+    /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ
+    /// − ½ g cosθ aᵀΠa` with `u = θ̈ + αθ̇`; tip `(r + L − ½ aᵀΦᵀSΦa, ψ(L)ᵀa)`.
     #[inline(always)]
-    fn swing(&self, state: &mut ModalState<T, K>, hub: &HubState<T>) {
-        let mut y = [[T::ZERO; 2]; K];
-        for k in 0..K {
-            y[k] = [state.coordinate[k], state.rate[k]];
-            y[k] = self.modes[k].swing(y[k], state.force[k]);
-        }
-        if self.terms.gravity {
-            let hanging = self.hanging(&y.map(|y| y[0]), hub);
-            let change = self.implied(core::array::from_fn(|k| hanging[k] - state.force[k]), hub);
-            for k in 0..K {
-                y[k] = self.modes[k].correct_forced(y[k], change[k]);
-                state.force[k] += change[k];
+    fn response<M: HubMotion>(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> Response<T> {
+        let mut u = if M::AT_REST { T::ZERO } else { hub.acceleration };
+        let mut torque = self.inertial(state, u);
+        if !M::LINEAR && self.terms.damping {
+            if M::AT_REST {
+                torque += -dot(&self.loss, &state.rate);
+            } else {
+                u += self.alpha * hub.rate;
+                torque += self.drag * hub.rate - dot(&self.loss, &state.rate);
             }
         }
-        state.coordinate = y.map(|y| y[0]);
-        state.rate = y.map(|y| y[1]);
-    }
-
-    #[inline(always)]
-    fn response_at_rest(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> Response<T> {
-        let mut torque = self.inertial(state, T::ZERO);
-        if self.terms.damping {
-            torque += -dot(&self.loss, &state.rate);
+        // Without the terms in θ̇² a linear tick subtracts a zero, which costs less than to ask.
+        if !M::AT_REST && (M::LINEAR || self.terms.spin) {
+            torque -= self.spin_torque(state, u, hub.rate);
         }
-        if self.terms.gravity {
+        if !M::LINEAR && self.terms.gravity {
             torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
+    }
+
+    #[inline(always)]
+    fn kink(&self, state: &mut ModalState<T, K>, moments: KinkMoments<'_, T>) {
+        for k in 0..K {
+            let [a, v] = match moments {
+                KinkMoments::First(moment) => self.kink[k].map(|kick| kick * moment),
+                KinkMoments::All(kink) => self.kicks[k].of(kink),
+            };
+            state.coordinate[k] += a;
+            state.rate[k] += v;
+        }
     }
 
     #[inline(always)]
@@ -269,24 +221,5 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             swing += far * pull * pull + fast * state.rate[k] * state.rate[k];
         }
         swing < T::ONE
-    }
-
-    /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ
-    /// − ½ g cosθ aᵀΠa` with `u = θ̈ + αθ̇`; tip `(r + L − ½ aᵀΦᵀSΦa, ψ(L)ᵀa)`.
-    #[inline(always)]
-    fn response(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> Response<T> {
-        let mut u = hub.acceleration;
-        let mut torque = self.inertial(state, u);
-        if self.terms.damping {
-            u += self.alpha * hub.rate;
-            torque += self.drag * hub.rate - dot(&self.loss, &state.rate);
-        }
-        if self.terms.spin {
-            torque -= self.spin_torque(state, u, hub.rate);
-        }
-        if self.terms.gravity {
-            torque += self.weight_torque(state, hub);
-        }
-        Response { torque, tip: self.tip_of(state) }
     }
 }

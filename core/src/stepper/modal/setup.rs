@@ -5,9 +5,9 @@ use crate::Error;
 use crate::math::{Band, Scalar, cast, dot};
 use crate::model::{Model, Modes};
 use crate::stepper::kicks::Kicks;
-use crate::stepper::oscillator::{Oscillator, check_turns, jolt};
+use crate::stepper::oscillator::{Oscillator, check_turns, kick};
 use crate::stepper::terms::Terms;
-use crate::stepper::{MOST, check_tick, sleep_floor};
+use crate::stepper::{MOST_GRAVITY_CHANGE, check_tick, sleep_floor};
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Keeps the lowest `K` modes of the model for steps of `tick` s. f64 inside.
@@ -50,7 +50,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             inertia: T::from_f64(scene.hub.inertia + residual),
             terms: Terms::of(scene),
             per_tick: T::from_f64(1.0 / tick),
-            jolt: core::array::from_fn(|k| jolt(omega[k], alpha, beta, support[k], tick)),
+            kink: core::array::from_fn(|k| kick(omega[k], alpha, beta, support[k], tick)),
             kicks: core::array::from_fn(|k| {
                 Kicks::new(omega[k], alpha, beta, coupling[k], tick).rates_by(omega[k])
             }),
@@ -66,9 +66,11 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                 [floor, omega[k] * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
             }),
             tick,
-            most: T::from_f64(MOST * scene.link.length / shape[0][model.tip()].abs()),
+            most: T::from_f64(
+                MOST_GRAVITY_CHANGE * scene.link.length / shape[0][model.tip()].abs(),
+            ),
         };
-        modal.fastest = T::from_f64(modal.fastest_plain(&omega));
+        modal.fastest = T::from_f64(modal.fastest_linear_rate(&omega));
         if modal.terms.gravity {
             modal.admit_gravity(gravity)?;
         }

@@ -28,12 +28,12 @@ mod setup;
 mod solve;
 
 use super::terms::Terms;
-use super::{Response, Stepper};
+use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper, any_rate_if};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Band, HalfForm, Ldl, Scalar, dot};
 use crate::model::Model;
-use crate::motion::{Kink, Peaks};
+use crate::motion::Peaks;
 
 /// Newmark stepper for `N` degrees of freedom in bands of width `W`.
 ///
@@ -42,7 +42,7 @@ use crate::motion::{Kink, Peaks};
 /// Full matrices, `W = N`, are taken along the principal axes of stiffness and spin, in which both
 /// are diagonal. [`Self::nodal`] is without: 3 KB of code less, and ticks that take half as many
 /// instructions again where there is neither damping nor gravity.
-// The numbers of a plain tick first: within a short reach of the generator's own.
+// The numbers of a linear tick first: within a short reach of the generator's own.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
@@ -68,12 +68,11 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     /// `K`; the identity along the principal axes.
     stiffness: Band<T, N, W>,
     terms: Terms,
-    /// Fraction of `d` taken a tick from an arm that nothing damps, its hub at rest.
-    calm: T,
+    /// Fraction of `d` that is taken a tick from an arm that nothing damps, its hub at rest.
+    numerical_damping: T,
     /// The tip's deflection is the last degree of freedom, not the last but one.
     tip_last: bool,
-    /// Weights of the squares of `c` and of `d` in what the arm still swings by, of what it may when it
-    /// is to sleep.
+    /// Weights of the squares of `c` and of `d`: below 1, their sum says that the arm is settled.
     awake: [T; 2],
     tick: f64,
     /// `2/h (αM + βK)`.
@@ -91,13 +90,13 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     weight: [T; N],
     /// `g S`, S the first moment.
     moment: T,
-    /// Largest `c`, see [`super::MOST`].
+    /// Largest `c`, see [`super::MOST_GRAVITY_CHANGE`].
     most: T,
 }
 
 /// The arm's state. Of banded matrices in m and slopes, of full ones along the principal axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vibration<T, const N: usize> {
+pub struct NewmarkState<T, const N: usize> {
     /// `q`: deflection (m) and slope of each node in the hub frame, or their principal coordinates.
     pub deflection: [T; N],
     /// `½h q̇`: half of what it gains a tick.
@@ -121,20 +120,20 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W, false> {
 }
 
 impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
-    /// Only what is full stays as small along other axes.
+    /// A change of basis fills a band matrix, so it pays only where the matrix is full.
     const PRINCIPAL: bool = AXES && W == N;
 
     /// Leaves out every term in θ̇²: no centrifugal stiffening or softening, and their share of the
     /// torque. Cheaper, and wrong as soon as `θ̇` is not small against the first frequency.
     pub fn without_spin(mut self) -> Self {
         self.terms.spin = false;
-        // Plain ticks do not ask.
+        // Linear ticks do not ask.
         self.spin = Band::ZERO;
         self
     }
 
     /// `q̇`, the deflection's rate in the hub frame.
-    pub fn deflection_rate(&self, state: &Vibration<T, N>) -> [T; N] {
+    pub fn deflection_rate(&self, state: &NewmarkState<T, N>) -> [T; N] {
         let per_half = T::HALF * self.twice_per_half;
         state.gain.map(|gain| per_half * gain)
     }
@@ -144,15 +143,25 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     for Newmark<T, N, W, AXES>
 {
     type Scalar = T;
-    type State = Vibration<T, N>;
+    type State = NewmarkState<T, N>;
+
+    const FAST: FastPaths = {
+        let linear = N <= 2 && Self::PRINCIPAL;
+        FastPaths { linear, at_rest: N > 2 || linear }
+    };
 
     fn tick(&self) -> f64 {
         self.tick
     }
 
     #[inline(always)]
-    fn is_directed(&self) -> bool {
+    fn feels_gravity(&self) -> bool {
         self.terms.gravity
+    }
+
+    #[inline(always)]
+    fn fastest_linear(&self) -> T {
+        any_rate_if(!self.terms.gravity && !self.terms.damping)
     }
 
     /// Refuses rates at which the arm has no stiffness left, upright where there is gravity. Lumped
@@ -181,98 +190,34 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
         Err(Error::TooFast { rate: peaks.rate, max })
     }
 
-    fn equilibrium(&self, hub: &HubState<T>) -> Vibration<T, N> {
+    fn equilibrium(&self, hub: &HubState<T>) -> NewmarkState<T, N> {
         let load = self.weight.map(|f| -hub.cos * f);
         let deflection = self.stiffness.plus(-hub.sin, &self.tension).factor().solve(&load);
-        Vibration { deflection, gain: [T::ZERO; N], restoring: [T::ZERO; N] }
+        NewmarkState { deflection, gain: [T::ZERO; N], restoring: [T::ZERO; N] }
     }
 
     #[inline(always)]
-    fn step(&self, state: &mut Vibration<T, N>, before: &HubState<T>, after: &HubState<T>) {
-        let (q, d) = self.predict(state, after.rate - before.rate);
-        let restoring = self.solve(&q, &d, after);
-        *state = Self::correct(q, d, restoring);
-    }
-
-    /// Nothing: the step takes the hub's rates only, which say what a jump inside the tick gives `v`.
-    /// Where in the tick it jumps moves `q` by at most `⅛(ωh)²` of what the jump bends it by: no more
-    /// than the rule's own period error, `(ωh)²/12` a radian, makes of it within a period.
-    fn kink(&self, _: &mut Vibration<T, N>, _: &Kink<T>) {}
-
-    const PLAIN: bool = N <= 2 && Self::PRINCIPAL;
-    const RESTS: bool = N > 2 || Self::PLAIN;
-
-    #[inline(always)]
-    fn is_plain(&self, _: T) -> bool {
-        !self.terms.gravity && !self.terms.damping
-    }
-
-    #[inline(always)]
-    fn advance_in_cubic(
+    fn step<M: HubMotion>(
         &self,
-        state: &mut Vibration<T, N>,
+        state: &mut NewmarkState<T, N>,
         before: &HubState<T>,
         after: &HubState<T>,
-    ) -> Response<T> {
-        let (q, d) = self.predict(state, after.rate - before.rate);
-        let restoring = self.solve_turning(self.stiff(&q), &q, after.rate);
-        let next = Self::correct(q, d, restoring);
-        *state = next;
-        let torque = self.inertial(&next, after.acceleration);
-        Response {
-            torque: torque - self.spin_torque(&next, after.acceleration, after.rate),
-            tip: self.tip_of(&next),
-        }
-    }
-
-    #[inline(always)]
-    fn swing(&self, state: &mut Vibration<T, N>, hub: &HubState<T>) {
-        let (mut q, mut d) = (state.deflection, state.gain);
-        for i in 0..N {
-            let d0 = d[i];
-            d[i] = d0 - state.restoring[i];
-            q[i] += d0 + d[i];
-        }
-        let mut force = self.stiff(&q);
-        if self.terms.damping {
-            let damping = self.damping.times(&d);
-            for i in 0..N {
-                force[i] += damping[i];
-            }
-        }
-        let mut restoring = if self.terms.gravity {
-            self.solve_hanging(force, &q, self.tension.scaled(-hub.sin), hub.cos)
-        } else {
-            self.factors.solve(&force)
-        };
-        if !Self::PRINCIPAL && !self.terms.damping {
-            // Of the deflections: the slopes go with them.
-            for i in (0..N).step_by(2) {
-                restoring[i] += self.calm * d[i];
-            }
-        }
+    ) {
+        let (q, d) = self.predict::<M>(state, after.rate - before.rate);
+        let restoring = self.solve::<M>(&q, &d, after);
         *state = Self::correct(q, d, restoring);
     }
 
+    /// Does nothing: the step takes the hub's rates only, which say what a jump inside the tick gives
+    /// `v`. Where in the tick it jumps moves `q` by at most `⅛(ωh)²` of what the jump bends it by: no
+    /// more than the rule's own period error, `(ωh)²/12` a radian, makes of it within a period.
     #[inline(always)]
-    fn response_at_rest(&self, state: &Vibration<T, N>, hub: &HubState<T>) -> Response<T> {
-        let mut torque = dot(&self.coupling, &state.restoring);
-        if self.terms.damping {
-            torque += dot(&self.drag_torque, &state.gain);
-        }
-        if self.terms.gravity {
-            torque += self.weight_torque(state, hub);
-        }
-        Response { torque, tip: self.tip_of(state) }
-    }
-
-    /// Takes the rates only, so that a kink inside the tick needs nothing.
-    fn shift(&self, _: &mut Vibration<T, N>, _: T) {}
+    fn kink(&self, _: &mut NewmarkState<T, N>, _: KinkMoments<'_, T>) {}
 
     /// Bounds the swing of every node by the arm's lowest frequency: none is larger than
     /// `c/(½hω₁)²` and `d/(½hω₁)` make it.
     #[inline(always)]
-    fn is_settled(&self, state: &Vibration<T, N>) -> bool {
+    fn is_settled(&self, state: &NewmarkState<T, N>) -> bool {
         let [far, fast] = self.awake;
         far * dot(&state.restoring, &state.restoring) + fast * dot(&state.gain, &state.gain)
             < T::ONE
@@ -282,17 +227,26 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     /// − (θ̈ + αθ̇) qᵀGq − 2θ̇ qᵀGq̇ − ½ g cosθ qᵀK_P q`, of second order in `q`;
     /// tip `(r + L − ½ qᵀSq, w(L))`.
     #[inline(always)]
-    fn response(&self, state: &Vibration<T, N>, hub: &HubState<T>) -> Response<T> {
+    fn response<M: HubMotion>(&self, state: &NewmarkState<T, N>, hub: &HubState<T>) -> Response<T> {
         let mut forced = hub.acceleration;
-        let mut torque = self.inertial(state, hub.acceleration);
-        if self.terms.damping {
-            forced += self.alpha * hub.rate;
-            torque += self.rigid_drag * hub.rate + dot(&self.drag_torque, &state.gain);
+        let mut torque = if M::AT_REST {
+            dot(&self.coupling, &state.restoring)
+        } else {
+            self.inertial(state, hub.acceleration)
+        };
+        if !M::LINEAR && self.terms.damping {
+            if M::AT_REST {
+                torque += dot(&self.drag_torque, &state.gain);
+            } else {
+                forced += self.alpha * hub.rate;
+                torque += self.rigid_drag * hub.rate + dot(&self.drag_torque, &state.gain);
+            }
         }
-        if self.terms.spin {
+        // Without the terms in θ̇² a linear tick subtracts a zero, which costs less than to ask.
+        if !M::AT_REST && (M::LINEAR || self.terms.spin) {
             torque -= self.spin_torque(state, forced, hub.rate);
         }
-        if self.terms.gravity {
+        if !M::LINEAR && self.terms.gravity {
             torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }

@@ -1,19 +1,19 @@
 //! What the state means to the hub and at the tip.
 
-use super::{Newmark, Vibration};
+use super::{Newmark, NewmarkState};
 use crate::hub::HubState;
 use crate::math::{Scalar, dot};
 
 impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
     /// `(J_h + J_r − Fᵀb) θ̈ + Fᵀv̇`.
     #[inline(always)]
-    pub(super) fn inertial(&self, state: &Vibration<T, N>, acceleration: T) -> T {
+    pub(super) fn inertial(&self, state: &NewmarkState<T, N>, acceleration: T) -> T {
         self.inertia * acceleration + dot(&self.coupling, &state.restoring)
     }
 
     /// `u qᵀGq + 2θ̇ qᵀGq̇`, `u = θ̈ + αθ̇`.
     #[inline(always)]
-    pub(super) fn spin_torque(&self, state: &Vibration<T, N>, forced: T, rate: T) -> T {
+    pub(super) fn spin_torque(&self, state: &NewmarkState<T, N>, forced: T, rate: T) -> T {
         let q = &state.deflection;
         let twice = self.twice_per_half * rate;
         let mut arm = *q;
@@ -25,13 +25,13 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
 
     /// `g cosθ S − g sinθ f_gᵀq − ½ g cosθ qᵀK_P q`.
     #[inline(never)]
-    pub(super) fn weight_torque(&self, state: &Vibration<T, N>, hub: &HubState<T>) -> T {
+    pub(super) fn weight_torque(&self, state: &NewmarkState<T, N>, hub: &HubState<T>) -> T {
         let q = &state.deflection;
         hub.cos * (self.moment - self.bent.at(q)) - hub.sin * dot(&self.weight, q)
     }
 
     #[inline(always)]
-    pub(super) fn tip_of(&self, state: &Vibration<T, N>) -> [T; 2] {
+    pub(super) fn tip_of(&self, state: &NewmarkState<T, N>) -> [T; 2] {
         let q = &state.deflection;
         [self.reach - self.shortening.at(q), self.tip_deflection(q)]
     }

@@ -5,7 +5,7 @@ use crate::Error;
 use crate::math::{Band, Scalar, cast, dot, principal_axes, root, round};
 use crate::model::Model;
 use crate::stepper::terms::Terms;
-use crate::stepper::{MOST, SLEEP, check_tick};
+use crate::stepper::{MOST_GRAVITY_CHANGE, SLEEP, check_tick};
 
 /// Heaviest payload along principal axes, in link masses over the roundings of the tick's precision:
 /// 17,000 of them in f32. The effective matrix is then as ill-conditioned as the squares of the first
@@ -17,9 +17,9 @@ const HEAVIEST: f64 = 0.002;
 /// get it there. A mode that the tick resolves does not notice.
 const MARGIN: f64 = 4.0;
 
-/// What the rounding of `K q` may feed an arm by, in roundings a tick: in f32, undamped arms of four
+/// By how much the rounding of `K q` may feed an arm, in roundings a tick: in f32, undamped arms of four
 /// and eight elements gained 1e-8 and 1e-7 of their energy a tick.
-const fn calm<const N: usize>() -> f64 {
+const fn numerical_damping<const N: usize>() -> f64 {
     let share = N as f64 / 16.0;
     2.5 * share * share * share
 }
@@ -89,7 +89,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             factors: effective.factored().map(round),
             stiffness: stiffness.map(round),
             terms: Terms::of(scene),
-            calm: T::EPSILON * T::from_f64(calm::<N>()),
+            numerical_damping: T::EPSILON * T::from_f64(numerical_damping::<N>()),
             tip_last: model.tip() + 1 == N,
             awake: [weight / stiff, weight].map(round),
             tick,
@@ -102,7 +102,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             bent: tension.map(round).half_form(),
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * scene.first_moment()),
-            most: T::from_f64(MOST * scene.link.length.to_f64()),
+            most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length.to_f64()),
         })
     }
 }

@@ -1,8 +1,9 @@
 //! The implicit step: `q*` and `d*`, and what restores them.
 
-use super::{Newmark, Vibration};
+use super::{Newmark, NewmarkState};
 use crate::hub::HubState;
 use crate::math::{Band, Scalar, clip};
+use crate::stepper::HubMotion;
 
 impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
     /// `K q`.
@@ -19,11 +20,18 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
 
     /// `q*` and `d*`, the hub having gained that much rate.
     #[inline(always)]
-    pub(super) fn predict(&self, state: &Vibration<T, N>, gained: T) -> ([T; N], [T; N]) {
+    pub(super) fn predict<M: HubMotion>(
+        &self,
+        state: &NewmarkState<T, N>,
+        gained: T,
+    ) -> ([T; N], [T; N]) {
         let (mut q, mut d) = (state.deflection, state.gain);
         for i in 0..N {
             let d0 = d[i];
-            d[i] = d0 - state.restoring[i] - self.turn[i] * gained;
+            d[i] = d0 - state.restoring[i];
+            if !M::AT_REST {
+                d[i] -= self.turn[i] * gained;
+            }
             q[i] += d0 + d[i];
         }
         (q, d)
@@ -31,12 +39,12 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
 
     /// The state from `q*` and `d*` and what restores them.
     #[inline(always)]
-    pub(super) fn correct(mut q: [T; N], mut d: [T; N], restoring: [T; N]) -> Vibration<T, N> {
+    pub(super) fn correct(mut q: [T; N], mut d: [T; N], restoring: [T; N]) -> NewmarkState<T, N> {
         for i in 0..N {
             q[i] -= restoring[i];
             d[i] -= restoring[i];
         }
-        Vibration { deflection: q, gain: d, restoring }
+        NewmarkState { deflection: q, gain: d, restoring }
     }
 
     /// `[E + θ̇²G] c = f + θ̇²G q`, `E` the effective matrix.
@@ -62,22 +70,37 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     /// `c` from `[4/h² M + 2/h C + K_t] c = K_t q + 2/h C d + αFθ̇ + g cosθ f_g`, with
     /// `K_t = K + θ̇²G − g sinθ K_P`; the factors of set-up serve while `K_t` is `K`.
     #[inline(always)]
-    pub(super) fn solve(&self, q: &[T; N], d: &[T; N], hub: &HubState<T>) -> [T; N] {
+    pub(super) fn solve<M: HubMotion>(&self, q: &[T; N], d: &[T; N], hub: &HubState<T>) -> [T; N] {
         let mut force = self.stiff(q);
-        self.damp(&mut force, d, hub.rate);
-        let turns = self.terms.spin && hub.rate != T::ZERO;
-        if !self.terms.gravity {
-            return if turns {
-                self.solve_turning(force, q, hub.rate)
-            } else {
-                self.factors.solve(&force)
-            };
+        if M::LINEAR {
+            return self.solve_turning(force, q, hub.rate);
         }
-        let mut change = self.tension.scaled(-hub.sin);
-        if turns {
-            change = change.plus(hub.rate * hub.rate, &self.spin);
+        self.damp::<M>(&mut force, d, hub.rate);
+        let turns = !M::AT_REST && self.terms.spin && hub.rate != T::ZERO;
+        let restoring = if self.terms.gravity {
+            let mut change = self.tension.scaled(-hub.sin);
+            if turns {
+                change = change.plus(hub.rate * hub.rate, &self.spin);
+            }
+            self.solve_hanging(force, q, change, hub.cos)
+        } else if turns {
+            self.solve_turning(force, q, hub.rate)
+        } else {
+            self.factors.solve(&force)
+        };
+        if M::AT_REST { self.damped_numerically(restoring, d) } else { restoring }
+    }
+
+    /// Takes from an arm that nothing damps what the rounding of `K q` may feed it.
+    #[inline(always)]
+    fn damped_numerically(&self, mut restoring: [T; N], d: &[T; N]) -> [T; N] {
+        if !Self::PRINCIPAL && !self.terms.damping {
+            // Of the deflections: the slopes go with them.
+            for i in (0..N).step_by(2) {
+                restoring[i] += self.numerical_damping * d[i];
+            }
         }
-        self.solve_hanging(force, q, change, hub.cos)
+        restoring
     }
 
     /// `[E + A] c = f + A q + g cosθ f_g`, `A` being `change`.
@@ -97,14 +120,15 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         restoring.map(|c| clip(c, self.most))
     }
 
-    /// Adds what damping puts on a hub that turns.
+    /// Adds what damping puts on the arm.
     #[inline(always)]
-    pub(super) fn damp(&self, force: &mut [T; N], d: &[T; N], rate: T) {
-        if self.terms.damping {
-            let damping = self.damping.times(d);
-            for i in 0..N {
-                force[i] += damping[i] + self.drag[i] * rate;
-            }
+    fn damp<M: HubMotion>(&self, force: &mut [T; N], d: &[T; N], rate: T) {
+        if !self.terms.damping {
+            return;
+        }
+        let damping = self.damping.times(d);
+        for i in 0..N {
+            force[i] += if M::AT_REST { damping[i] } else { damping[i] + self.drag[i] * rate };
         }
     }
 }

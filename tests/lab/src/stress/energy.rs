@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use stillbeam::hub::HubState;
 use stillbeam::model::{Model, Modes, Rod};
-use stillbeam::stepper::{self, Elastica, Modal, Newmark, Stepper};
+use stillbeam::stepper::{self, AnyMotion, AtRest, Elastica, Modal, Newmark, Stepper};
 use stillbeam::{Damping, Generator, Move, Scalar as Real, Scene};
 
 use super::draw::draw;
@@ -166,10 +166,10 @@ fn ring_on<S: Stepper>(
     let (mut sum, mut looks) = (0.0, 0);
     for tick in 0..ticks {
         // As the generator has it.
-        if S::RESTS {
-            stepper.swing(&mut state, &hub);
+        if S::FAST.at_rest {
+            stepper.step::<AtRest>(&mut state, &hub, &hub);
         } else {
-            stepper.step(&mut state, &hub, &hub);
+            stepper.step::<AnyMotion>(&mut state, &hub, &hub);
         }
         if tick.is_multiple_of(STRIDE) {
             sum += energy(stepper, &state, &hub);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use stillbeam::hub::Angle;
 use stillbeam::model::{Model, Modes, Rod};
-use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid, Stepper};
+use stillbeam::stepper::{AtRest, Elastica, Modal, Newmark, Quality, Rigid, Stepper};
 use stillbeam::{Damping, Generator, Hub, Link, Move, Payload, Profile, Scene, Setpoint};
 
 use stillbeam_sim::error::Error;
@@ -147,7 +147,7 @@ fn pluck(turn: f64, ticks: u64, done: &dyn Fn(u64)) -> Result<Ringing, Error> {
     let mut slipped = 0.0_f64;
     const LOOK: u64 = 10_000;
     for tick in 1..=ticks {
-        generator.stepper().swing(&mut state, &hub);
+        generator.stepper().step::<AtRest>(&mut state, &hub, &hub);
         if tick.is_multiple_of(LOOK) || tick == ticks {
             let exact = (omega * TICK * tick as f64).rem_euclid(TAU);
             let (x, v) = (f64::from(state.coordinate[0]), f64::from(state.rate[0]) / omega);

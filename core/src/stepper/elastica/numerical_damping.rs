@@ -6,39 +6,39 @@ use crate::model::Rod;
 /// Energy gained a step, of itself, per `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in several:
 /// 9e-4 to 1.1e-3 of small bends as measured on bare and loaded links from ω₁h = 0.03 to 3; of one mode
 /// up to 3.5e-3 at one radian, where others take energy from it.
-const GAIN: [f64; 2] = [3.5e-3, 1.2e-3];
+const ENERGY_GROWTH: [f64; 2] = [3.5e-3, 1.2e-3];
 
 /// Greatest `(ωh)⁴` that counts, of the first mode and of the others, which are left more of their
 /// vibration than they may gain.
-const MOST: [f64; 2] = [32.0, 1.0];
+const LARGEST_TURN: [f64; 2] = [32.0, 1.0];
 
 /// Fraction of a rounding, 5e-9 a step of which were gained in f32.
 const ROUNDING: f64 = 0.25;
 
 /// The corrector of [`Elastica`](super::Elastica) is explicit in the remainder: a step feeds an arm by
-/// `GAIN b²(ω₁h)⁴` of its energy, nothing within a move, a lot over a million ticks. An arm that rings on
+/// `ENERGY_GROWTH b²(ω₁h)⁴` of its energy, nothing within a move, a lot over a million ticks. An arm that rings on
 /// with its hub at rest is drawn towards its centre by as much, and a little more.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Calm<T, const K: usize> {
+pub(super) struct NumericalDamping<T, const K: usize> {
     /// `b²` per square of the first mode's offset, and its greatest.
     bend: T,
     most: T,
     weight: [T; K],
 }
 
-impl<T: Scalar, const K: usize> Calm<T, K> {
+impl<T: Scalar, const K: usize> NumericalDamping<T, K> {
     /// For steps of `step` s.
     pub(super) fn new(rod: &Rod<K>, step: f64, range: &[f64; K]) -> Self {
         let omega = rod.frequency();
         let slope = rod.tip_slope()[0];
         let (bend, most) = (slope / omega[0], slope * range[0]);
-        let gain = if K == 1 { GAIN[0] } else { GAIN[1] };
+        let gain = if K == 1 { ENERGY_GROWTH[0] } else { ENERGY_GROWTH[1] };
         Self {
             bend: T::from_f64(bend * bend),
             most: T::from_f64(most * most),
             weight: core::array::from_fn(|k| {
                 let turn = omega[k] * step;
-                let fourth = (turn * turn * turn * turn).min(MOST[k.min(1)]);
+                let fourth = (turn * turn * turn * turn).min(LARGEST_TURN[k.min(1)]);
                 // Half of the energy is amplitude, half of that turns by in one of the two.
                 T::from_f64(gain * fourth)
             }),

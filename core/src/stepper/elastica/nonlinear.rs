@@ -9,7 +9,7 @@ use crate::model::{Expansion, Rod};
 
 /// The expansion in the tick's scalar and in scaled coordinates, gravity multiplied in.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Remainder<T, const K: usize> {
+pub(super) struct Nonlinear<T, const K: usize> {
     /// `Cₖ₁`, `dₖ` and `e` without their values at rest.
     c: [Even<T, K>; K],
     d: [Even<T, K>; K],
@@ -37,7 +37,7 @@ pub(super) struct Remainder<T, const K: usize> {
     reach: Reach<T, K>,
 }
 
-/// The remainder at one instant.
+/// The nonlinear terms at one instant.
 pub(super) struct Value<T, const K: usize> {
     /// The negative of what each mode turns about.
     pub offset: [[T; 2]; K],
@@ -69,7 +69,7 @@ struct Flow<T, const K: usize> {
     lightness: T,
 }
 
-impl<T: Scalar, const K: usize> Remainder<T, K> {
+impl<T: Scalar, const K: usize> Nonlinear<T, K> {
     pub(super) fn new(rod: &Rod<K>, expansion: &Expansion<K>, range: &[f64; K]) -> Self {
         let f = T::from_f64;
         let (scene, omega) = (rod.scene(), rod.frequency());
@@ -107,13 +107,13 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         }
     }
 
-    /// Is there gravity?
+    /// True if there is gravity.
     #[inline(always)]
-    pub(super) fn is_directed(&self) -> bool {
+    pub(super) fn feels_gravity(&self) -> bool {
         self.gravity
     }
 
-    /// Is there damping?
+    /// True if there is damping.
     #[inline(always)]
     pub(super) fn is_damped(&self) -> bool {
         self.damping
@@ -124,7 +124,7 @@ impl<T: Scalar, const K: usize> Remainder<T, K> {
         self.omega[k]
     }
 
-    /// The remainder for `y = (ωa, p̃)` and a hub. Without `ALL` there is neither damping nor gravity;
+    /// The nonlinear terms for `y = (ωa, p̃)` and a hub. Without `ALL` there is neither damping nor gravity;
     /// without `TURNS` the hub rests.
     #[inline(always)]
     pub(super) fn evaluate<const ALL: bool, const TURNS: bool>(

@@ -1,0 +1,151 @@
+//! The segment under way, how far the hub is in it, and what hub and arm do meanwhile.
+
+use crate::math::Scalar;
+use crate::motion::Segment;
+use crate::stepper::Stepper;
+
+/// What the hub does, and the arm with it.
+// In this order: the hub rests from `Dwelling` on, which is one comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Phase {
+    /// No tick has been made yet; a move that is pushed now begins with the first.
+    Unstarted,
+    /// A segment of a move is under way and the hub turns.
+    Moving,
+    /// The moves have ended with the hub turning, which keeps its rate.
+    Cruising,
+    /// A segment of a move is under way in which the hub rests; the arm vibrates.
+    Dwelling,
+    /// The moves have ended with the hub at rest; the arm vibrates.
+    Ringing,
+    /// As `Ringing`, but the arm is at rest too, see [`Stepper::is_settled`]: it is left as it is.
+    Asleep,
+}
+
+/// Where a segment comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// It is part of a move.
+    Move,
+    /// It holds the end of the moves until the next one.
+    Hold,
+}
+
+/// The segment under way. Its phase begins in [`Self::take_up`] and nowhere else.
+#[repr(C)]
+#[derive(Clone, Debug)]
+pub(super) struct Current<T> {
+    /// Index in the segment of the latest tick; `u32::MAX` if the first one is still to come.
+    k: u32,
+    /// Ticks with an index below this have a linear acceleration that the stepper has a fast path for.
+    linear: u32,
+    phase: Phase,
+    segment: Segment<T>,
+}
+
+impl<T: Scalar> Current<T> {
+    /// A hold that has no tick: the first tick takes up the first move, or else `hold` itself.
+    pub(super) fn unstarted(hold: &Segment<T>) -> Self {
+        let mut segment = *hold;
+        segment.cut(0);
+        Self { k: u32::MAX, linear: 0, phase: Phase::Unstarted, segment }
+    }
+
+    /// Takes up `segment`, in which `k` is the index of the latest tick.
+    #[inline(always)]
+    pub(super) fn take_up<S>(&mut self, segment: &Segment<T>, part: Part, k: u32, stepper: &S)
+    where
+        S: Stepper<Scalar = T>,
+    {
+        self.segment.copy_from(segment);
+        self.phase = match (part, self.segment.is_rest()) {
+            (Part::Move, false) => Phase::Moving,
+            (Part::Move, true) => Phase::Dwelling,
+            (Part::Hold, false) => Phase::Cruising,
+            (Part::Hold, true) => Phase::Ringing,
+        };
+        self.k = k;
+        let fast = S::FAST.linear
+            && self.segment.is_cubic()
+            && self.segment.rate_bound() <= stepper.fastest_linear();
+        self.linear = if fast { self.segment.count() } else { 0 };
+    }
+
+    /// Ends the segment `count` ticks after its beginning, be it a hold or a move.
+    pub(super) fn break_off(&mut self, count: u32) {
+        self.segment = self.segment.broken_off(count);
+        self.linear = self.linear.min(count);
+    }
+
+    /// Ends a hold with the latest tick, so that the next one takes up what is in the queue.
+    ///
+    /// None of its ticks is linear, and it stays in its phase until then.
+    pub(super) fn end_hold(&mut self) {
+        if self.is_holding() {
+            self.segment.cut(self.next_k());
+        }
+    }
+
+    /// Notes that tick `k` is made.
+    #[inline(always)]
+    pub(super) fn advance_to(&mut self, k: u32) {
+        self.k = k;
+    }
+
+    /// Puts an arm to sleep that rings no more. `is_settled` is asked only where it matters.
+    #[inline(always)]
+    pub(super) fn sleep_if(&mut self, is_settled: impl FnOnce() -> bool) {
+        if self.phase == Phase::Ringing && is_settled() {
+            self.phase = Phase::Asleep;
+        }
+    }
+
+    /// Ends the sleep: the arm has been given another state.
+    pub(super) fn wake(&mut self) {
+        if self.phase == Phase::Asleep {
+            self.phase = Phase::Ringing;
+        }
+    }
+
+    /// The segment.
+    #[inline(always)]
+    pub(super) fn segment(&self) -> &Segment<T> {
+        &self.segment
+    }
+
+    /// Index in the segment of the latest tick.
+    #[inline(always)]
+    pub(super) fn k(&self) -> u32 {
+        self.k
+    }
+
+    /// Index in the segment of the next tick.
+    #[inline(always)]
+    pub(super) fn next_k(&self) -> u32 {
+        self.k.wrapping_add(1)
+    }
+
+    /// True if tick `k` of the segment may take the stepper's path for a linear acceleration.
+    #[inline(always)]
+    pub(super) fn is_linear(&self, k: u32) -> bool {
+        k < self.linear
+    }
+
+    /// True if the hub rests until the segment ends.
+    #[inline(always)]
+    pub(super) fn is_at_rest(&self) -> bool {
+        self.phase >= Phase::Dwelling
+    }
+
+    /// True if the arm rests too and is left as it is.
+    #[inline(always)]
+    pub(super) fn is_asleep(&self) -> bool {
+        self.phase == Phase::Asleep
+    }
+
+    /// True if no move is under way.
+    #[inline(always)]
+    pub(super) fn is_holding(&self) -> bool {
+        !matches!(self.phase, Phase::Moving | Phase::Dwelling)
+    }
+}
