@@ -4,7 +4,7 @@ mod handover;
 mod redirect;
 mod stop;
 
-pub use handover::{Departure, Planned, Rejected};
+pub use handover::{Departure, Planned};
 use heapless::Deque;
 pub(crate) use redirect::Branch;
 pub(crate) use stop::Arrival;
