@@ -143,3 +143,23 @@ fn sine_and_cosine_are_as_much_better_as_the_page_says() {
 fn the_wire_page_knows_the_longest_frame() {
     says(&page("docs/firmware.md"), &format!("At most {} bytes", frame::MAX));
 }
+
+/// The map and the recipes name files: each is there, below the root or the folder that it is told of.
+#[test]
+fn the_map_names_files_that_exist() {
+    let folders = ["", "core/src", "host-sim/src"].map(|folder| root().join(folder));
+    let mut seen = 0;
+    for name in ["ARCHITECTURE.md", "CONTRIBUTING.md"] {
+        let page = page(name);
+        let is_path = |text: &&str| {
+            let placeholder = text.contains("NAME") || text.contains("NN");
+            text.contains('/') && !text.contains(char::is_whitespace) && !placeholder
+        };
+        for path in page.split('`').skip(1).step_by(2).filter(is_path) {
+            let exists = folders.iter().any(|folder| folder.join(path).exists());
+            assert!(exists, "{name}: `{path}` is not there");
+            seen += 1;
+        }
+    }
+    assert!(seen > 60, "{seen} paths read");
+}

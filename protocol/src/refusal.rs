@@ -4,8 +4,8 @@
 use core::fmt;
 
 use serde::{Deserialize, Serialize};
-use stillbeam::axis::{Mode, Refused};
-use stillbeam::{Error, Rejected};
+use stillbeam::Error;
+use stillbeam::axis::Mode;
 
 /// A refusal. Displays as one line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,6 +44,8 @@ pub enum Refusal<'a> {
     NoPlanner,
     /// There are only so many axes.
     Axis(u8),
+    /// For a reason that this version of the protocol has no word for.
+    Other,
 }
 
 impl From<Error> for Refusal<'static> {
@@ -77,7 +79,7 @@ impl From<Error> for Refusal<'static> {
                 range("move: vibration left", residual, 0.0, 0.01, "of the length")
             }
             Error::DeflectsTooFar { deflection, most } => {
-                range("move: deflection", deflection, 0.0, most, "of the length")
+                range("move: deflection", deflection, 0.0, most, "m")
             }
             Error::Elsewhere { hub, begins } => range("hub angle", hub, begins, begins, "rad"),
             Error::Buckles { gravity } => {
@@ -87,21 +89,11 @@ impl From<Error> for Refusal<'static> {
                 let needed = needed as f64;
                 range("elements: degrees of freedom", given as f64, needed, needed, "")
             }
-        }
-    }
-}
-
-impl From<Refused> for Refusal<'static> {
-    fn from(refused: Refused) -> Self {
-        match refused {
-            Refused::Mode(mode) => Self::Mode(mode),
-            Refused::NotAtRest => Self::NotAtRest,
-            Refused::Move(error) => error.into(),
-            Refused::Queue(Rejected::QueueFull { needed, free }) => {
-                Self::Queue { needed: needed as u32, free: free as u32 }
-            }
-            Refused::Queue(Rejected::Arm(error)) => error.into(),
-            Refused::Queue(Rejected::Stale) => Self::Stale,
+            Error::WrongMode { mode } => Self::Mode(mode),
+            Error::Moving => Self::NotAtRest,
+            Error::Stale => Self::Stale,
+            // The core may learn of faults that this version of the protocol has no word for.
+            _ => Self::Other,
         }
     }
 }
@@ -120,18 +112,11 @@ impl fmt::Display for Refusal<'_> {
                 }
             }
             Self::Queue { needed, free } => {
-                write!(f, "move takes {needed} segments of the queue: must be at most {free} now")
+                let (needed, free) = (needed as usize, free as usize);
+                write!(f, "{}", Error::QueueFull { needed, free })
             }
-            Self::Mode(mode) => {
-                let mend = match mode {
-                    Mode::Disabled => "enable the axis first",
-                    Mode::Enabled => "disable the axis first",
-                    Mode::Stopping => "wait until it is at rest",
-                    Mode::Stopped => "enable the axis first",
-                };
-                write!(f, "mode = {mode:?}: {mend}")
-            }
-            Self::NotAtRest => write!(f, "hub = turning: must be at rest with no move waiting"),
+            Self::Mode(mode) => write!(f, "{}", Error::WrongMode { mode }),
+            Self::NotAtRest => write!(f, "{}", Error::Moving),
             Self::Stale => write!(f, "move = planned before a stop: send it again"),
             Self::NotMeasured => {
                 write!(f, "drive = silent: wait until it has reported an encoder angle")
@@ -141,6 +126,9 @@ impl fmt::Display for Refusal<'_> {
                 write!(f, "still = no planner: use a firmware with the feature `still`")
             }
             Self::Axis(axes) => write!(f, "axis: must be 0 to {}", axes.saturating_sub(1)),
+            Self::Other => {
+                write!(f, "request: refused for a reason that needs a newer program to name")
+            }
         }
     }
 }

@@ -1,9 +1,9 @@
 //! An axis as the firmware has it, with its moves.
 
-use stillbeam::axis::{Axis, Policy, Refused, Tick};
+use stillbeam::axis::{Axis, Policy, Tick};
 use stillbeam::model::OneElement;
 use stillbeam::stepper::Newmark;
-use stillbeam::{Angle, Limits, Link, Move, Profile, Scene};
+use stillbeam::{Angle, Error, Limits, Link, Move, Profile, Scene};
 
 pub const TICK: f64 = 0.010;
 
@@ -53,8 +53,8 @@ pub fn to(profile: Profile, duration: f64, to: f64) -> Move {
 }
 
 /// Plans and hands over, as the firmware's command task does.
-pub fn ask(axis: &mut Arm, motion: &Move) -> Result<u32, Refused> {
-    let planned = axis.departure()?.plan(motion).map_err(Refused::Move)?;
+pub fn ask(axis: &mut Arm, motion: &Move) -> Result<u32, Error> {
+    let planned = axis.departure()?.plan(motion)?;
     axis.take(&planned)
 }
 

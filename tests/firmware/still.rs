@@ -1,6 +1,6 @@
 //! Still moves of an axis, as the firmware's planner makes them.
 
-use stillbeam::axis::{Policy, Refused};
+use stillbeam::axis::Policy;
 use stillbeam::planner::Still;
 use stillbeam::{Error, Limits, Link, Move, Scene};
 use stillbeam_tests::assert_near;
@@ -16,9 +16,9 @@ fn planner() -> Still<f32, 2> {
     Still::new(&scene, TICK).unwrap()
 }
 
-fn still(axis: &mut Arm, to: f64, duration: Option<f64>) -> Result<u32, Refused> {
+fn still(axis: &mut Arm, to: f64, duration: Option<f64>) -> Result<u32, Error> {
     let planned = axis.departure()?.plan_still(&planner(), to, duration);
-    axis.take(&planned.map_err(Refused::Move)?)
+    axis.take(&planned?)
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn what_the_planner_refuses_is_named() {
     let error = |limits: Limits, duration| {
         let mut axis = enabled(Policy { limits, ..POLICY });
         match still(&mut axis, 2.5, duration) {
-            Err(Refused::Move(error)) => error.to_string(),
+            Err(error) => error.to_string(),
             other => panic!("{other:?}"),
         }
     };
@@ -74,5 +74,5 @@ fn a_turning_hub_has_no_still_move() {
     ask(&mut axis, &Move::SpinUp { duration: 0.5, rate: 3.0 }).unwrap();
     run(&mut axis, 60);
     let refused = still(&mut axis, 1.0, Some(1.5));
-    assert_eq!(refused, Err(Refused::Move(Error::NotAtRest { rate: 3.0 })));
+    assert_eq!(refused, Err(Error::NotAtRest { rate: 3.0 }));
 }

@@ -18,34 +18,23 @@ mod pace;
 mod sequence;
 mod still;
 
+use core::fmt;
+
 use heapless::Deque;
 
 pub use pace::{Pace, Timing};
 pub use sequence::{Freshness, Sequence};
+
+pub use crate::error::Mode;
 
 use crate::generator::Arrival;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
 use crate::motion::{Braking, Limits};
 use crate::stepper::Stepper;
-use crate::{Departure, Error, Generator, Planned, Rejected, Setpoint};
+use crate::{Departure, Error, Generator, Planned, Setpoint};
 
-/// What the axis is doing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Mode {
-    /// The drive is off; setpoints stand still and are not sent.
-    Disabled,
-    /// Follows moves, or holds.
-    Enabled,
-    /// Brakes.
-    Stopping,
-    /// Holds after a stop, until enabled again.
-    Stopped,
-}
-
-/// Why the axis stopped.
+/// The reason why the axis stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -58,17 +47,14 @@ pub enum Cause {
     MissedTicks,
 }
 
-/// Why a request is refused. Nothing has changed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Refused {
-    /// The axis must be in another mode.
-    Mode(Mode),
-    /// The hub turns, or moves wait; it must be at rest.
-    NotAtRest,
-    /// The move cannot be planned.
-    Move(Error),
-    /// The move cannot be taken.
-    Queue(Rejected),
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Requested => "asked to stop",
+            Self::LinkLost => "nothing heard from the host for too long",
+            Self::MissedTicks => "too many ticks missed in a row",
+        })
+    }
 }
 
 /// What the policy needs to know.
@@ -211,11 +197,11 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
 
     /// Switches on. A disabled axis begins at the measured angle, a stopped one goes on where it
     /// holds.
-    pub fn enable(&mut self, measured: Angle<S::Scalar>) -> Result<(), Refused> {
+    pub fn enable(&mut self, measured: Angle<S::Scalar>) -> Result<(), Error> {
         match self.mode {
             Mode::Disabled => self.generator.restart(measured),
             Mode::Stopped | Mode::Enabled => {}
-            Mode::Stopping => return Err(Refused::Mode(self.mode)),
+            Mode::Stopping => return Err(Error::WrongMode { mode: self.mode }),
         }
         self.mode = Mode::Enabled;
         self.cause = None;
@@ -251,22 +237,22 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
 
     /// Where a move begins that is planned now; for [`Departure::plan`] and
     /// [`Departure::plan_still`], outside of the tick.
-    pub fn departure(&self) -> Result<Departure, Refused> {
+    pub fn departure(&self) -> Result<Departure, Error> {
         match self.mode {
             Mode::Enabled => Ok(self.generator.departure()),
-            mode => Err(Refused::Mode(mode)),
+            mode => Err(Error::WrongMode { mode }),
         }
     }
 
     /// Takes a planned move and returns the number of its first tick.
-    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<u32, Refused> {
+    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<u32, Error> {
         if self.mode != Mode::Enabled {
-            return Err(Refused::Mode(self.mode));
+            return Err(Error::WrongMode { mode: self.mode });
         }
         if self.moves.is_full() {
-            return Err(Refused::Queue(Rejected::QueueFull { needed: 1, free: 0 }));
+            return Err(Error::QueueFull { needed: 1, free: 0 });
         }
-        self.generator.take(planned).map_err(Refused::Queue)?;
+        self.generator.take(planned)?;
         let begin = self.moves.back().map_or(self.clock, |last| last.arrival);
         let arrival = begin.wrapping_add(planned.outline().ticks);
         // There is room: just asked.
@@ -276,9 +262,9 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     }
 
     /// Another arm on the same hub: a payload taken up or put down. At rest only.
-    pub fn replace(&mut self, stepper: S) -> Result<(), Refused> {
+    pub fn replace(&mut self, stepper: S) -> Result<(), Error> {
         if !self.rests() {
-            return Err(Refused::NotAtRest);
+            return Err(Error::Moving);
         }
         self.generator.replace(stepper);
         Ok(())
@@ -294,7 +280,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         self.mode
     }
 
-    /// Why the axis stopped, if it did.
+    /// Returns why the axis stopped, if it did.
     pub fn cause(&self) -> Option<Cause> {
         self.cause
     }

@@ -33,22 +33,6 @@ impl<T> Planned<T> {
     }
 }
 
-/// A planned move that cannot be taken.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rejected {
-    /// The queue has not enough free segments.
-    QueueFull {
-        /// Segments that the move takes.
-        needed: usize,
-        /// Segments that are free.
-        free: usize,
-    },
-    /// It is none that the arm was set up for.
-    Arm(Error),
-    /// The hub's motion has changed since the departure was copied: plan again.
-    Stale,
-}
-
 impl Departure {
     /// Plans `motion` from here. Runs in f64.
     ///
@@ -90,19 +74,23 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     }
 
     /// Puts a planned move behind the others. Either the whole move is taken or nothing changes.
-    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<(), Rejected> {
+    ///
+    /// # Errors
+    /// [`Error::Stale`] if the hub's motion has changed since the departure was copied: plan again.
+    /// [`Error::QueueFull`], or what the stepper was not set up for.
+    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<(), Error> {
         let start = self.next_start();
         // A hub that turns has turned on meanwhile; its moves are relative.
         let turned = start.angle.in_turns() - planned.start.angle.in_turns();
         if start.rate != planned.start.rate || (turned != 0.0 && start.rate == 0.0) {
-            return Err(Rejected::Stale);
+            return Err(Error::Stale);
         }
         let (needed, free) = (planned.segments.len(), QUEUE - self.queue.len());
         if needed > free {
-            return Err(Rejected::QueueFull { needed, free });
+            return Err(Error::QueueFull { needed, free });
         }
         let Outline { peaks, end, .. } = &planned.outline;
-        self.stepper.admit(peaks, end.rate).map_err(Rejected::Arm)?;
+        self.stepper.admit(peaks, end.rate)?;
         // Whole turns apart: a fraction of many turns would be rounded with them.
         let by = Angle::default().plus(turned).cast();
         let mut first = Some(start.angle.cast());

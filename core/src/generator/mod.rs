@@ -6,7 +6,7 @@ mod redirect;
 mod stop;
 
 use current::{Current, Part};
-pub use handover::{Departure, Planned, Rejected};
+pub use handover::{Departure, Planned};
 use heapless::Deque;
 pub(crate) use redirect::Branch;
 pub(crate) use stop::Arrival;

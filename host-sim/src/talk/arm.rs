@@ -1,7 +1,7 @@
 //! An axis with the method that the firmware names.
 
-use stillbeam::axis::{Axis, Cause, Mode, Policy, Refused, Tick};
-use stillbeam::{Angle, Departure, Planned, Scene};
+use stillbeam::axis::{Axis, Cause, Mode, Policy, Tick};
+use stillbeam::{Angle, Departure, Error as CoreError, Planned, Scene};
 use stillbeam_methods::{Method, Visitor, visit_all};
 
 use crate::error::Error;
@@ -11,11 +11,11 @@ const QUEUE: usize = 64;
 
 /// An axis of any method: what a replica needs of it.
 pub(super) trait Arm {
-    fn enable(&mut self, measured: Angle<f32>) -> Result<(), Refused>;
+    fn enable(&mut self, measured: Angle<f32>) -> Result<(), CoreError>;
     fn disable(&mut self);
     fn stop(&mut self, cause: Cause);
-    fn departure(&self) -> Result<Departure, Refused>;
-    fn take(&mut self, planned: &Planned<f32>) -> Result<u32, Refused>;
+    fn departure(&self) -> Result<Departure, CoreError>;
+    fn take(&mut self, planned: &Planned<f32>) -> Result<u32, CoreError>;
     /// Sets the stepper of another arm up, and puts it in the place of the old one.
     fn reload(&mut self, scene: &Scene, tick: f64) -> Result<(), Error>;
     fn heard(&mut self);
@@ -78,12 +78,12 @@ impl<M: Method> Of<M> {
 }
 
 /// The error of a replica that is not in the firmware's state.
-pub(super) fn apart(refused: Refused) -> Error {
+pub(super) fn apart(refused: CoreError) -> Error {
     Error::new(format_args!("the firmware accepts what the host's axis refuses: {refused:?}"))
 }
 
 impl<M: Method> Arm for Of<M> {
-    fn enable(&mut self, measured: Angle<f32>) -> Result<(), Refused> {
+    fn enable(&mut self, measured: Angle<f32>) -> Result<(), CoreError> {
         self.0.enable(measured)
     }
 
@@ -95,11 +95,11 @@ impl<M: Method> Arm for Of<M> {
         self.0.stop(cause);
     }
 
-    fn departure(&self) -> Result<Departure, Refused> {
+    fn departure(&self) -> Result<Departure, CoreError> {
         self.0.departure()
     }
 
-    fn take(&mut self, planned: &Planned<f32>) -> Result<u32, Refused> {
+    fn take(&mut self, planned: &Planned<f32>) -> Result<u32, CoreError> {
         self.0.take(planned)
     }
 

@@ -3,8 +3,7 @@
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
-use stillbeam::axis::Refused;
-use stillbeam::{Departure, Error, Move, Payload, Planned, Rejected, Scene};
+use stillbeam::{Departure, Error, Move, Payload, Planned, Scene};
 use stillbeam_protocol::Refusal;
 
 use crate::axes::{self, AXES};
@@ -61,7 +60,7 @@ pub async fn run() {
 /// Plans with the tick running and hands the plan over. Where the axis' motion has changed meanwhile
 /// it is planned once more.
 fn follow(axis: usize, plan: impl Fn(&Departure) -> Result<Planned<f32>, Error>) -> Outcome<u32> {
-    let mut last = Refused::Queue(Rejected::Stale);
+    let mut last = Error::Stale;
     for _ in 0..2 {
         let departure = shared::with(|s| {
             let joint = s.joints.get(axis).ok_or(Refusal::Axis(AXES as u8))?;
@@ -76,7 +75,7 @@ fn follow(axis: usize, plan: impl Fn(&Departure) -> Result<Planned<f32>, Error>)
             Ok(tick) => return Ok(tick),
             Err(refused) => last = refused,
         }
-        if last != Refused::Queue(Rejected::Stale) {
+        if last != Error::Stale {
             break;
         }
     }

@@ -3,13 +3,13 @@
 
 use std::collections::VecDeque;
 
-use stillbeam::axis::{Axis, Cause, Mode, Pace, Refused, Tick};
+use stillbeam::axis::{Axis, Cause, Mode, Pace, Tick};
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::Node;
 use stillbeam::model::OneElement;
 use stillbeam::motor::{Demand, Drivetrain};
 use stillbeam::stepper::Newmark;
-use stillbeam::{Angle, Error as CoreError, Move, Payload, Planned, Rejected, Scene};
+use stillbeam::{Angle, Error as CoreError, Move, Payload, Planned, Scene};
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Request};
 
@@ -235,7 +235,7 @@ impl Board {
         let tick = self.axis.clock();
         let done = match result {
             Ready::Plan { motion, planned, again } => match self.axis.take(&planned) {
-                Err(Refused::Queue(Rejected::Stale)) if again => {
+                Err(CoreError::Stale) if again => {
                     let begun = self.plan(motion, false);
                     return self.begin(begun);
                 }

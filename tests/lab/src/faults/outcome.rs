@@ -78,5 +78,6 @@ fn kind(refusal: &Refusal<'_>) -> &'static str {
         Refusal::Busy => "busy",
         Refusal::NoPlanner => "no planner",
         Refusal::Axis(_) => "no such axis",
+        Refusal::Other => "other",
     }
 }
