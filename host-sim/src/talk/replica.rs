@@ -3,7 +3,7 @@
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::{Demand, Drivetrain};
-use stillbeam::planner::Still;
+use stillbeam::planner::Planner;
 use stillbeam::{Angle, Move, Payload, Scene};
 use stillbeam_protocol::{Command, Description};
 
@@ -21,7 +21,7 @@ pub struct Replica {
     /// Whether the drive was on at the last tick; at the first it is told.
     on: Option<bool>,
     /// Set up when first asked.
-    planner: Option<Still<f32, 2>>,
+    planner: Option<Planner<f32, 2>>,
 }
 
 impl Replica {
@@ -77,7 +77,7 @@ impl Replica {
         let departure = self.axis.departure().map_err(apart)?;
         let planner = match self.planner.take() {
             Some(planner) => planner,
-            None => Still::new(&self.scene, self.tick)?,
+            None => Planner::new(&self.scene, self.tick)?,
         };
         let planned = departure.plan_still(&planner, to, duration);
         self.planner = Some(planner);
