@@ -3,7 +3,7 @@
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::{Demand, Drivetrain};
-use stillbeam::planner::Still;
+use stillbeam::planner::Planner;
 use stillbeam::{Angle, Move};
 use stillbeam_protocol::{Command, Description};
 use stillbeam_wiring::drive::{Switch, demand};
@@ -20,7 +20,7 @@ pub struct Replica {
     node: Node,
     switch: Switch,
     /// Set up when first asked.
-    planner: Option<Still<f32, 2>>,
+    planner: Option<Planner<f32, 2>>,
 }
 
 impl Replica {
@@ -64,7 +64,7 @@ impl Replica {
         let departure = self.axis.departure().map_err(apart)?;
         let planner = match self.planner.take() {
             Some(planner) => planner,
-            None => Still::new(self.axis.scene(), self.tick)?,
+            None => Planner::new(self.axis.scene(), self.tick)?,
         };
         let planned = departure.plan_still(&planner, to, duration);
         self.planner = Some(planner);
