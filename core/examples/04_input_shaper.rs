@@ -8,7 +8,7 @@
 use rasciigraph::{Config, plot_many};
 use stillbeam::model::{EightElements, Modes};
 use stillbeam::motion::{Limits, Plan, Shaped, Shaper, ShaperKind};
-use stillbeam::stepper::{Modal2, Stepper};
+use stillbeam::stepper::{AnyMotion, Modal2, Stepper};
 use stillbeam::{Error, HubState, Link, Move, Profile, Scene};
 
 /// Control period, s.
@@ -45,7 +45,7 @@ pub fn main() -> Result<(), Error> {
         for k in 0..shaped.ticks() + AFTER {
             // Takes the stepper through a tick with the jumps that fall into it.
             shaped.advance(&stepper, &mut state, k);
-            let response = stepper.response(&state, &shaped.hub(k + 1));
+            let response = stepper.response::<AnyMotion>(&state, &shaped.hub(k + 1));
             deflections.push(1e3 * f64::from(response.tip[1]));
         }
         let after = &deflections[shaped.ticks() as usize..];
