@@ -25,6 +25,26 @@ fn published() -> Vec<(String, String)> {
     found
 }
 
+/// A stranger gets the examples and the page that leads to them, and nothing that is for this
+/// repository only.
+#[test]
+fn the_core_takes_its_examples_and_its_readme_along() {
+    let listed =
+        run(cargo().args(["package", "--list", "--allow-dirty", "--package", "stillbeam"]));
+    let listed = listed.unwrap_or_else(|error| panic!("{error}"));
+    let files: Vec<&str> = listed.lines().collect();
+    let examples: Vec<_> = fs::read_dir(root().join("core/examples")).expect("examples").collect();
+    assert!(examples.len() >= 6, "{examples:?}");
+    for entry in examples {
+        let name = entry.expect("an example").file_name().into_string().expect("UTF-8");
+        let path = format!("examples/{name}");
+        assert!(files.contains(&path.as_str()), "{path} is left out:\n{listed}");
+    }
+    for file in ["README.md", "Cargo.toml", "src/lib.rs"] {
+        assert!(files.contains(&file), "{file} is left out:\n{listed}");
+    }
+}
+
 /// Both licences ask for their text to go with the code.
 #[test]
 fn every_published_crate_holds_the_texts_of_its_licences() {

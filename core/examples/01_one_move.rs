@@ -7,7 +7,7 @@
 
 use rasciigraph::{Config, plot};
 use stillbeam::model::Rod;
-use stillbeam::stepper::{Elastica, Quality};
+use stillbeam::stepper::{Elastica2, Quality};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene, Setpoint};
 
 /// Control period, s.
@@ -25,9 +25,9 @@ pub fn main() -> Result<(), Error> {
 
     // Set-up, once: a stepper is fitted to the range of tip angles that its moves will bend the arm
     // by, here those of the cubic's peak acceleration.
-    let rod = Rod::<2>::new(&scene)?;
+    let rod = Rod::new(&scene)?;
     let peak = Profile::Cubic.peaks(to, DURATION).acceleration;
-    let stepper = Elastica::<f32, 2>::new(&rod, TICK, Quality::Fast, rod.bend(peak))?;
+    let stepper = Elastica2::<f32>::new(&rod, TICK, Quality::Fast, rod.bend(peak))?;
     let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
     arm.push(&Move::To { profile: Profile::Cubic, duration: DURATION, to })?;
 

@@ -6,7 +6,7 @@
 //! `cargo run -p stillbeam --example 02_queue_and_limits`
 
 use stillbeam::model::EightElements;
-use stillbeam::stepper::Modal;
+use stillbeam::stepper::Modal2;
 use stillbeam::{Error, Generator, Limits, Link, Move, Profile, Remedy, Scene};
 
 /// Control period, s.
@@ -16,7 +16,7 @@ const TICK: f64 = 0.010;
 pub fn main() -> Result<(), Error> {
     let scene = Scene::new(Link { length: 0.5, mass: 0.054, bending_stiffness: 0.93 });
     // Two modes of small deflections: the cheapest method for an arm that bends by a few per cent.
-    let stepper = Modal::<f32, 2>::new(&EightElements::consistent(&scene)?, TICK)?;
+    let stepper = Modal2::<f32>::new(&EightElements::consistent(&scene)?, TICK)?;
     // A quintic takes one of the eight places, a trapezoid three, an S-curve seven.
     let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
     // Limits of the hub's motion, kept between the ticks too.

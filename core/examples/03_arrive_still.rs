@@ -8,7 +8,7 @@
 use rasciigraph::{Config, plot_many};
 use stillbeam::model::Rod;
 use stillbeam::planner::{Planner, Request};
-use stillbeam::stepper::{Elastica, Quality};
+use stillbeam::stepper::{Elastica2, Quality};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
 
 /// Control period, s.
@@ -16,9 +16,9 @@ const TICK: f64 = 0.010;
 
 /// Returns the tip's deflections, mm, over a motion from rest at 0 and half a second after it.
 fn deflections(scene: &Scene, motion: &Move, acceleration: f64) -> Result<Vec<f64>, Error> {
-    let rod = Rod::<2>::new(scene)?;
+    let rod = Rod::new(scene)?;
     let bend = rod.bend(acceleration);
-    let stepper = Elastica::<f32, 2>::new(&rod, TICK, Quality::Fine, bend)?;
+    let stepper = Elastica2::<f32>::new(&rod, TICK, Quality::Fine, bend)?;
     let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
     let ticks = arm.push(motion)?.ticks + 50;
     Ok((0..=ticks).map(|_| 1e3 * f64::from(arm.tick().deflection())).collect())

@@ -8,7 +8,7 @@
 use rasciigraph::{Config, plot_many};
 use stillbeam::model::{EightElements, Modes};
 use stillbeam::motion::{Limits, Plan, Shaped, Shaper, ShaperKind};
-use stillbeam::stepper::{AnyMotion, Modal, Stepper};
+use stillbeam::stepper::{AnyMotion, Modal2, Stepper};
 use stillbeam::{Error, HubState, Link, Move, Profile, Scene};
 
 /// Control period, s.
@@ -22,7 +22,7 @@ pub fn main() -> Result<(), Error> {
     // A steel ruler, 60 cm long, that is turned by 6°.
     let scene = Scene::new(Link { length: 0.6, mass: 0.14, bending_stiffness: 0.42 });
     let model = EightElements::consistent(&scene)?;
-    let stepper = Modal::<f32, 2>::new(&model, TICK)?;
+    let stepper = Modal2::<f32>::new(&model, TICK)?;
     let frequency = 1.0 / Modes::of(&model).first_period();
 
     let motion = Move::To { profile: Profile::Quintic, duration: 0.35, to: 0.1 };

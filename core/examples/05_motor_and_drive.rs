@@ -8,7 +8,7 @@
 use stillbeam::drive::{ClassicFrame, cia402, moteus, odrive};
 use stillbeam::model::OneElement;
 use stillbeam::motor::{Direction, Drivetrain, Joint, Ratio};
-use stillbeam::stepper::Newmark;
+use stillbeam::stepper::Newmark1;
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
 
 /// Control period, s.
@@ -22,7 +22,7 @@ fn hex(bytes: &[u8]) -> String {
 /// Runs the example.
 pub fn main() -> Result<(), Error> {
     let scene = Scene::new(Link { length: 0.5, mass: 0.054, bending_stiffness: 0.93 });
-    let stepper = Newmark::<f32, 2, 2>::new(&OneElement::consistent(&scene)?, TICK)?;
+    let stepper = Newmark1::<f32>::new(&OneElement::consistent(&scene)?, TICK)?;
     let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
     arm.push(&Move::To { profile: Profile::Quintic, duration: 1.0, to: 1.57 })?;
 

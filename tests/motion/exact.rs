@@ -37,6 +37,7 @@ fn jump(profile: Profile) -> f64 {
         Profile::Cubic => 6.0,
         Profile::Trapezoid => 4.5,
         Profile::Quintic | Profile::Cycloid | Profile::SCurve => 0.0,
+        _ => panic!("the jump of {profile} is not told here"),
     }
 }
 

@@ -53,6 +53,7 @@ fn textbook(profile: Profile, u: f64) -> (f64, f64) {
             }
             (p, v)
         }
+        _ => panic!("{profile} has no textbook form here"),
     }
 }
 

@@ -42,6 +42,7 @@ fn tables_leave_what_their_names_say() {
                     ShaperKind::TwoHumpEi => {
                         assert!(nominal < 0.06 && at(0.15) < 0.06, "{nominal}")
                     }
+                    _ => panic!("what {kind} must leave is not told here"),
                 }
                 let period = 1.0 / (frequency * (1.0 - damping * damping).sqrt());
                 assert!((shaper.delay() - kind.periods() * period).abs() < 1e-9 * period);

@@ -38,6 +38,7 @@ use crate::{Departure, Error, Generator, Planned, Setpoint};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Cause {
     /// Asked to.
     Requested,
@@ -109,6 +110,22 @@ pub struct Axis<S: Stepper, const QUEUE: usize = 8> {
     /// Ticks since the host was heard, missed ones included.
     silence: u32,
     moves: Deque<Accepted, QUEUE>,
+}
+
+impl<S, const QUEUE: usize> fmt::Debug for Axis<S, QUEUE>
+where
+    S: Stepper + fmt::Debug,
+    S::State: fmt::Debug,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Axis")
+            .field("mode", &self.mode)
+            .field("cause", &self.cause)
+            .field("clock", &self.clock)
+            .field("policy", &self.policy)
+            .field("generator", &self.generator)
+            .finish_non_exhaustive()
+    }
 }
 
 /// A move that was taken and is not over.

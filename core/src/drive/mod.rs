@@ -46,6 +46,7 @@ impl Saturated {
 
 /// A payload and what did not fit into it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[must_use]
 pub struct Encoded<P> {
     /// The payload.
     pub payload: P,

@@ -12,6 +12,7 @@ use crate::stepper::Stepper;
 
 /// Where the next move of a generator begins, and what it may do.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct Departure {
     start: HubState<f64>,
     limits: Limits,

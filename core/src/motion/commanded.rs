@@ -1,5 +1,6 @@
 //! A commanded motion as a whole: what a trial of a stepper flies along.
 
+use core::fmt;
 use core::ops::ControlFlow;
 
 use super::{Kink, Limits, Move, Peaks, Plan};
@@ -17,6 +18,16 @@ pub struct Stretch<'a> {
     pub hub: &'a dyn Fn(f64) -> HubState<f32>,
     /// True if the hub stays where it is.
     pub rests: bool,
+}
+
+impl fmt::Debug for Stretch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stretch")
+            .field("begin", &self.begin)
+            .field("end", &self.end)
+            .field("rests", &self.rests)
+            .finish_non_exhaustive()
+    }
 }
 
 /// A motion from rest, known as a whole before it begins.

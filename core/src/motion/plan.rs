@@ -32,6 +32,7 @@ pub struct Outline {
 
 /// A move that was accepted: its segments and where it ends.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Plan {
     /// The motion, first to last.
     pub segments: Vec<Segment<f64>, MAX_SEGMENTS>,

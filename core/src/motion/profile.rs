@@ -1,6 +1,7 @@
 //! The moves a user can ask for.
 
 use core::f64::consts::TAU;
+use core::fmt;
 
 use super::{BULGE, Peaks};
 use crate::Error;
@@ -9,6 +10,7 @@ use crate::error::MAX_TICKS;
 /// The shape of a rest-to-rest move over `s = t/T ∈ 0..1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Profile {
     /// `3s² − 2s³`, the profile that explains the paper's runs. The acceleration jumps at both
     /// ends.
@@ -25,11 +27,11 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// Every profile.
+    /// All profiles.
     pub const ALL: [Self; 5] =
         [Self::Cubic, Self::Quintic, Self::Cycloid, Self::Trapezoid, Self::SCurve];
 
-    /// Name in scene files.
+    /// Returns the name in scene files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Cubic => "cubic",
@@ -40,12 +42,12 @@ impl Profile {
         }
     }
 
-    /// The profile of that name.
+    /// Returns the profile of that name, if there is one.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|profile| profile.name() == name)
     }
 
-    /// Peaks of a turn by `angle` rad in `duration` s.
+    /// Returns the peaks of a turn by `angle` rad in `duration` s.
     ///
     /// Cubic 1.5, 6; quintic 1.875, 10/√3, 60; cycloid 2, 2π, 4π²; trapezoid 1.5, 4.5;
     /// S-curve 1.75, 6.125, 42.875: times angle over T, T², T³.
@@ -64,6 +66,12 @@ impl Profile {
             // A move of zero length has no jumps.
             jerk: if angle == 0.0 { 0.0 } else { jerk * scale / (duration * duration) },
         }
+    }
+}
+
+impl fmt::Display for Profile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 
@@ -107,7 +115,7 @@ pub enum Move {
 }
 
 impl Move {
-    /// T, s, as asked for.
+    /// Returns T, s, as asked for.
     pub fn duration(&self) -> f64 {
         match *self {
             Self::To { duration, .. }
@@ -119,6 +127,7 @@ impl Move {
 
     /// Returns the move with another duration, s. A still move no longer arrives still: its bulge
     /// belongs to the duration that it was planned for.
+    #[must_use]
     pub fn lasting(self, duration: f64) -> Self {
         match self {
             Self::To { profile, to, .. } => Self::To { profile, duration, to },
@@ -128,7 +137,10 @@ impl Move {
         }
     }
 
-    /// Whole ticks nearest to the duration; at least one.
+    /// Returns the whole number of ticks nearest to the duration, at least one.
+    ///
+    /// # Errors
+    /// The duration is under half a tick or over 2²⁴ ticks.
     pub fn ticks(&self, tick: f64) -> Result<u32, Error> {
         let duration = Error::check(
             "move.duration",
@@ -138,5 +150,18 @@ impl Move {
             "s",
         )?;
         Ok(((duration / tick + 0.5) as u32).max(1))
+    }
+}
+
+impl fmt::Display for Move {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::To { profile, duration, to } => {
+                write!(f, "{profile} to {to} rad in {duration} s")
+            }
+            Self::SpinUp { duration, rate } => write!(f, "spin-up to {rate} rad/s in {duration} s"),
+            Self::Still { duration, to, .. } => write!(f, "still to {to} rad in {duration} s"),
+            Self::Dwell { duration } => write!(f, "dwell for {duration} s"),
+        }
     }
 }

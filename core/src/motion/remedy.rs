@@ -6,6 +6,7 @@ use core::fmt;
 /// A change that would keep a limit which a move exceeds, or the reason why no duration does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum Remedy {
     /// This duration, s: the shortest whole number of ticks that keeps every limit.
     Duration(f64),

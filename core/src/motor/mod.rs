@@ -14,6 +14,7 @@ use crate::{Error, Setpoint};
 /// Setpoint of the drive, at the motor's shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[must_use]
 pub struct Demand<T> {
     /// Shaft angle, turns from the encoder's zero.
     pub position: Angle<T>,

@@ -63,8 +63,7 @@ impl fmt::Display for Rung {
         match *self {
             Self::Rigid => write!(f, "rigid"),
             Self::Modal(n) => write!(f, "modal, {n} {}", modes(n)),
-            Self::Elastica(n, Quality::Fast) => write!(f, "elastica, {n} {}, fast", modes(n)),
-            Self::Elastica(n, Quality::Fine) => write!(f, "elastica, {n} {}, fine", modes(n)),
+            Self::Elastica(n, quality) => write!(f, "elastica, {n} {}, {quality}", modes(n)),
         }
     }
 }
@@ -134,6 +133,7 @@ impl Assessment {
 
 /// What a choice came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
 pub struct Choice {
     /// The cheapest that is good enough.
     pub rung: Rung,

@@ -2,6 +2,7 @@
 //! one tick length. Its state is separate and small, so that a restart is a new state and two runs
 //! can share one stepper.
 
+mod aliases;
 mod elastica;
 mod kicks;
 mod modal;
@@ -12,6 +13,9 @@ mod rigid;
 mod shaped;
 mod terms;
 
+pub use aliases::{
+    Elastica1, Elastica2, Elastica3, Modal1, Modal2, Modal3, Newmark1, Newmark2, Newmark4, Newmark8,
+};
 pub use elastica::{Elastica, ElasticaState, Flex, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, NewmarkState};

@@ -16,6 +16,7 @@ pub(crate) use kink::ORDERS;
 pub use shaped::Shaped;
 
 use core::f64::consts::{PI, SQRT_2};
+use core::fmt;
 
 use heapless::Vec;
 
@@ -36,12 +37,14 @@ pub struct Pulse {
 
 /// A table of pulses, by rising delay.
 #[derive(Clone, Debug, PartialEq)]
+#[must_use]
 pub struct Shaper {
     pulses: Vec<Pulse, MAX_PULSES>,
 }
 
 /// The shapers that follow from a frequency and a damping ratio.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ShaperKind {
     /// Zero vibration: two pulses half a period apart.
     Zv,
@@ -57,7 +60,7 @@ pub enum ShaperKind {
 }
 
 impl ShaperKind {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [Self; 5] = [Self::Zv, Self::Mzv, Self::Zvd, Self::Ei, Self::TwoHumpEi];
 
     /// Name in scene files.
@@ -71,7 +74,7 @@ impl ShaperKind {
         }
     }
 
-    /// Delay of the last pulse in damped periods.
+    /// Returns the delay of the last pulse in damped periods.
     pub fn periods(self) -> f64 {
         match self {
             Self::Zv => 0.5,
@@ -79,6 +82,12 @@ impl ShaperKind {
             Self::Zvd | Self::Ei => 1.0,
             Self::TwoHumpEi => 1.5,
         }
+    }
+}
+
+impl fmt::Display for ShaperKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 
@@ -117,7 +126,7 @@ impl Shaper {
         Ok(Self::normalised(pulses))
     }
 
-    /// Any table of one to five pulses: delays from 0 s on, rising; amplitudes with a positive sum,
+    /// Takes any table of one to five pulses: delays from 0 s on, rising; amplitudes with a positive sum,
     /// which is made 1.
     pub fn custom(pulses: &[Pulse]) -> Result<Self, Error> {
         Error::check("shaper.pulses", pulses.len() as f64, 1.0, MAX_PULSES as f64, "pulses")?;
@@ -140,7 +149,7 @@ impl Shaper {
         Self { pulses }
     }
 
-    /// The table.
+    /// Returns the table of pulses, by rising delay.
     pub fn pulses(&self) -> &[Pulse] {
         &self.pulses
     }

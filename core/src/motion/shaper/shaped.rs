@@ -39,6 +39,7 @@ use crate::motion::Segment;
 /// # Ok::<(), stillbeam::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[must_use]
 pub struct Shaped<'a, T> {
     segments: &'a [Segment<T>],
     copies: [Delayed<T>; MAX_PULSES],

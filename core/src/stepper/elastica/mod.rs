@@ -26,6 +26,8 @@ mod steps;
 
 pub use flex::Flex;
 
+use core::fmt;
+
 use mode::Mode;
 use nonlinear::{Nonlinear, Value};
 use numerical_damping::NumericalDamping;
@@ -39,13 +41,22 @@ use crate::math::Scalar;
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
 
-/// How much work a tick does.
+/// Amount of work in a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
     /// One evaluation of the remainder a tick.
     Fast,
     /// Two half-steps.
     Fine,
+}
+
+impl fmt::Display for Quality {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fast => "fast",
+            Self::Fine => "fine",
+        })
+    }
 }
 
 /// Geometrically exact inextensible rod in `K` modes, 1 to 3.
