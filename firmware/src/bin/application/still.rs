@@ -6,8 +6,8 @@
 mod planner {
     use stillbeam::planner::Still;
     use stillbeam::{Departure, Error, Planned};
+    use stillbeam_wiring::axes::{AXES, TICK};
 
-    use crate::axes::{AXES, TICK};
     use crate::shared::{Outcome, scene};
 
     /// The planner of one arm: its exact rod in two modes.
