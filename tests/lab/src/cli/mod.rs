@@ -1,7 +1,6 @@
 //! The lab's command line: words in, a library call, lines out. One command a file.
 
 mod faults;
-mod merge;
 mod pareto;
 mod stability;
 mod still;
@@ -26,8 +25,6 @@ pub struct Cli {
 enum Command {
     /// Run many solvers on many scenes: error and time of each
     Sweep(sweep::SweepArgs),
-    /// Join the shards of a sweep
-    Merge(merge::MergeArgs),
     /// Draw a sweep's error against its time and answer what a choice costs
     Pareto(pareto::ParetoArgs),
     /// Fill the tables in README.md, or check them
@@ -47,7 +44,6 @@ impl Cli {
     pub fn execute(self) -> Result<ExitCode, Error> {
         match self.command {
             Command::Sweep(args) => args.execute(),
-            Command::Merge(args) => args.execute(),
             Command::Pareto(args) => args.execute(),
             Command::Tables(args) => args.execute(),
             Command::Still(args) => args.execute(),
