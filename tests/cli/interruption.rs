@@ -2,22 +2,19 @@
 
 use std::process::Command;
 
-use crate::untouched::{Bench, OUT, Target, Writer};
+use crate::untouched::{Bench, OUT, Writer};
 
 const SIM: &str = env!("CARGO_BIN_EXE_stillbeam-sim");
 
 /// Every command that writes.
 const WRITERS: [Writer; 4] = [
-    Writer { words: &["study", "--out", OUT], target: Target::Folder },
-    Writer { words: &["run", "d-fast", "--csv", OUT], target: Target::File },
+    Writer { words: &["study", "--out", OUT], is_folder: true },
+    Writer { words: &["run", "d-fast", "--csv", OUT], is_folder: false },
     Writer {
         words: &["plan", "d-fast", "--to", "1.5", "--duration", "0.5", "--out", OUT],
-        target: Target::Folder,
+        is_folder: true,
     },
-    Writer {
-        words: &["reference", "d-fast", "--solver", "rod", "--csv", OUT],
-        target: Target::File,
-    },
+    Writer { words: &["reference", "d-fast", "--solver", "rod", "--csv", OUT], is_folder: false },
 ];
 
 #[test]
@@ -35,8 +32,8 @@ fn a_path_that_cannot_be_written_is_one_line_and_changes_nothing() {
 #[cfg(target_os = "linux")]
 fn a_full_device_is_one_line() {
     let bench = Bench::new(SIM);
-    for Writer { words, target } in &WRITERS {
-        if matches!(target, Target::File) {
+    for Writer { words, is_folder } in &WRITERS {
+        if !is_folder {
             let line = bench.refuse("", words, "/dev/full");
             assert!(line.contains("/dev/full"), "{line}");
         }

@@ -11,24 +11,15 @@ use tempfile::TempDir;
 /// The word of a command line in whose place the output's path stands.
 pub const OUT: &str = "OUT";
 
-/// What a command writes to.
-pub enum Target {
-    /// A file.
-    File,
-    /// A file that the command goes on from if it is there.
-    Continued,
-    /// A folder.
-    Folder,
-    /// A text with markers, which it reads first and fills.
-    Filled(&'static str),
-}
+/// A line of shell behind which no file takes more than 512 bytes.
+pub const FULL: &str = "trap '' XFSZ; ulimit -f 1";
 
 /// A command that writes.
 pub struct Writer {
     /// Its words, with [`OUT`] among them.
     pub words: &'static [&'static str],
-    /// What `OUT` is.
-    pub target: Target,
+    /// True if `OUT` is a folder.
+    pub is_folder: bool,
 }
 
 /// A program and a folder in which it runs.
@@ -76,30 +67,24 @@ impl Bench {
         line
     }
 
-    /// 512 bytes a file: the file system takes no more in the middle of every output.
+    /// Lets each command write where the file system takes no more in the middle of the output.
     pub fn without_room(&self, writers: &[Writer]) {
-        let full = "trap '' XFSZ; ulimit -f 1";
-        for Writer { words, target } in writers {
-            if let Target::Filled(text) = target {
-                self.put("text.md", &format!("{}\n{text}", "word ".repeat(200)));
-                self.refuse(full, words, "text.md");
-                continue;
-            }
-            self.refuse(full, words, "new/out");
+        for Writer { words, is_folder } in writers {
+            self.refuse(FULL, words, "new/out");
             // A file that is there already stays as it was.
-            if matches!(target, Target::File) {
+            if !is_folder {
                 self.put("old", "old");
-                self.refuse(full, words, "old");
+                self.refuse(FULL, words, "old");
             }
         }
     }
 
-    /// Below a file there is no folder, and a folder is no file.
+    /// Lets each command write below a file, where there is no folder, and onto a folder.
     pub fn without_a_way(&self, writers: &[Writer]) {
         fs::create_dir(self.folder.path().join("folder")).unwrap();
-        for Writer { words, target } in writers {
+        for Writer { words, is_folder } in writers {
             self.refuse("", words, "notes.txt/out");
-            if !matches!(target, Target::Folder) {
+            if !is_folder {
                 self.refuse("", words, "folder");
             }
         }

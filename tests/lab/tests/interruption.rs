@@ -6,24 +6,31 @@ mod untouched;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use untouched::{Bench, OUT, Target, Writer};
+use untouched::{Bench, FULL, OUT, Writer};
 
 const LAB: &str = env!("CARGO_BIN_EXE_stillbeam-lab");
 
-/// Every command that writes, with what `faults` and `tables` fill.
-const WRITERS: [Writer; 5] = [
-    Writer { words: &["sweep", "spec.toml", "--csv", OUT], target: Target::File },
-    Writer { words: &["pareto", "sweep.csv", "--out", OUT], target: Target::Folder },
-    Writer {
-        words: &["tables", OUT],
-        target: Target::Filled("<!-- table:accuracy -->\n| solver | d-fast |\n<!-- /table -->\n"),
-    },
-    Writer {
-        words: &["faults", OUT, "--count", "1"],
-        target: Target::Filled("<!-- stability:faults -->\n<!-- /stability -->\n"),
-    },
-    Writer { words: &["stress", "--scenes", "20", "--part", OUT], target: Target::Continued },
+/// The commands that write files of their own.
+const WRITERS: [Writer; 2] = [
+    Writer { words: &["sweep", "spec.toml", "--csv", OUT], is_folder: false },
+    Writer { words: &["pareto", "sweep.csv", "--out", OUT], is_folder: true },
 ];
+
+/// The commands that fill a page, which they read first.
+const FILLERS: [&[&str]; 3] = [
+    &["faults", OUT, "--count", "1"],
+    &["still", OUT, "--count", "1"],
+    &["docs", "README.md", "--root", OUT],
+];
+
+/// Keeps what is done in a file, and goes on from it.
+const STRESS: [&str; 5] = ["stress", "--count", "20", "--part", OUT];
+
+/// Pages of two blocks or one, longer than what is full takes.
+fn page(blocks: &[&str]) -> String {
+    let block = |name: &&str| format!("<!-- lab:{name} -->\nold\n<!-- /lab -->\n");
+    "word ".repeat(200) + "\n" + &blocks.iter().map(block).collect::<String>()
+}
 
 /// Sixteen cases of some milliseconds.
 const SPEC: &str = "scenes = [\"d-fast\"]\n[[grid]]\nmethod = [\"newmark\"]\nelements = [1, 2]\n\
@@ -40,12 +47,28 @@ fn bench() -> Bench {
 
 #[test]
 fn without_room_there_is_one_line_and_no_half_file() {
-    bench().without_room(&WRITERS);
+    let bench = bench();
+    bench.without_room(&WRITERS);
+    bench.refuse(FULL, &STRESS, "new/out");
+    bench.put("page.md", &page(&["faults", "campaign-rests", "campaign-interruptions"]));
+    bench.put("README.md", &page(&["accuracy"]));
+    for words in FILLERS {
+        bench.refuse(FULL, words, if words[0] == "docs" { "." } else { "page.md" });
+    }
 }
 
 #[test]
 fn a_path_that_cannot_be_written_is_one_line_and_changes_nothing() {
-    bench().without_a_way(&WRITERS);
+    let bench = bench();
+    bench.without_a_way(&WRITERS);
+    for words in FILLERS.into_iter().chain([&STRESS[..]]) {
+        bench.refuse("", words, "notes.txt/page.md");
+        bench.refuse("", words, "folder");
+    }
+    // A page without a place for what it is to be filled with.
+    for words in FILLERS {
+        bench.refuse("", words, if words[0] == "docs" { "." } else { "spec.toml" });
+    }
 }
 
 /// SIGKILL: no handler, no destructor, no flush. Under its name a file is there whole or not at all.

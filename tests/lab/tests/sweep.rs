@@ -46,7 +46,7 @@ impl Bench {
         let line = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{line}");
         assert_eq!(line.lines().count(), 1, "{line}");
-        assert!(line.contains("must be") || line.contains("use "), "{line}");
+        assert!(line.contains("must ") || line.contains("use "), "{line}");
         line
     }
 
@@ -167,14 +167,29 @@ fn pareto_draws_and_answers() {
 }
 
 #[test]
-fn a_table_that_is_no_longer_true_is_found() {
+fn a_page_that_is_no_longer_true_is_found() {
     let bench = Bench::new();
-    let text = "# Read me\n<!-- table:accuracy -->\n| solver | d-fast |\n<!-- /table -->\n";
+    let text = "# Read me\n<!-- lab:accuracy -->\n| solver | d-fast |\n<!-- /lab -->\n";
     fs::write(bench.path("README.md"), text).unwrap();
-    let output = bench.run(&["tables", "README.md", "--check"]);
+    let output = bench.run(&["docs", "README.md", "--check"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("table:accuracy, line 1"));
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("README.md:3: | solver | d-fast | is now | solver"), "{said}");
+    assert!(said.contains("`cargo lab docs README.md`"), "{said}");
     assert_eq!(fs::read_to_string(bench.path("README.md")).unwrap(), text);
+
+    bench.succeed(&["docs", "README.md"]);
+    let said = bench.succeed(&["docs", "README.md", "--check"]);
+    assert_eq!(said, "README.md: true\n");
+    // A line that is lost from the end of a table.
+    let written = fs::read_to_string(bench.path("README.md")).unwrap();
+    let end = written.rfind("<!-- /lab").unwrap();
+    let last = written[..end - 1].rfind('\n').unwrap() + 1;
+    fs::write(bench.path("README.md"), written[..last].to_owned() + &written[end..]).unwrap();
+    assert_eq!(bench.run(&["docs", "README.md", "--check"]).status.code(), Some(1));
+
     fs::write(bench.path("README.md"), "no markers").unwrap();
-    bench.refuse(&["tables", "README.md"]);
+    let line = bench.refuse(&["docs", "README.md", "--check"]);
+    assert!(line.contains("lab:accuracy"), "{line}");
+    bench.refuse(&["docs", "docs/styl.md"]);
 }
