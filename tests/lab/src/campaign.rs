@@ -126,7 +126,9 @@ mod tests {
         for threads in [1, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let made = AtomicU64::new(0);
-            let done = || drop(made.fetch_add(1, Ordering::Relaxed));
+            let done = || {
+                made.fetch_add(1, Ordering::Relaxed);
+            };
             let squares = pool.install(|| each("case", 5..205, &done, |index| index * index));
             assert_eq!(squares, (5..205).map(|index| index * index).collect::<Vec<_>>());
             assert_eq!(made.into_inner(), 200);

@@ -93,7 +93,7 @@ fn place(page: &str, name: &str) -> Result<(usize, usize), Error> {
     let start = start(name);
     let missing = || {
         Error::new(format_args!(
-            "lab:{name}: no such block; the page must have a line {start} and a line {END} after it"
+            "lab:{name}: not on the page; must be there, between a line {start} and a line {END}"
         ))
     };
     let begin = page.find(&start).ok_or_else(missing)? + start.len();

@@ -74,7 +74,7 @@ mod tests {
             .collect();
         assert_eq!(cells[0], ["solver", "d-fast"]);
         assert_eq!([cells[2][1], cells[3][1]], ["13.0", "0.200"]);
-        assert!(torque.text.contains("| 1.00 |"), "{}", torque.text);
+        assert!(torque.text.ends_with(" 1.00 |\n"), "{}", torque.text);
         // What a tick took is not in it.
         assert_eq!(blocks(&[row(1, 0.1304, None), row(2, 0.002, None)])[0], accuracy);
     }
