@@ -1,6 +1,7 @@
 //! What the pages say in words about figures of their tables and of the code.
 
 use stillbeam::{Error, Link, Scene};
+use stillbeam_lab::markers;
 use stillbeam_protocol::frame;
 use stillbeam_tests::{instructions, root};
 
@@ -66,10 +67,9 @@ fn readme_gives_the_ranges_that_are_accepted() {
 
 /// A cell of README's accuracy table, % of the link's length.
 fn error(readme: &str, solver: &str, scene: &str) -> f64 {
-    let (_, table) = readme.split_once("<!-- table:accuracy -->").expect("the table");
+    let table = markers::block(readme, "accuracy").expect("the table");
     let rows: Vec<Vec<&str>> = table
         .lines()
-        .skip(1)
         .take_while(|line| line.starts_with('|'))
         .map(|line| line.split('|').map(str::trim).collect())
         .collect();

@@ -188,3 +188,33 @@ fn the_same_run_gives_the_same_bytes() {
     let read = |name: &str| fs::read(folder.path().join(name)).expect("table");
     assert_eq!(read("a.csv"), read("b.csv"));
 }
+
+#[test]
+fn reference_writes_the_columns_of_run() {
+    let folder = tempfile::tempdir().expect("folder");
+    let lines = |name: &str| -> Vec<String> {
+        let text = fs::read_to_string(folder.path().join(name)).expect("table");
+        text.lines().map(str::to_owned).collect()
+    };
+    let rod = ["reference", "d-fast", "--solver", "rod", "--csv", "rod.csv"];
+    assert_eq!(run(folder.path(), &rod).0, 0);
+    assert_eq!(run(folder.path(), &["run", "d-fast", "--csv", "run.csv"]).0, 0);
+    let (rod, arm) = (lines("rod.csv"), lines("run.csv"));
+    assert_eq!((&rod[0], rod.len()), (&arm[0], arm.len()));
+    let (_, said, _) = run(folder.path(), &["compare", "run.csv", "rod.csv", "--scene", "d-fast"]);
+    assert!(said.contains("41 common times"), "{said}");
+    // The last row of the move has the left-hand acceleration, -6 pi / T^2.
+    let end: Vec<f64> = rod[21].split(',').map(|cell| cell.parse().expect("number")).collect();
+    assert!((end[0] - 0.2).abs() < 1e-12 && (end[3] + 471.2389).abs() < 1e-3, "{end:?}");
+
+    let fine = ["reference", "d-fast", "--csv", "fine.csv", "--every", "0.003"];
+    assert_eq!(run(folder.path(), &fine).0, 0);
+    let times = lines("fine.csv");
+    assert!(times[1].starts_with('0') && times[times.len() - 1].starts_with("0.4,"));
+    for every in ["0", "-1", "5", "nan"] {
+        let args = ["reference", "d-fast", "--csv", "no.csv", "--every", every];
+        let (code, _, err) = run(folder.path(), &args);
+        assert_eq!((code, err.lines().count()), (2, 1), "{err}");
+    }
+    assert!(!folder.path().join("no.csv").exists());
+}

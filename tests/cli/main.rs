@@ -3,8 +3,10 @@
 
 mod bad_input;
 mod commands;
+mod interruption;
 mod notes;
 mod syntax;
+mod untouched;
 
 use assert_cmd::Command;
 

@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use stillbeam_lab::markers::{self, Block};
 use stillbeam_protocol::Command;
 use stillbeam_sim::talk::{
     Answer, DEMONSTRATION, FAULTS, FIRST, Machine, STILL, Session, converse,
@@ -53,15 +54,6 @@ impl Fit {
     }
 }
 
-/// A block of a page: what is between its two lines is written by the command.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Block {
-    /// Its name, as in `<!-- firmware: NAME -->`.
-    pub name: &'static str,
-    /// Its text.
-    pub text: String,
-}
-
 /// Runs the demonstrations and measures the application's images.
 ///
 /// # Errors
@@ -73,26 +65,21 @@ pub fn blocks() -> Result<Vec<Block>, String> {
     let still = talk("mps2,still", &STILL, &spelled(&STILL))?;
     let stack = whole.stack.max(faults.stack);
     Ok(vec![
-        Block { name: "transcript", text: whole.transcript },
-        Block { name: "first", text: first.transcript },
-        Block { name: "faults", text: faults.transcript },
-        Block { name: "still", text: still.transcript },
-        Block { name: "sizes", text: sizes(stack, still.stack)? },
+        Block::new("transcript", whole.transcript),
+        Block::new("first", first.transcript),
+        Block::new("faults", faults.transcript),
+        Block::new("still", still.transcript),
+        Block::new("sizes", sizes(stack, still.stack)?),
     ])
 }
 
-/// The page with those of the blocks that it has.
+/// Returns the page with those of the blocks that it has a place for.
 ///
 /// # Errors
 /// A block begins and does not end.
 pub fn replace(page: &str, blocks: &[Block]) -> Result<String, String> {
-    blocks.iter().try_fold(page.to_owned(), |page, Block { name, text }| {
-        let begin = format!("<!-- firmware: {name} -->\n");
-        let end = "<!-- /firmware -->";
-        let Some((before, rest)) = page.split_once(&begin) else { return Ok(page) };
-        let (_, after) = rest.split_once(end).ok_or(format!("{begin} has no {end}"))?;
-        Ok(format!("{before}{begin}{text}{end}{after}"))
-    })
+    let own = blocks.iter().filter(|block| markers::has(page, &block.name)).cloned();
+    markers::fill(page, &own.collect::<Vec<_>>()).map_err(|error| error.to_string())
 }
 
 /// A conversation with the emulated board.
@@ -179,7 +166,7 @@ pub fn axes() -> Result<Block, String> {
     for (name, id) in FITTED {
         text += &row(name, &fit(id)?);
     }
-    Ok(Block { name: "axes", text })
+    Ok(Block::new("axes", text))
 }
 
 /// A line of the table of axes.

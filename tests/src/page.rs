@@ -3,12 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::instructions::{Bench, Count, Minimal};
+use stillbeam_lab::markers::{self, Block};
 
-/// The tables stand between these lines; what is around them is written by hand.
-const BEGIN: &str = "<!-- instructions: begin (written by `cargo run --release -p stillbeam-tests \
-                     --bin instructions`) -->";
-const END: &str = "<!-- instructions: end -->";
+use crate::instructions::{Bench, Count, Minimal};
 
 /// Method of the rows that count plans.
 const PLAN: &str = "plan";
@@ -25,15 +22,13 @@ const COLUMNS: [(&str, &[&str]); 8] = [
     ("neither, landing", &["no-damping", "no-gravity", "landing", "still"]),
 ];
 
-/// The page with its tables replaced.
+/// Returns the page with its tables replaced.
 ///
 /// # Errors
 /// The markers are missing.
 pub fn replace(page: &str, tables: &str) -> Result<String, String> {
-    let missing = || format!("docs/instructions.md needs the lines\n{BEGIN}\n{END}");
-    let (before, rest) = page.split_once(BEGIN).ok_or_else(missing)?;
-    let (_, after) = rest.split_once(END).ok_or_else(missing)?;
-    Ok(format!("{before}{BEGIN}\n{tables}\n{END}{after}"))
+    let block = Block::new("instructions", tables.to_owned());
+    markers::fill(page, &[block]).map_err(|error| format!("docs/instructions.md: {error}"))
 }
 
 /// The tables: of the processor with an FPU, and of one without.

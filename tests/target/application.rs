@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use stillbeam::axis::Mode;
+use stillbeam_lab::markers;
 use stillbeam_protocol::{Command, Status};
 use stillbeam_sim::talk::{Answer, DEMONSTRATION, FAULTS, FIRST, Machine, STILL, Session, Step};
 use stillbeam_tests::firmware_page::{FITTED, Fit};
@@ -292,8 +293,8 @@ fn the_pages_are_what_the_firmware_does() {
         page
     });
     for block in blocks {
-        let begin = format!("<!-- firmware: {} -->", block.name);
-        assert!(pages.iter().any(|page| page.contains(&begin)), "{} has no place", block.name);
+        let has_place = pages.iter().any(|page| markers::has(page, &block.name));
+        assert!(has_place, "{} has no place", block.name);
     }
 }
 
@@ -302,7 +303,7 @@ fn the_pages_are_what_the_firmware_does() {
 #[test]
 fn as_many_axes_fit_as_the_page_says() {
     let page = std::fs::read_to_string(root().join("docs/firmware.md")).expect("docs/firmware.md");
-    let (_, table) = page.split_once("<!-- firmware: axes -->\n").expect("the table of axes");
+    let table = markers::block(&page, "axes").expect("the table of axes");
     let rows: Vec<&str> = table.lines().skip(2).take_while(|line| line.starts_with('|')).collect();
     assert_eq!(rows.len(), FITTED.len(), "{rows:#?}");
     for ((name, id), row) in FITTED.into_iter().zip(rows) {
@@ -340,7 +341,7 @@ fn without_counts(page: &str) -> Vec<String> {
     let mut planned = false;
     let mut kept = Vec::new();
     for line in page.lines() {
-        planned = (planned || line == "<!-- firmware: still -->") && line != "<!-- /firmware -->";
+        planned = (planned || line == "<!-- lab:still -->") && line != "<!-- /lab -->";
         let reported = planned && line.contains(" | ");
         if planned || line.contains("instructions") || line.starts_with('|') {
             let parts = line.split(|c: char| c.is_ascii_digit() || planned && c == ' ');

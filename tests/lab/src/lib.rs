@@ -3,14 +3,19 @@
 //!
 //! [`sweep`] measures run time against error, beside [`baseline`]; [`stress`] runs random scenes and
 //! long runs; [`stability`] maps where the methods are stable; [`choice`] tries `auto` on random arms;
-//! [`still`] judges moves that arrive still; [`faults`] injects what can go wrong around an axis.
-//! [`markers`] puts what they find into a page.
+//! [`still`] judges moves that arrive still; [`faults`] injects what can go wrong around an axis;
+//! [`reference`] lets the two reference solvers converge to each other. All of them run their cases in
+//! [`campaign`]. [`pages`] writes what they find into the pages, between [`markers`].
 
 pub mod baseline;
+pub mod campaign;
 pub mod choice;
 pub mod faults;
 pub mod markers;
+pub mod pages;
+pub mod reference;
 pub mod stability;
 pub mod still;
 pub mod stress;
 pub mod sweep;
+pub mod table;

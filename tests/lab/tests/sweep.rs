@@ -1,12 +1,11 @@
-//! Sweeps from the command line: shards, interruptions, joins, fronts, tables.
+//! Sweeps from the command line: rows, refusals, fronts, tables.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use stillbeam_lab::sweep::pareto::front;
-use stillbeam_lab::sweep::row::{CaseId, Errors, Row, Rows, header};
-use stillbeam_sim::solver::{Method, SolverKeys};
+use stillbeam_lab::sweep::row::{Row, Rows, header};
 
 /// Nine cases: newmark with 1 and 2 elements at 10, 5 and 2.5 ms, and the rigid arm.
 const SPEC: &str = "scenes = [\"s-gravity\"]\n[[grid]]\nmethod = [\"newmark\", \"rigid\"]\n\
@@ -47,7 +46,7 @@ impl Bench {
         let line = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{line}");
         assert_eq!(line.lines().count(), 1, "{line}");
-        assert!(line.contains("must be") || line.contains("use "), "{line}");
+        assert!(line.contains("must ") || line.contains("use "), "{line}");
         line
     }
 
@@ -68,83 +67,22 @@ fn rows(path: &Path) -> Vec<Row> {
     Rows::open(path).unwrap().map(Result::unwrap).collect()
 }
 
-/// Rows without what differs from run to run.
-fn errors(rows: &[Row]) -> Vec<Row> {
-    rows.iter().map(|row| Row { cost: None, ..row.clone() }).collect()
-}
-
 #[test]
-fn shards_join_to_the_rows_of_one_run() {
+fn a_sweep_writes_a_row_a_case() {
     let bench = Bench::new();
-    bench.succeed(&["sweep", "spec.toml", "--csv", "one.csv"]);
-    for shard in ["1", "2"] {
-        let (csv, share) = (format!("{shard}.csv"), format!("{shard}/2"));
-        bench.succeed(&["sweep", "spec.toml", "--csv", &csv, "--shard", &share]);
-    }
-    bench.succeed(&["merge", "joined.csv", "2.csv", "1.csv"]);
-    let (one, joined) = (bench.rows("one.csv"), bench.rows("joined.csv"));
-    assert_eq!(one.len(), CASES);
-    assert_eq!(errors(&one), errors(&joined));
+    let said = bench.succeed(&["sweep", "spec.toml", "--csv", "one.csv"]);
+    assert!(said.contains("9 cases to one.csv"), "{said}");
+    let rows = bench.rows("one.csv");
+    let numbers: Vec<u64> = rows.iter().map(|row| row.id.case).collect();
+    assert_eq!(numbers, (1..=CASES as u64).collect::<Vec<_>>());
     // A small-deflection model where the link bends by 17 % of L: 0.6 % of L at 10 ms.
-    assert!((one[0].errors.tip_max - 0.0061).abs() < 1e-4, "{:?}", one[0]);
-    for row in &one {
-        let cost = row.cost.unwrap();
+    assert!((rows[0].errors.tip_max - 0.0061).abs() < 1e-4, "{:?}", rows[0]);
+    for row in &rows {
+        let cost = row.cost.expect("every case has its cost");
         assert!(cost.worst_ns >= cost.tick_ns && cost.setup_us > 0.0, "{row:?}");
     }
-    // Nothing is left beside the outputs.
-    assert!(
-        fs::read_dir(&bench.folder)
-            .unwrap()
-            .flatten()
-            .all(|file| { !file.file_name().to_string_lossy().ends_with(".part") })
-    );
-
-    let gap = bench.refuse(&["merge", "no.csv", "1.csv"]);
-    assert!(gap.contains("case 2 of 9 is in no shard"), "{gap}");
-    let twice = bench.refuse(&["merge", "no.csv", "1.csv", "2.csv", "1.csv"]);
-    assert!(twice.contains("1.csv: case 1: another shard has it"), "{twice}");
-    assert!(!bench.path("no.csv").exists());
-}
-
-#[test]
-fn resume_runs_only_what_is_missing() {
-    let bench = Bench::new();
-    bench.succeed(&["sweep", "spec.toml", "--csv", "out.csv"]);
-    let whole = bench.rows("out.csv");
-
-    // Two rows lost; the others carry a mark that a new measurement would wipe out.
-    let mut lines = bench.lines("out.csv");
-    for line in &mut lines[1..] {
-        let cut = line.rfind(',').unwrap();
-        line.replace_range(cut.., ",987654");
-    }
-    let mut kept = lines.clone();
-    kept.remove(7);
-    kept.remove(2);
-    bench.write("out.csv", &kept);
-    let said = bench.succeed(&["sweep", "spec.toml", "--csv", "out.csv", "--resume"]);
-    assert!(said.contains("2 run, 2 timed"), "{said}");
-    let again = bench.rows("out.csv");
-    assert_eq!(errors(&again), errors(&whole));
-    let marked = |row: &&Row| row.cost.unwrap().worst_ns == 987654.0;
-    assert_eq!(again.iter().filter(marked).count(), CASES - 2);
-
-    // Interrupted while it computed errors, in the middle of a line.
-    let part = "new.csv.errors.part";
-    fs::write(bench.path(part), lines[..4].join("\n") + "\n" + &lines[4][..30]).unwrap();
-    let refused = bench.refuse(&["sweep", "spec.toml", "--csv", "new.csv"]);
-    assert!(refused.contains("new.csv.errors.part") && refused.contains("--resume"), "{refused}");
-    let said = bench.succeed(&["sweep", "spec.toml", "--csv", "new.csv", "--resume"]);
-    assert!(said.contains("6 run, 9 timed"), "{said}");
-    assert_eq!(errors(&bench.rows("new.csv")), errors(&whole));
-    assert!(!bench.path(part).exists());
-
-    // Interrupted while it timed.
-    bench.write("late.csv.errors.part", &lines);
-    bench.write("late.csv.part", &lines[..6]);
-    let said = bench.succeed(&["sweep", "spec.toml", "--csv", "late.csv", "--resume"]);
-    assert!(said.contains("0 run, 4 timed"), "{said}");
-    assert_eq!(bench.rows("late.csv").iter().filter(marked).count(), 5);
+    // Nothing is left beside the spec and the output.
+    assert_eq!(fs::read_dir(&bench.folder).unwrap().count(), 2);
 }
 
 #[test]
@@ -160,38 +98,16 @@ fn what_is_not_a_sweep_is_refused() {
         cells[column] = value;
         broken[3] = cells.join(",");
         bench.write("broken.csv", &broken);
-        for arguments in [
-            &["merge", "joined.csv", "broken.csv"][..],
-            &["pareto", "broken.csv", "--out", "pictures"],
-            &["sweep", "spec.toml", "--csv", "broken.csv", "--resume"],
-        ] {
-            let line = bench.refuse(arguments);
-            for part in ["broken.csv", "line 4", "tip_error_max", says] {
-                assert!(line.contains(part), "{part}: {line}");
-            }
+        let line = bench.refuse(&["pareto", "broken.csv", "--out", "pictures"]);
+        for part in ["broken.csv", "line 4", "tip_error_max", says] {
+            assert!(line.contains(part), "{part}: {line}");
         }
     }
 
-    bench.succeed(&["run", "d-fast", "--csv", "run.csv"]);
-    for arguments in [
-        &["merge", "joined.csv", "run.csv"][..],
-        &["pareto", "run.csv", "--out", "pictures"],
-        &["sweep", "spec.toml", "--csv", "run.csv", "--resume"],
-    ] {
-        let line = bench.refuse(arguments);
-        assert!(line.contains("header"), "{line}");
-    }
+    fs::write(bench.path("run.csv"), "t_s,angle_rad\n0,0\n").unwrap();
+    let line = bench.refuse(&["pareto", "run.csv", "--out", "pictures"]);
+    assert!(line.contains("header"), "{line}");
 
-    // A sweep of something else.
-    fs::write(bench.path("other.toml"), SPEC.replace("0.0025", "0.002")).unwrap();
-    bench.succeed(&["sweep", "other.toml", "--csv", "other.csv"]);
-    bench.refuse(&["sweep", "spec.toml", "--csv", "other.csv", "--resume"]);
-    let line = bench.refuse(&["merge", "joined.csv", "out.csv", "other.csv"]);
-    assert!(line.contains("one sweep"), "{line}");
-
-    for shard in ["0/2", "3/2", "1", "a/b"] {
-        bench.refuse(&["sweep", "spec.toml", "--csv", "no.csv", "--shard", shard]);
-    }
     for (name, text) in [
         ("scene", SPEC.replace("s-gravity", "nowhere")),
         ("elements", SPEC.replace("[1, 2]", "[3]")),
@@ -202,7 +118,7 @@ fn what_is_not_a_sweep_is_refused() {
         let line = bench.run(&["sweep", "wrong.toml", "--csv", "no.csv"]);
         assert_eq!(line.status.code(), Some(2), "{name}");
     }
-    assert!(!bench.path("no.csv").exists() && !bench.path("joined.csv").exists());
+    assert!(!bench.path("no.csv").exists() && !bench.path("pictures").exists());
 }
 
 #[test]
@@ -251,99 +167,29 @@ fn pareto_draws_and_answers() {
 }
 
 #[test]
-fn reference_writes_the_columns_of_run() {
+fn a_page_that_is_no_longer_true_is_found() {
     let bench = Bench::new();
-    bench.succeed(&["reference", "d-fast", "--solver", "rod", "--csv", "rod.csv"]);
-    bench.succeed(&["run", "d-fast", "--csv", "run.csv"]);
-    let (rod, run) = (bench.lines("rod.csv"), bench.lines("run.csv"));
-    assert_eq!((&rod[0], rod.len()), (&run[0], run.len()));
-    let said = bench.succeed(&["compare", "run.csv", "rod.csv", "--scene", "d-fast"]);
-    assert!(said.contains("41 common times"), "{said}");
-    // The last row of the move has the left-hand acceleration, -6 pi / T^2.
-    let end: Vec<f64> = rod[21].split(',').map(|cell| cell.parse().unwrap()).collect();
-    assert!((end[0] - 0.2).abs() < 1e-12 && (end[3] + 471.2389).abs() < 1e-3, "{end:?}");
-
-    bench.succeed(&["reference", "d-fast", "--csv", "fine.csv", "--every", "0.003"]);
-    let times: Vec<String> = bench.lines("fine.csv");
-    assert!(times[1].starts_with("0") && times.last().unwrap().starts_with("0.4,"));
-    for every in ["0", "-1", "5", "nan"] {
-        bench.refuse(&["reference", "d-fast", "--csv", "no.csv", "--every", every]);
-    }
-    assert!(!bench.path("no.csv").exists());
-}
-
-#[test]
-fn a_table_that_is_no_longer_true_is_found() {
-    let bench = Bench::new();
-    let text = "# Read me\n<!-- table:accuracy -->\n| solver | d-fast |\n<!-- /table -->\n";
+    let text = "# Read me\n<!-- lab:accuracy -->\n| solver | d-fast |\n<!-- /lab -->\n";
     fs::write(bench.path("README.md"), text).unwrap();
-    let output = bench.run(&["tables", "README.md", "--check"]);
+    let output = bench.run(&["docs", "README.md", "--check"]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("table:accuracy, line 1"));
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("README.md:3: | solver | d-fast | is now | solver"), "{said}");
+    assert!(said.contains("`cargo lab docs README.md`"), "{said}");
     assert_eq!(fs::read_to_string(bench.path("README.md")).unwrap(), text);
+
+    bench.succeed(&["docs", "README.md"]);
+    let said = bench.succeed(&["docs", "README.md", "--check"]);
+    assert_eq!(said, "README.md: true\n");
+    // A line that is lost from the end of a table.
+    let written = fs::read_to_string(bench.path("README.md")).unwrap();
+    let end = written.rfind("<!-- /lab").unwrap();
+    let last = written[..end - 1].rfind('\n').unwrap() + 1;
+    fs::write(bench.path("README.md"), written[..last].to_owned() + &written[end..]).unwrap();
+    assert_eq!(bench.run(&["docs", "README.md", "--check"]).status.code(), Some(1));
+
     fs::write(bench.path("README.md"), "no markers").unwrap();
-    bench.refuse(&["tables", "README.md"]);
-}
-
-/// Largest resident size of the process so far, KiB.
-#[cfg(target_os = "linux")]
-fn peak_memory(process: u32) -> Option<u64> {
-    let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    line.split_whitespace().nth(1)?.parse().ok()
-}
-
-#[test]
-#[cfg(target_os = "linux")]
-fn a_million_rows_are_joined_in_little_memory() {
-    const ROWS: u64 = 1_000_000;
-    const SHARDS: u64 = 4;
-    let bench = Bench::new();
-    let mut arguments = vec!["merge".to_owned(), "all.csv".to_owned()];
-    let keys = SolverKeys {
-        method: Some(Method::Newmark),
-        elements: Some(1),
-        tick: Some(0.01),
-        spin: Some(true),
-        ..SolverKeys::default()
-    };
-    let mut row = Row {
-        id: CaseId { sweep: "5eed".to_owned(), case: 0, cases: ROWS, scene: "d-fast".to_owned() },
-        keys,
-        errors: Errors { tip_max: 0.13, tip_rms: 0.05, residual: None, torque: 0.4 },
-        cost: None,
-    };
-    for shard in 1..=SHARDS {
-        let name = format!("{shard}.csv");
-        let mut file =
-            csv::WriterBuilder::new().has_headers(false).from_path(bench.path(&name)).unwrap();
-        file.write_record(header()).unwrap();
-        for case in (shard..=ROWS).step_by(SHARDS as usize) {
-            row.id.case = case;
-            row.write(&mut file).unwrap();
-        }
-        file.flush().unwrap();
-        arguments.push(name);
-    }
-    let program = env!("CARGO_BIN_EXE_stillbeam-lab");
-    let mut command = Command::new(program);
-    let mut child = command.args(&arguments).current_dir(&bench.folder).spawn().unwrap();
-    let mut peak = 0;
-    let status = loop {
-        peak = peak.max(peak_memory(child.id()).unwrap_or(0));
-        if let Some(status) = child.try_wait().unwrap() {
-            break status;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(2));
-    };
-    assert!(status.success());
-    println!("peak memory of joining {ROWS} rows: {peak} KiB");
-    assert!((1..1024 * 1024).contains(&peak), "{peak} KiB");
-    let last = Rows::open(&bench.path("all.csv")).unwrap().map(Result::unwrap);
-    let mut expected = 1;
-    for row in last {
-        assert_eq!(row.id.case, expected);
-        expected += 1;
-    }
-    assert_eq!(expected, ROWS + 1);
+    let line = bench.refuse(&["docs", "README.md", "--check"]);
+    assert!(line.contains("lab:accuracy"), "{line}");
+    bench.refuse(&["docs", "docs/styl.md"]);
 }

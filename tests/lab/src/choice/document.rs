@@ -8,7 +8,8 @@ use super::judge::{CLOSE, JUDGE, MARGIN, STRICT, STRICT_EACH};
 use super::random::DISTRIBUTION;
 use super::summary::Summary;
 use super::verdict::Verdict;
-use crate::sweep::tables::{aligned, grouped};
+use crate::markers::{self, Block};
+use crate::table::{aligned, grouped, quantile};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plot::{Axis, Chart, Colour, Dash, Series};
 
@@ -24,20 +25,49 @@ pub fn page(seed: u64, verdicts: &[Verdict]) -> String {
     let count = summary.arms;
     let blocks = [
         introduction(&summary, seed),
-        format!(
-            "## Command\n\n```sh\ncargo run --release -p stillbeam-lab --example auto_choice -- {count} \
-             docs/auto.md\n```\n\nThe same verdicts on any number of cores; `tests/run/auto.rs` judges \
-             the first 60 arms of another seed in every test run and asserts both bounds.\n"
-        ),
+        marked("## Command", &command(seed, count as u64)),
         outcomes(&summary),
         histogram(verdicts),
         "![Share of the choices that err by more](auto.svg)\n".to_owned(),
         rungs(&summary),
         set_up(verdicts),
-        distribution(seed),
+        marked("## The arms", &distribution(seed)),
         judge(&summary),
     ];
     blocks.join("\n")
+}
+
+/// The blocks of the page that depend on the seed and the number of arms alone: what can be checked
+/// without the campaign, which takes hours. Both numbers are read from the page.
+///
+/// # Errors
+/// A page that does not name its command.
+pub fn blocks(page: &str) -> Result<Vec<Block>, Error> {
+    let written = markers::block(page, "command")?;
+    let number = |option: &str| -> Result<u64, Error> {
+        let value = written.split(option).nth(1).and_then(|rest| rest.split_whitespace().next());
+        value.and_then(|value| value.parse().ok()).ok_or_else(|| {
+            Error::new(format_args!("lab:command: must name the campaign's{option}N"))
+        })
+    };
+    let seed = number(" --seed ")?;
+    Ok(vec![command(seed, number(" --count ")?), distribution(seed)])
+}
+
+/// A section whose text is a block.
+fn marked(heading: &str, Block { name, text }: &Block) -> String {
+    format!("{heading}\n\n<!-- lab:{name} -->\n{text}<!-- /lab -->\n")
+}
+
+fn command(seed: u64, count: u64) -> Block {
+    Block::new(
+        "command",
+        format!(
+            "```sh\ncargo lab auto docs/auto.md --count {count} --seed {seed}\n```\n\nThe same verdicts \
+             on any number of cores; `tests/run/auto.rs` judges the first 60 arms of another seed in \
+             every test run and asserts both bounds.\n"
+        ),
+    )
 }
 
 fn introduction(summary: &Summary, seed: u64) -> String {
@@ -77,7 +107,7 @@ fn outcomes(summary: &Summary) -> String {
     add("refused: bends too far for the exact kinematics", summary.bends, summary.arms);
     add("refused: the finest rung cannot be set up", summary.other, summary.arms);
     add("… of all refused, a rung met both tolerances", summary.needless, summary.arms);
-    format!("## What came out\n\n{}", table(&lines))
+    format!("## What came out\n\n{}", aligned(&lines))
 }
 
 fn histogram(verdicts: &[Verdict]) -> String {
@@ -93,7 +123,7 @@ fn histogram(verdicts: &[Verdict]) -> String {
         lines.push(line(&what, &thousands(n), &percent(n, ratios.len())));
     }
     let most = ratios.iter().copied().fold(0.0, f64::max);
-    format!("{}\nThe largest is {most:.3}.\n", table(&lines))
+    format!("{}\nThe largest is {most:.3}.\n", aligned(&lines))
 }
 
 fn rungs(summary: &Summary) -> String {
@@ -106,7 +136,7 @@ fn rungs(summary: &Summary) -> String {
         "## The ladder\n\nThe order is that of the instructions in \
          [instructions.csv](instructions.csv), compared in every test run; with damping or gravity \
          elastica with 1 mode stands before modal with 2, and with 3 modes, fast, before 2, fine.\n\n{}",
-        table(&lines)
+        aligned(&lines)
     )
 }
 
@@ -119,8 +149,9 @@ fn set_up(verdicts: &[Verdict]) -> String {
         .collect();
     steps.sort_unstable();
     a_tick.sort_unstable_by(f64::total_cmp);
-    let [some, many] = [0.5, 0.99].map(|part| thousands(quantile(&steps, part) as usize));
-    let [few, lots] = [0.5, 0.99].map(|part| quantile(&a_tick, part));
+    let [some, many] =
+        [0.5, 0.99].map(|part| thousands(quantile(&steps, part).unwrap_or(0) as usize));
+    let [few, lots] = [0.5, 0.99].map(|part| quantile(&a_tick, part).unwrap_or(0.0));
     format!(
         "## What the choice costs at set-up\n\nIts steps are counted in `Choice::expected.steps`: {some} for the \
          median arm, {many} for all but one in a hundred; {few:.0} and {lots:.0} for each tick of the \
@@ -132,16 +163,16 @@ fn set_up(verdicts: &[Verdict]) -> String {
     )
 }
 
-fn distribution(seed: u64) -> String {
+fn distribution(seed: u64) -> Block {
     let mut text = format!(
-        "## The arms\n\nArm `i` is drawn with seed {seed} and `i` alone, by \
+        "Arm `i` is drawn with seed {seed} and `i` alone, by \
          `tests/lab/src/choice/random.rs`; periods, lengths, masses, ticks, durations and tolerances \
          uniformly in the logarithm.\n\n"
     );
     for (what, from) in DISTRIBUTION {
         let _ = writeln!(text, "- **{what}**: {from}");
     }
-    text
+    Block::new("arms", text)
 }
 
 fn judge(summary: &Summary) -> String {
@@ -197,15 +228,6 @@ fn ratios(verdicts: &[Verdict]) -> impl Iterator<Item = [f64; 2]> {
 
 fn line(a: &str, b: &str, c: &str) -> Vec<String> {
     [a, b, c].map(str::to_owned).to_vec()
-}
-
-fn table(lines: &[Vec<String>]) -> String {
-    aligned(lines)
-}
-
-fn quantile<T: Copy + Default>(sorted: &[T], part: f64) -> T {
-    let index = (part * sorted.len().saturating_sub(1) as f64).round() as usize;
-    sorted.get(index).copied().unwrap_or_default()
 }
 
 fn percent(n: usize, of: usize) -> String {

@@ -7,13 +7,12 @@ mod random;
 mod summary;
 mod verdict;
 
-use rayon::prelude::*;
-
-pub use document::{page, picture};
+pub use document::{blocks, page, picture};
 pub use random::{Case, DISTRIBUTION};
 pub use summary::Summary;
 pub use verdict::Verdict;
 
+use crate::campaign;
 use stillbeam_sim::error::Error;
 
 /// What the arms of the documented campaign are drawn with.
@@ -22,10 +21,9 @@ pub const SEED: u64 = 20_261_122;
 /// Judges the first `count` arms of a seed on all cores: the same verdicts, in the same order, on any
 /// number of them.
 pub fn campaign(seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Result<Vec<Verdict>, Error> {
-    let one = |index: u64| {
+    let verdicts = campaign::each("arm", 0..count, done, |index| {
         let verdict = Case::random(seed, index).and_then(|case| case.judge(index));
-        done();
         verdict.map_err(|error| error.within(format_args!("arm {index}")))
-    };
-    (0..count).into_par_iter().map(one).collect()
+    });
+    verdicts.into_iter().collect()
 }

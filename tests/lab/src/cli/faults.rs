@@ -3,16 +3,20 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use stillbeam_lab::campaign::with_bar;
 use stillbeam_lab::faults::{Fault, campaign, table};
-use stillbeam_lab::markers;
+use stillbeam_lab::markers::Block;
+use stillbeam_lab::pages;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::{output, println, progress};
+use stillbeam_sim::println;
+
+use super::{counted, verdict};
 
 #[derive(clap::Args)]
 pub struct FaultsArgs {
-    /// A text with <!-- stability:faults --> and <!-- /stability --> to be filled
+    /// A page with <!-- lab:faults --> to be filled
     #[arg(value_name = "stability.md")]
-    text: Option<PathBuf>,
+    page: Option<PathBuf>,
     /// Runs a kind of fault, some 13 s of motion each
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     count: u64,
@@ -23,44 +27,31 @@ pub struct FaultsArgs {
 
 impl FaultsArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let Self { count, seed, .. } = self;
-        if !(1..=100_000_000).contains(&count) {
-            return Err(Error::new(format_args!("--count = {count}: must be 1 to 100000000")));
+        let seed = self.seed;
+        let count = counted(self.count)?;
+        let page = self.page.map(|path| Ok::<_, Error>((pages::read(&path)?, path))).transpose()?;
+        if let Some((text, path)) = &page {
+            pages::has_places(path, text, ["faults"].into_iter())?;
         }
-        let text = self.text.as_ref().map(|path| {
-            let text = std::fs::read_to_string(path).map_err(|cause| {
-                Error::file(path, format_args!("{cause}; it must be a text file that can be read"))
-            })?;
-            // A text without the markers shows before the campaign runs.
-            filled(&text, "").map_err(|error| error.within(path.display()))?;
-            Ok::<_, Error>((path, text))
-        });
-        let text = text.transpose()?;
-        let bar = progress::bar("runs", Fault::ALL.len() * count as usize);
-        let rows = campaign::all(seed, count, &|| bar.inc(1));
-        bar.finish_and_clear();
-        let rows = rows?;
+        let rows = with_bar("runs", Fault::ALL.len() as u64 * count, |done| {
+            campaign::all(seed, count, &|| done(1))
+        })?;
         let broken: Vec<&String> = rows.iter().flat_map(|(_, outcome)| &outcome.broken).collect();
-        let block = format!(
+        let text = format!(
             "`cargo lab faults --count {count} --seed {seed}`\n\n{}\n{}",
             table::markdown(&rows),
             table::refusals(&rows)
         );
-        match text {
-            Some((path, text)) => {
-                let text = filled(&text, &block).map_err(|error| error.within(path.display()))?;
-                output::write_whole(path, |file| file.write_all(text.as_bytes()))?;
+        match &page {
+            Some((page, path)) => {
+                pages::write(path, page, &[Block::new("faults", text)])?;
                 println!("{}: filled", path.display());
             }
-            None => print!("{block}"),
+            None => println!("{text}"),
         }
         for line in broken.iter().take(20) {
             println!("broken: {line}");
         }
-        Ok(if broken.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+        Ok(verdict(broken.is_empty()))
     }
-}
-
-fn filled(text: &str, block: &str) -> Result<String, Error> {
-    markers::fill(text, "stability", &[("faults".to_owned(), block.to_owned())])
 }

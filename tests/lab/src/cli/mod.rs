@@ -1,8 +1,10 @@
 //! The lab's command line: words in, a library call, lines out. One command a file.
 
+mod auto;
+mod docs;
 mod faults;
-mod merge;
 mod pareto;
+mod reference;
 mod stability;
 mod still;
 mod stress;
@@ -12,48 +14,73 @@ mod tables;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use stillbeam_lab::campaign;
 use stillbeam_sim::error::Error;
 
-/// Campaigns behind stillbeam's pages.
+/// The pages of stillbeam's docs and the campaigns behind them.
 #[derive(Parser)]
-#[command(name = "stillbeam-lab", version)]
+#[command(name = "cargo lab", version)]
 pub struct Cli {
+    /// Threads to run on [default: one a core]
+    #[arg(long, value_name = "N", global = true)]
+    threads: Option<usize>,
     #[command(subcommand)]
     command: Command,
 }
 
 #[derive(Subcommand)]
 enum Command {
-    /// Run many solvers on many scenes: error and time of each
-    Sweep(sweep::SweepArgs),
-    /// Join the shards of a sweep
-    Merge(merge::MergeArgs),
-    /// Draw a sweep's error against its time and answer what a choice costs
-    Pareto(pareto::ParetoArgs),
-    /// Fill the tables in README.md, or check them
-    Tables(tables::TablesArgs),
-    /// Fill the tables of docs/still.md and draw its picture, or check the tables
+    /// Write every page with tables that take seconds, or check them
+    #[command(after_help = docs::OTHERS)]
+    Docs(docs::DocsArgs),
+    /// Judge the choices of `auto` on random arms; write docs/auto.md
+    Auto(auto::AutoArgs),
+    /// Judge random still moves and interruptions; fill their part of docs/still.md
     Still(still::StillArgs),
-    /// Map where the methods are stable and accurate; fill docs/stability.md, or check it
-    Stability(stability::StabilityArgs),
-    /// Run random scenes, far outside of what an arm is, by the million
+    /// Run random scenes, far outside of what an arm is, by the million, and long runs
     Stress(stress::StressArgs),
+    /// Map where the methods are stable and accurate
+    Stability(stability::StabilityArgs),
     /// Inject faults around an axis, and count what comes out
     Faults(faults::FaultsArgs),
+    /// Run many solvers on many scenes: error and time of each
+    Sweep(sweep::SweepArgs),
+    /// Draw a sweep's error against its time and answer what a choice costs
+    Pareto(pareto::ParetoArgs),
+    /// Let the two reference solvers converge to each other
+    Reference(reference::ReferenceArgs),
+    /// Print the tables of README.md and docs/accuracy.md
+    Tables(tables::TablesArgs),
 }
 
 impl Cli {
     /// Carries out the command.
     pub fn execute(self) -> Result<ExitCode, Error> {
+        campaign::on_threads(self.threads)?;
         match self.command {
-            Command::Sweep(args) => args.execute(),
-            Command::Merge(args) => args.execute(),
-            Command::Pareto(args) => args.execute(),
-            Command::Tables(args) => args.execute(),
+            Command::Docs(args) => args.execute(),
+            Command::Auto(args) => args.execute(),
             Command::Still(args) => args.execute(),
-            Command::Stability(args) => args.execute(),
             Command::Stress(args) => args.execute(),
+            Command::Stability(args) => args.execute(),
             Command::Faults(args) => args.execute(),
+            Command::Sweep(args) => args.execute(),
+            Command::Pareto(args) => args.execute(),
+            Command::Reference(args) => args.execute(),
+            Command::Tables(args) => args.execute(),
         }
     }
+}
+
+/// Refuses a campaign without cases, or with more than a machine's life.
+fn counted(count: u64) -> Result<u64, Error> {
+    if (1..=100_000_000).contains(&count) {
+        return Ok(count);
+    }
+    Err(Error::new(format_args!("--count = {count}: must be 1 to 100000000")))
+}
+
+/// Success if a campaign found nothing, else exit code 1.
+fn verdict(holds: bool) -> ExitCode {
+    if holds { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

@@ -11,7 +11,7 @@ use stillbeam_sim::error::Error;
 
 #[derive(clap::Args)]
 pub struct ParetoArgs {
-    /// A CSV of sweep or merge
+    /// A CSV of sweep
     #[arg(value_name = "SWEEP.csv")]
     sweep: PathBuf,
     /// Only this scene [default: every scene of the sweep]

@@ -1,55 +1,54 @@
-//! `still`: the comparison of still moves with other motions, as tables and as a picture.
+//! `still`: random still moves and random interruptions by the thousand.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use stillbeam_lab::markers;
-use stillbeam_lab::still::document;
+use stillbeam_lab::campaign::with_bar;
+use stillbeam_lab::pages;
+use stillbeam_lab::still::{campaign, campaign_page};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::output::Files;
-use stillbeam_sim::{println, progress};
+use stillbeam_sim::println;
+
+use super::counted;
+use campaign_page::{EACH, ROD_EACH};
 
 #[derive(clap::Args)]
 pub struct StillArgs {
-    /// A text with <!-- still:NAME --> and <!-- /still -->; a picture is drawn beside it
+    /// A page with <!-- lab:campaign-rests --> and <!-- lab:campaign-interruptions --> to be filled
     #[arg(value_name = "still.md")]
-    text: PathBuf,
-    /// Change nothing; exit with 1 where the tables in the text are no longer true
-    #[arg(long)]
-    check: bool,
+    page: Option<PathBuf>,
+    /// Random interruptions, a hundred an arm; a tenth as many moves from rest to rest
+    #[arg(long, value_name = "N", default_value_t = 100_000)]
+    count: u64,
+    /// What they are drawn with
+    #[arg(long, value_name = "S", default_value_t = 20_260_101)]
+    seed: u64,
 }
 
 impl StillArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let path = &self.text;
-        let text = std::fs::read_to_string(path).map_err(|cause| {
-            Error::file(path, format_args!("{cause}; it must be a text file that can be read"))
+        let seed = self.seed;
+        let count = counted(self.count)?;
+        let page = self.page.map(|path| Ok::<_, Error>((pages::read(&path)?, path))).transpose()?;
+        if let Some((text, path)) = &page {
+            pages::has_places(path, text, campaign_page::NAMES.into_iter())?;
+        }
+        let moves = count.div_ceil(10);
+        let rests = with_bar("rest to rest", moves, |done| {
+            campaign::rests(seed, moves as usize, ROD_EACH, &|| done(1))
         })?;
-        let bar = progress::bar("reference rod", document::STEPS);
-        let found = document::blocks(&|| bar.inc(1));
-        bar.finish_and_clear();
-        let filled =
-            markers::fill(&text, "still", &found?).map_err(|error| error.within(path.display()))?;
-        if !self.check {
-            let bar = progress::bar("pictures", document::PICTURE_STEPS);
-            let mut files = Files::default();
-            files.add(path, |file| file.write_all(filled.as_bytes()))?;
-            let pictures = document::pictures(&mut files, path, &|| bar.inc(1));
-            bar.finish_and_clear();
-            let pictures = pictures?;
-            files.finish()?;
+        let arms = count.div_ceil(EACH as u64);
+        let interruptions = with_bar("interrupted arms", arms, |done| {
+            campaign::interruptions(seed, arms as usize, EACH, &|| done(1))
+        })?;
+        let blocks = campaign_page::blocks(seed, &rests, &interruptions);
+        for block in &blocks {
+            println!("{}", block.text);
+        }
+        if let Some((text, path)) = &page {
+            pages::write(path, text, &blocks)?;
             println!("{}: filled", path.display());
-            for picture in pictures {
-                println!("{}: drawn", picture.display());
-            }
-            return Ok(ExitCode::SUCCESS);
         }
-        if let Some((old, new)) = markers::difference(&text, &filled) {
-            println!("{}: {old} is now {new}", path.display());
-            println!("  `cargo lab still {}` fills the tables anew", path.display());
-            return Ok(ExitCode::FAILURE);
-        }
-        println!("{}: the tables are true", path.display());
         Ok(ExitCode::SUCCESS)
     }
 }

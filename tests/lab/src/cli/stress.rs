@@ -1,21 +1,35 @@
-//! `stress`: random scenes by the million.
+//! `stress`: random scenes by the million, arms that ring on and runs as long as a machine's life.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use stillbeam_lab::campaign::with_bar;
+use stillbeam_lab::markers::Block;
+use stillbeam_lab::pages;
 use stillbeam_lab::stress::draw::{draw, method_name};
 use stillbeam_lab::stress::trial::trial;
 use stillbeam_lab::stress::{campaign, document, energy, rows, summary::Summary};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::{output, println, progress};
+use stillbeam_sim::{output, println};
+
+use super::{counted, verdict};
+
+/// Undamped arms of the page.
+const ARMS: usize = 100;
+
+/// Ticks of each long run of the page.
+const TICKS: u64 = 100_000_000;
 
 #[derive(clap::Args)]
 pub struct StressArgs {
+    /// A page to be filled with everything: the scenes, the arms that ring on, the long runs
+    #[arg(value_name = "stability.md", conflicts_with_all = ["part", "csv", "scene"])]
+    page: Option<PathBuf>,
     /// How many scenes
-    #[arg(long, default_value_t = 1_000_000)]
-    scenes: u64,
+    #[arg(long, value_name = "N", default_value_t = 1_000_000)]
+    count: u64,
     /// What they are drawn with
-    #[arg(long, default_value_t = 8)]
+    #[arg(long, value_name = "S", default_value_t = 8)]
     seed: u64,
     /// Keep what is done in this file, and go on from it
     #[arg(long, value_name = "OUT.toml")]
@@ -36,41 +50,70 @@ pub struct StressArgs {
 
 impl StressArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
+        counted(self.count)?;
+        if let Some(path) = &self.page {
+            return self.page(path);
+        }
         if let Some(arms) = self.energy {
-            let bar = progress::bar("arms that ring on", arms);
-            let first = self.scene.unwrap_or(0);
-            let rings = energy::rings(self.seed, first, arms, energy::TICKS, &|| bar.inc(1));
-            bar.finish_and_clear();
-            print!("{}", document::energy(&rings));
+            print!("{}", self.rings(arms));
             return Ok(ExitCode::SUCCESS);
         }
         if let Some(index) = self.scene {
             return Ok(self.one(index));
         }
         if let Some(ticks) = self.long {
-            let bar = progress::bar("ticks", document::long_ticks(ticks) as usize);
-            let text = document::long(ticks, &|n| bar.inc(n));
-            bar.finish_and_clear();
-            print!("{}", text?);
+            print!("{}", long(ticks)?);
             return Ok(ExitCode::SUCCESS);
         }
-        // A scene that panics is counted; its message would hide the progress.
-        std::panic::set_hook(Box::new(|_| ()));
         if let Some(path) = &self.csv {
             return self.rows(path);
         }
-        let bar = progress::bar("random scenes", self.scenes as usize);
-        let summary = campaign::run(self.seed, self.scenes, self.part.as_deref(), &|n| bar.inc(n));
-        bar.finish_and_clear();
-        let summary = summary?;
+        let summary = self.summary(self.part.as_deref())?;
         print(&summary);
-        Ok(if summary.faults() == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+        Ok(verdict(summary.faults() == 0))
     }
 
-    fn rows(&self, path: &std::path::Path) -> Result<ExitCode, Error> {
-        let bar = progress::bar("random scenes", self.scenes as usize);
-        let judged = campaign::each(self.seed, 0..self.scenes, &|n| bar.inc(n));
-        bar.finish_and_clear();
+    /// Runs everything and fills the page.
+    fn page(&self, path: &Path) -> Result<ExitCode, Error> {
+        let text = pages::read(path)?;
+        pages::has_places(path, &text, document::NAMES.into_iter())?;
+        let summary = self.summary(None)?;
+        let (arms, ticks) = (self.energy.unwrap_or(ARMS), self.long.unwrap_or(TICKS));
+        let command = |what: String| format!("`cargo lab stress {what}`\n\n");
+        let texts = [
+            document::scenes(&summary),
+            document::reasons(&summary),
+            document::precision(&summary),
+            command(format!("--energy {arms} --seed {}", self.seed)) + &self.rings(arms),
+            command(format!("--long {ticks}")) + &long(ticks)?,
+        ];
+        let named = document::NAMES.into_iter().zip(texts);
+        let blocks: Vec<Block> = named.map(|(name, text)| Block::new(name, text)).collect();
+        pages::write(path, &text, &blocks)?;
+        println!("{}: filled", path.display());
+        Ok(verdict(summary.faults() == 0))
+    }
+
+    fn summary(&self, part: Option<&Path>) -> Result<Summary, Error> {
+        quiet();
+        with_bar("random scenes", self.count, |done| {
+            campaign::run(self.seed, self.count, part, done)
+        })
+    }
+
+    fn rings(&self, arms: usize) -> String {
+        let first = self.scene.unwrap_or(0);
+        let rings = with_bar("arms that ring on", arms as u64, |done| {
+            energy::rings(self.seed, first, arms, energy::TICKS, &|| done(1))
+        });
+        document::energy(&rings)
+    }
+
+    fn rows(&self, path: &Path) -> Result<ExitCode, Error> {
+        quiet();
+        let judged = with_bar("random scenes", self.count, |done| {
+            campaign::each(self.seed, 0..self.count, done)
+        });
         output::write_whole(path, |file| rows::write(file, &judged))?;
         Ok(ExitCode::SUCCESS)
     }
@@ -84,6 +127,15 @@ impl StressArgs {
         }
         ExitCode::SUCCESS
     }
+}
+
+/// A scene that panics is counted; its message would hide the progress.
+fn quiet() {
+    std::panic::set_hook(Box::new(|_| ()));
+}
+
+fn long(ticks: u64) -> Result<String, Error> {
+    with_bar("ticks", document::long_ticks(ticks), |done| document::long(ticks, &|made| done(made)))
 }
 
 fn print(summary: &Summary) {

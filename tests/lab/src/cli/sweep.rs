@@ -1,13 +1,13 @@
 //! `sweep`: run time against error, over many solvers and scenes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use stillbeam_lab::sweep::execute::execute;
-use stillbeam_lab::sweep::plan::{Plan, Shard};
+use stillbeam_lab::sweep::plan::Plan;
 use stillbeam_lab::sweep::spec::Spec;
+use stillbeam_lab::sweep::{execute, row};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::{console, println};
+use stillbeam_sim::{console, output, println};
 
 #[derive(clap::Args)]
 pub struct SweepArgs {
@@ -16,12 +16,6 @@ pub struct SweepArgs {
     /// Where the rows go, one a case
     #[arg(long, value_name = "OUT.csv")]
     csv: PathBuf,
-    /// Only the i-th of n parts, for n machines; join them with `merge`
-    #[arg(long, value_name = "i/n")]
-    shard: Option<String>,
-    /// Go on where an interrupted sweep has stopped; run what OUT.csv lacks
-    #[arg(long)]
-    resume: bool,
 }
 
 impl SweepArgs {
@@ -33,18 +27,23 @@ impl SweepArgs {
         for scene in &spec.scenes {
             console::open(scene)?;
         }
-        let shard = self.shard.as_deref().map_or(Ok(Shard::WHOLE), str::parse)?;
         let plan = Plan::new(&spec)?;
-        let done = execute(&plan, shard, &self.csv, self.resume)?;
-        println!("{} of {} cases to {}", done.cases, plan.cases.len(), self.csv.display());
-        if self.resume {
-            println!("  {} run, {} timed; the others were there", done.run, done.timed);
-        }
-        if shard == Shard::WHOLE {
-            println!("  `cargo lab pareto {} --out DIR` draws them", self.csv.display());
-        } else {
-            println!("  `cargo lab merge OUT.csv SHARD.csv...` joins the shards");
-        }
+        write(&plan, &self.csv)?;
+        println!("{} cases to {}", plan.cases.len(), self.csv.display());
+        println!("  `cargo lab pareto {} --out DIR` draws them", self.csv.display());
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// Runs a plan into a file. A path that cannot be written is refused before the cases run.
+fn write(plan: &Plan, path: &Path) -> Result<(), Error> {
+    let mut failed = None;
+    output::write_whole(path, |file| match execute::rows(plan) {
+        Ok(rows) => row::write(file, &rows),
+        Err(error) => {
+            failed = Some(error);
+            Err(std::io::Error::other("a case failed"))
+        }
+    })
+    .map_err(|error| failed.unwrap_or(error))
 }

@@ -2,7 +2,6 @@
 
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
-use rayon::prelude::*;
 use stillbeam::axis::{Cause, Mode};
 use stillbeam::drive::ClassicFrame;
 use stillbeam::{Move, Profile};
@@ -13,6 +12,7 @@ use super::board::PERIOD;
 use super::line::Line;
 use super::machine::{CONFIGURATIONS, Configuration, SILENCE, TICK, ticks};
 use super::{Board, Drive, Fault, Outcome, Watch, host, stops};
+use crate::campaign::{self, chunks};
 use stillbeam_sim::error::Error;
 
 /// Ticks of a run before the host falls silent: 8 s.
@@ -37,17 +37,13 @@ pub fn all(
 
 /// One kind of fault `count` times.
 pub fn of(fault: Fault, seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Result<Outcome, Error> {
-    (0..count)
-        .into_par_iter()
-        .map(|index| {
-            let outcome = one(fault, seed, index)?;
-            done();
-            Ok(outcome)
-        })
-        .try_reduce(Outcome::default, |mut a, b| {
-            a.add(b);
-            Ok(a)
-        })
+    let mut total = Outcome::default();
+    for numbers in chunks(0, count) {
+        for outcome in campaign::each("run", numbers, done, |index| one(fault, seed, index)) {
+            total.add(outcome?);
+        }
+    }
+    Ok(total)
 }
 
 /// Run `index` of a kind of fault.

@@ -1,7 +1,7 @@
 //! The campaign as a table.
 
 use super::Outcome;
-use crate::sweep::tables::{aligned, grouped};
+use crate::table::{aligned, grouped};
 
 /// A line a fault, in Markdown: what was injected, how often, what came out.
 pub fn markdown(rows: &[(&str, Outcome)]) -> String {

@@ -6,8 +6,9 @@ use super::condition::{self, Loss};
 use super::map::Map;
 use super::probe::Verdict;
 use super::rule::RULES;
+use crate::markers::Block;
 use crate::stress::document::ranges;
-use crate::sweep::tables::aligned;
+use crate::table::aligned;
 use stillbeam_sim::error::Error;
 
 /// `ω₁h` of the table of conditions.
@@ -40,7 +41,7 @@ impl Findings {
     }
 
     /// The blocks, by name.
-    pub fn blocks(&self) -> Vec<(String, String)> {
+    pub fn blocks(&self) -> Vec<Block> {
         [
             ("ranges", ranges()),
             ("moves", self.moves()),
@@ -48,7 +49,7 @@ impl Findings {
             ("rules", rules()),
             ("condition", self.conditions()),
         ]
-        .map(|(name, block)| (name.to_owned(), block))
+        .map(|(name, text)| Block::new(name, text))
         .to_vec()
     }
 

@@ -9,7 +9,7 @@ use super::document::Findings;
 use super::map::Map;
 use super::rule::RULES;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::output;
+use stillbeam_sim::output::Files;
 use stillbeam_sim::plot::{Axis, Chart, Dash, Series};
 use stillbeam_sim::report::parts::{figure, page};
 
@@ -34,11 +34,12 @@ pub fn write(folder: &Path, findings: &Findings) -> Result<PathBuf, Error> {
         .extend(["rules-radius.svg", "rules-period.svg"].map(str::to_owned).into_iter().zip(rules));
     let names = ["condition-solution.svg", "condition-product.svg"].map(str::to_owned);
     pictures.extend(names.into_iter().zip(conditions));
+    let mut files = Files::default();
     for (name, chart) in pictures {
         let svg = chart.svg()?;
-        output::write_whole(&folder.join(name), |file| file.write_all(svg.as_bytes()))?;
+        files.add(&folder.join(name), |file| file.write_all(svg.as_bytes()))?;
     }
-    output::write_whole(&folder.join(DATA), |file| {
+    files.add(&folder.join(DATA), |file| {
         let mut csv = csv::Writer::from_writer(file);
         csv.write_record(["map", "solver", "x", "y", "verdict"])?;
         for (what, maps) in [("moves", findings.moving()), ("spins", findings.spinning())] {
@@ -52,8 +53,16 @@ pub fn write(folder: &Path, findings: &Findings) -> Result<PathBuf, Error> {
         }
         csv.flush()
     })?;
-    output::write_whole(&index, |file| file.write_all(text.as_bytes()))?;
+    files.add(&index, |file| file.write_all(text.as_bytes()))?;
+    files.finish()?;
     Ok(index)
+}
+
+/// The picture of `docs/stability.md`: elastica with two modes, fast, over rates.
+pub fn picture(findings: &Findings) -> Result<String, Error> {
+    let elastica = findings.spinning().iter().find(|map| map.name == "elastica-2-fast");
+    let elastica = elastica.ok_or_else(|| Error::new("maps: must hold elastica-2-fast"))?;
+    spinning_chart(elastica).svg()
 }
 
 fn moving_chart(map: &Map) -> Chart {
@@ -62,7 +71,7 @@ fn moving_chart(map: &Map) -> Chart {
 }
 
 /// Over rates.
-pub fn spinning_chart(map: &Map) -> Chart {
+fn spinning_chart(map: &Map) -> Chart {
     let x = Axis::log("\u{3c9}\u{2081}h, rad").limits(0.008, 12.5);
     map.chart(x, Axis::linear("rate that is held, \u{3c9}\u{2081}").limits(-0.2, 5.2))
 }

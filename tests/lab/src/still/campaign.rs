@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
-use rayon::prelude::*;
 use stillbeam::model::Rod;
 use stillbeam::planner::{Kinematics, Planner, Request, StillMove, Target};
 use stillbeam::stepper::{Elastica, Flex, Quality};
@@ -12,6 +11,7 @@ use stillbeam::{
     Damping, Error as CoreError, Generator, Hub, Limits, Link, Move, Payload, Profile, Scene,
 };
 
+use crate::campaign;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::judge::Motion;
 use stillbeam_sim::reference::rod;
@@ -80,43 +80,40 @@ pub fn rests(
     rod_each: usize,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Rest>, Error> {
-    (0..count)
-        .into_par_iter()
-        .map(|index| {
-            let mut rng = StdRng::seed_from_u64(seed.wrapping_add(index as u64));
-            let arm = arm(&mut rng);
-            let tick = tick(&arm)?;
-            let planner = Planner::<f32, 2>::new(&arm, tick)?;
-            let (from, to) = (rng.random_range(-3.2..3.2), rng.random_range(-3.2..3.2));
-            let ratio = rng.random_range(0.9..4.0);
-            let duration = ratio * planner.first_period() + 0.5 * tick;
-            let by_rod = index % rod_each == 0;
-            let request = Request::from_rest(from, to).duration(duration).any_deflection();
-            let plan = planner.plan(&request).and_then(|plan| {
-                planner.predict(&plan, None).admit(&Limits::default(), arm.link.length)?;
-                Ok(plan)
-            });
-            let residual = match plan {
-                Err(error) => Err(kind(&error)),
-                Ok(plan) => {
-                    let linear = planner.plan(&request.kinematics(Kinematics::Linear))?;
-                    let length = arm.link.length;
-                    let judge = |motion: Move| -> Result<f64, Error> {
-                        Ok(Motion::of(from, motion, tick).judge(&arm, 0.0)?.residual)
-                    };
-                    Ok(if by_rod {
-                        (judge(plan.motion())?, judge(linear.motion())?)
-                    } else {
-                        let fine = Planner::<f64, 3>::new(&arm, tick)?;
-                        let left = |plan| fine.predict(plan, None).residual / length;
-                        (left(&plan), left(&linear))
-                    })
-                }
-            };
-            done();
-            Ok(Rest { ratio, residual, by_rod })
-        })
-        .collect()
+    let found = campaign::each("move", 0..count as u64, done, |index| {
+        let mut rng = StdRng::seed_from_u64(seed.wrapping_add(index));
+        let arm = arm(&mut rng);
+        let tick = tick(&arm)?;
+        let planner = Planner::<f32, 2>::new(&arm, tick)?;
+        let (from, to) = (rng.random_range(-3.2..3.2), rng.random_range(-3.2..3.2));
+        let ratio = rng.random_range(0.9..4.0);
+        let duration = ratio * planner.first_period() + 0.5 * tick;
+        let by_rod = index.is_multiple_of(rod_each as u64);
+        let request = Request::from_rest(from, to).duration(duration).any_deflection();
+        let plan = planner.plan(&request).and_then(|plan| {
+            planner.predict(&plan, None).admit(&Limits::default(), arm.link.length)?;
+            Ok(plan)
+        });
+        let residual = match plan {
+            Err(error) => Err(kind(&error)),
+            Ok(plan) => {
+                let linear = planner.plan(&request.kinematics(Kinematics::Linear))?;
+                let length = arm.link.length;
+                let judge = |motion: Move| -> Result<f64, Error> {
+                    Ok(Motion::of(from, motion, tick).judge(&arm, 0.0)?.residual)
+                };
+                Ok(if by_rod {
+                    (judge(plan.motion())?, judge(linear.motion())?)
+                } else {
+                    let fine = Planner::<f64, 3>::new(&arm, tick)?;
+                    let left = |plan| fine.predict(plan, None).residual / length;
+                    (left(&plan), left(&linear))
+                })
+            }
+        };
+        Ok(Rest { ratio, residual, by_rod })
+    });
+    found.into_iter().collect()
 }
 
 /// One interrupted move.
@@ -146,16 +143,13 @@ pub fn interruptions(
     each: usize,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Interruption>, Error> {
-    let of_arm = |index: usize| -> Result<Vec<Interruption>, Error> {
-        let mut rng = StdRng::seed_from_u64(seed.wrapping_add(index as u64));
+    let all = campaign::each("arm", 0..arms as u64, done, |index| {
+        let mut rng = StdRng::seed_from_u64(seed.wrapping_add(index));
         let arm = arm(&mut rng);
         let case = Case::new(&arm, &mut rng)?;
-        let found = (0..each).map(|_| case.interrupt(&mut rng)).collect();
-        done();
-        found
-    };
-    let all: Result<Vec<_>, Error> = (0..arms).into_par_iter().map(of_arm).collect();
-    Ok(all?.into_iter().flatten().collect())
+        (0..each).map(|_| case.interrupt(&mut rng)).collect::<Result<Vec<_>, Error>>()
+    });
+    Ok(all.into_iter().collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect())
 }
 
 /// An arm, as it is and with another payload.

@@ -8,7 +8,8 @@ use stillbeam::planner::{Planner, Request};
 use stillbeam::{Error as CoreError, Profile, Scene};
 
 use super::duration::durations;
-use crate::sweep::tables::aligned;
+use crate::markers::Block;
+use crate::table::aligned;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::output::Files;
 use stillbeam_sim::plan::contest::{self, ERRORS, Entry, percent};
@@ -36,17 +37,17 @@ pub const STEPS: usize = 112;
 pub const PICTURE_STEPS: usize = 28;
 
 /// Everything between markers, by name.
-pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<(String, String)>, Error> {
-    let mut blocks = vec![("residual".to_owned(), residuals(done)?)];
+pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<Block>, Error> {
+    let mut blocks = vec![Block::new("residual", residuals(done)?)];
     let arm = arm("a-tip30")?;
     let period = rod::first_period(&arm)?;
     for ratio in CONTEST {
         let duration = (ratio * period / TICK).round() * TICK;
         let entries = contest::entries(&arm, PI, duration, TICK, done)?;
-        blocks.push((format!("contest-{ratio}"), contest_table(&entries, duration)));
+        blocks.push(Block::new(format!("contest-{ratio}"), contest_table(&entries, duration)));
     }
-    blocks.push(("robust".to_owned(), robust_table(done)?));
-    blocks.push(("durations".to_owned(), duration_table(&arm, period)?));
+    blocks.push(Block::new("robust", robust_table(done)?));
+    blocks.push(Block::new("durations", duration_table(&arm, period)?));
     Ok(blocks)
 }
 

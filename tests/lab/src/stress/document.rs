@@ -6,8 +6,11 @@ use super::draw::RANGES;
 use super::energy::Ring;
 use super::long;
 use super::summary::{Summary, bound};
-use crate::sweep::tables::{aligned, grouped};
+use crate::table::{aligned, grouped};
 use stillbeam_sim::error::Error;
+
+/// Names of the blocks: [`scenes`], [`reasons`], [`precision`], [`energy()`], [`long()`].
+pub const NAMES: [&str; 5] = ["scenes", "reasons", "precision", "energy", "long"];
 
 fn words<const N: usize>(line: [&str; N]) -> Vec<String> {
     line.map(str::to_owned).to_vec()
@@ -40,7 +43,7 @@ pub fn scenes(summary: &Summary) -> String {
         lines.push(line);
     }
     let mut text = format!(
-        "`cargo lab stress --scenes {} --seed {}`: {} ticks.\n\n{}",
+        "`cargo lab stress --count {} --seed {}`: {} ticks.\n\n{}",
         summary.scenes,
         summary.seed,
         grouped(summary.ticks),

@@ -1,9 +1,8 @@
 //! Run time against error: every combination of solvers and scenes, judged by the reference rod.
 //!
 //! In the order of the data: a spec ([`spec`]) becomes a numbered list of cases ([`plan`]); each
-//! case gives its error ([`measure`]) and, one at a time, its cost ([`cost`]); rows ([`row`]) grow
-//! in files that survive an interruption ([`part`], [`execute`]) and are joined from shards
-//! ([`merge`]). What is read out of them: the front ([`pareto`]), the answers to a reader's
+//! case gives its error ([`measure`]) and, one at a time, its cost ([`cost`]); [`execute`] collects
+//! the rows ([`row`]). What is read out of them: the front ([`pareto`]), the answers to a reader's
 //! questions ([`answers`]), a page with pictures ([`picture`], [`page`]) and README's tables
 //! ([`tables`]).
 //!
@@ -14,10 +13,8 @@ pub mod answers;
 pub mod cost;
 pub mod execute;
 pub mod measure;
-pub mod merge;
 pub mod page;
 pub mod pareto;
-pub mod part;
 pub mod picture;
 pub mod plan;
 pub mod row;

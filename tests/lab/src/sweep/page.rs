@@ -6,7 +6,7 @@ use maud::{Markup, html};
 
 use super::answers::bases;
 use super::picture::{Picture, describe, ends, overview};
-use super::row::header;
+use super::row;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::output::Files;
 use stillbeam_sim::report::parts::{Table, figure, page};
@@ -23,14 +23,8 @@ pub fn write(folder: &Path, pictures: &[Picture<'_>]) -> Result<PathBuf, Error> 
         let name = file_name(&picture.scene);
         let path = folder.join(format!("{name}.svg"));
         files.add(&path, |file| file.write_all(svg.as_bytes()))?;
-        files.add(&folder.join(format!("{name}.csv")), |file| {
-            let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(file);
-            csv.write_record(header())?;
-            for row in &picture.rows {
-                row.write(&mut csv)?;
-            }
-            csv.flush()
-        })?;
+        let csv = folder.join(format!("{name}.csv"));
+        files.add(&csv, |file| row::write(file, picture.rows.iter().copied()))?;
     }
     files.add(&page, |file| file.write_all(text.as_bytes()))?;
     files.finish()?;

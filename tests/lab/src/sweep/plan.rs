@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use super::row::{CaseId, Row};
+use super::row::CaseId;
 use super::spec::Spec;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
@@ -43,15 +43,6 @@ struct Motion {
     /// Their setpoint times, rising.
     times: Vec<f64>,
     solution: OnceLock<Result<Vec<stillbeam_sim::table::Row>, Error>>,
-}
-
-/// Every n-th case, from the i-th on, so that long scenes spread over all shards.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Shard {
-    /// From 1.
-    pub index: usize,
-    /// How many shards there are.
-    pub count: usize,
 }
 
 impl Plan {
@@ -129,11 +120,6 @@ impl Plan {
         format!("{hash:016x}")
     }
 
-    /// Numbers of the cases of a shard, rising.
-    pub fn shard(&self, shard: Shard) -> Vec<usize> {
-        (shard.index - 1..self.cases.len()).step_by(shard.count).collect()
-    }
-
     /// The scene of a case.
     pub fn scene(&self, case: &Case) -> &SceneFile {
         &self.scenes[case.scene]
@@ -149,30 +135,9 @@ impl Plan {
         }
     }
 
-    /// The index of the case that a row belongs to; refuses the rows of another sweep.
-    pub fn index_of(&self, row: &Row) -> Result<usize, Error> {
-        let index = (row.id.case as usize).wrapping_sub(1);
-        let known = self.cases.get(index);
-        if known.is_some_and(|case| case.keys == row.keys && self.id(index) == row.id) {
-            return Ok(index);
-        }
-        Err(Error::new(format_args!(
-            "sweep = {}, case {} of {}: must be rows of this sweep, {} with {} cases; its \
-             spec, a scene or the program has changed",
-            row.id.sweep,
-            row.id.case,
-            row.id.cases,
-            self.name,
-            self.cases.len()
-        )))
-    }
-
-    /// The reference solutions that these cases need: their numbers.
-    pub fn references(&self, cases: &[usize]) -> Vec<usize> {
-        let mut needed: Vec<usize> = cases.iter().map(|&index| self.cases[index].motion).collect();
-        needed.sort_unstable();
-        needed.dedup();
-        needed
+    /// The number of reference solutions that the cases share.
+    pub fn references(&self) -> usize {
+        self.motions.len()
     }
 
     /// A reference solution by number, solved on first use.
@@ -198,23 +163,4 @@ fn same_durations(a: &Trajectory, b: &Trajectory) -> bool {
             .collect()
     };
     nanoseconds(a) == nanoseconds(b)
-}
-
-impl Shard {
-    /// The whole sweep.
-    pub const WHOLE: Self = Self { index: 1, count: 1 };
-}
-
-impl std::str::FromStr for Shard {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self, Error> {
-        let parsed = text.split_once('/').and_then(|(index, count)| {
-            let shard = Self { index: index.parse().ok()?, count: count.parse().ok()? };
-            (1..=shard.count).contains(&shard.index).then_some(shard)
-        });
-        parsed.ok_or_else(|| {
-            Error::new(format_args!("--shard = {text}: must be i/n with 1 <= i <= n"))
-        })
-    }
 }

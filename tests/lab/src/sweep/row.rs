@@ -111,7 +111,7 @@ impl Row {
     }
 
     /// Writes the row as CSV.
-    pub fn write<W: std::io::Write>(&self, csv: &mut csv::Writer<W>) -> Result<(), csv::Error> {
+    fn write<W: std::io::Write>(&self, csv: &mut csv::Writer<W>) -> Result<(), csv::Error> {
         match &self.cost {
             Some(_) => csv.serialize(self),
             // An absent struct would be one empty field; it has five.
@@ -137,6 +137,22 @@ impl Row {
     }
 }
 
+/// Writes rows as CSV, behind the header.
+///
+/// # Errors
+/// What the file said.
+pub fn write<'a>(
+    file: &mut dyn std::io::Write,
+    rows: impl IntoIterator<Item = &'a Row>,
+) -> std::io::Result<()> {
+    let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(file);
+    csv.write_record(header())?;
+    for row in rows {
+        row.write(&mut csv)?;
+    }
+    csv.flush()
+}
+
 /// The rows of a file, one at a time. Each error names the file and the line.
 pub struct Rows {
     path: PathBuf,
@@ -147,7 +163,7 @@ pub struct Rows {
 impl Rows {
     /// Opens a file; refuses one with another header.
     pub fn open(path: &Path) -> Result<Self, Error> {
-        let wanted = "must be a CSV of sweep or merge";
+        let wanted = "must be a CSV of sweep";
         let refuse = |error: csv::Error| Error::file(path, format_args!("{error}; {wanted}"));
         let mut csv = csv::Reader::from_path(path).map_err(refuse)?;
         let found = csv.headers().map_err(refuse)?;
@@ -158,19 +174,9 @@ impl Rows {
         Ok(Self { path: path.to_owned(), csv, record: csv::StringRecord::new() })
     }
 
-    /// Where the rows come from.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// The latest row as it stands in the file.
-    pub fn record(&self) -> &csv::StringRecord {
-        &self.record
-    }
-
     fn read(&mut self) -> Result<Option<Row>, Error> {
         if !self.csv.read_record(&mut self.record).map_err(|error| {
-            Error::file(&self.path, format_args!("{error}; must be a CSV of sweep or merge"))
+            Error::file(&self.path, format_args!("{error}; must be a CSV of sweep"))
         })? {
             return Ok(None);
         }
@@ -231,11 +237,8 @@ pub(super) mod tests {
     fn rows_come_back_from_the_file_they_went_to() {
         let rows =
             [row(1, 0.125, Some(40.0)), row(2, 0.25, None), row(3, f64::INFINITY, Some(1.0))];
-        let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
-        csv.write_record(header()).unwrap();
-        rows.iter().for_each(|row| row.write(&mut csv).unwrap());
-        let file = tempfile::NamedTempFile::new().unwrap();
-        std::fs::write(file.path(), csv.into_inner().unwrap()).unwrap();
+        let mut file = tempfile::NamedTempFile::new().unwrap();
+        write(&mut file, &rows).unwrap();
         let back: Vec<Row> = Rows::open(file.path()).unwrap().map(Result::unwrap).collect();
         assert_eq!(back, rows);
     }

@@ -1,0 +1,226 @@
+//! The pages with blocks that take seconds: written, or checked, by one command.
+
+use std::cell::OnceCell;
+use std::path::{Path, PathBuf};
+
+use stillbeam_sim::error::Error;
+use stillbeam_sim::output::Files;
+
+use crate::campaign::with_bar;
+use crate::markers::{self, Block, Difference};
+use crate::stability::{self, document::Findings, map};
+use crate::sweep::row::Row;
+use crate::sweep::tables;
+use crate::{choice, still};
+
+/// A page, by its path from the root of the repository, and the blocks that are written here. Other
+/// blocks of the same page are written by campaigns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Page {
+    /// Path from the root.
+    pub path: &'static str,
+    /// Names of its blocks.
+    pub blocks: &'static [&'static str],
+    source: Source,
+}
+
+/// What computes the blocks of a page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Source {
+    Tables,
+    Still,
+    Stability,
+    Auto,
+}
+
+/// Every page.
+pub const PAGES: [Page; 5] = [
+    Page { path: "README.md", blocks: &["accuracy"], source: Source::Tables },
+    Page { path: "docs/accuracy.md", blocks: &["accuracy", "torque"], source: Source::Tables },
+    Page {
+        path: "docs/still.md",
+        blocks: &["residual", "contest-1.5", "contest-2", "contest-3", "robust", "durations"],
+        source: Source::Still,
+    },
+    Page {
+        path: "docs/stability.md",
+        blocks: &["ranges", "moves", "spins", "rules", "condition"],
+        source: Source::Stability,
+    },
+    Page { path: "docs/auto.md", blocks: &["command", "arms"], source: Source::Auto },
+];
+
+/// Finds a page by its path.
+///
+/// # Errors
+/// A path that is no page's.
+pub fn named(path: &str) -> Result<Page, Error> {
+    PAGES.into_iter().find(|page| page.path == path).ok_or_else(|| {
+        let known = PAGES.map(|page| page.path).join(", ");
+        Error::new(format_args!("page = \"{path}\": must be {known}"))
+    })
+}
+
+/// Reads a page.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn read(path: &Path) -> Result<String, Error> {
+    std::fs::read_to_string(path).map_err(|cause| {
+        Error::file(path, format_args!("{cause}; must be a text file that can be read"))
+    })
+}
+
+/// Refuses a page without a place for these blocks: before a campaign runs for them, not after.
+///
+/// # Errors
+/// A block whose markers are missing, by its name.
+pub fn has_places<'a>(
+    path: &Path,
+    text: &str,
+    mut names: impl Iterator<Item = &'a str>,
+) -> Result<(), Error> {
+    names
+        .try_for_each(|name| markers::block(text, name).map(drop))
+        .map_err(|error| error.within(path.display()))
+}
+
+/// Writes a page whose blocks a campaign has found.
+///
+/// # Errors
+/// A block without a place, or a path that cannot be written.
+pub fn write(path: &Path, text: &str, blocks: &[Block]) -> Result<(), Error> {
+    let filled = markers::fill(text, blocks).map_err(|error| error.within(path.display()))?;
+    stillbeam_sim::output::write_whole(path, |file| file.write_all(filled.as_bytes()))
+}
+
+/// The pages below a root, with what several of them are written from.
+pub struct Pages {
+    root: PathBuf,
+    rows: OnceCell<Vec<Row>>,
+    findings: OnceCell<Findings>,
+}
+
+impl Pages {
+    /// The pages of the repository at `root`.
+    pub fn at(root: &Path) -> Self {
+        Self { root: root.to_owned(), rows: OnceCell::new(), findings: OnceCell::new() }
+    }
+
+    /// Compares a page with what it would be if it were written now.
+    ///
+    /// # Errors
+    /// A page that cannot be read or has no place for a block, or a computation that fails.
+    pub fn check(&self, page: &Page) -> Result<Option<Difference>, Error> {
+        let (text, filled) = self.filled(page)?;
+        Ok(markers::difference(&text, &filled))
+    }
+
+    /// Writes a page and its pictures, all or none. Returns what was written.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check), and a path that cannot be written.
+    pub fn write(&self, page: &Page) -> Result<Vec<PathBuf>, Error> {
+        let (_, filled) = self.filled(page)?;
+        let path = self.root.join(page.path);
+        let mut files = Files::default();
+        files.add(&path, |file| file.write_all(filled.as_bytes()))?;
+        match page.source {
+            Source::Still => {
+                with_bar("pictures", still::document::PICTURE_STEPS as u64, |done| {
+                    still::document::pictures(&mut files, &path, &|| done(1))
+                })?;
+            }
+            Source::Stability => {
+                let svg = stability::page::picture(self.findings()?)?;
+                files.add(&path.with_extension("svg"), |file| file.write_all(svg.as_bytes()))?;
+            }
+            Source::Tables | Source::Auto => {}
+        }
+        files.finish()
+    }
+
+    /// A page as it stands, and with its blocks as they are now.
+    fn filled(&self, page: &Page) -> Result<(String, String), Error> {
+        let path = self.root.join(page.path);
+        let text = read(&path)?;
+        has_places(&path, &text, page.blocks.iter().copied())?;
+        let blocks = self.blocks(page, &text)?;
+        let filled = markers::fill(&text, &blocks).map_err(|error| error.within(path.display()))?;
+        Ok((text, filled))
+    }
+
+    fn blocks(&self, page: &Page, text: &str) -> Result<Vec<Block>, Error> {
+        let all = match page.source {
+            Source::Tables => tables::blocks(self.rows()?),
+            Source::Still => with_bar("reference rod", still::document::STEPS as u64, |done| {
+                still::document::blocks(&|| done(1))
+            })?,
+            Source::Stability => self.findings()?.blocks(),
+            Source::Auto => choice::blocks(text)?,
+        };
+        Ok(all.into_iter().filter(|block| page.blocks.contains(&block.name.as_str())).collect())
+    }
+
+    fn rows(&self) -> Result<&[Row], Error> {
+        match self.rows.get() {
+            Some(rows) => Ok(rows),
+            None => {
+                let found = tables::rows()?;
+                Ok(self.rows.get_or_init(|| found))
+            }
+        }
+    }
+
+    fn findings(&self) -> Result<&Findings, Error> {
+        match self.findings.get() {
+            Some(findings) => Ok(findings),
+            None => {
+                let found =
+                    with_bar("maps", map::STEPS as u64, |done| Findings::compute(&|| done(1)))?;
+                Ok(self.findings.get_or_init(|| found))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every page of the repository has a place for each of its blocks, once.
+    #[test]
+    fn the_pages_have_their_places() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        for page in PAGES {
+            let text = read(&root.join(page.path)).unwrap();
+            has_places(Path::new(page.path), &text, page.blocks.iter().copied()).unwrap();
+            for name in page.blocks {
+                let start = format!("<!-- lab:{name} -->");
+                assert_eq!(text.matches(&start).count(), 1, "{}: {start}", page.path);
+            }
+        }
+    }
+
+    #[test]
+    fn a_page_that_there_is_not_is_refused() {
+        assert_eq!(named("docs/still.md").unwrap().path, "docs/still.md");
+        let error = named("docs/styl.md").unwrap_err().to_string();
+        assert!(error.starts_with("page = \"docs/styl.md\": must be README.md, "), "{error}");
+    }
+
+    /// Checked without the campaign: what a page says of its command and its distribution.
+    #[test]
+    fn a_page_of_auto_that_names_other_arms_is_found() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("docs")).unwrap();
+        let path = folder.path().join("docs/auto.md");
+        let page = named("docs/auto.md").unwrap();
+        std::fs::write(&path, choice::page(3, &[])).unwrap();
+        assert_eq!(Pages::at(folder.path()).check(&page).unwrap(), None);
+        let text = choice::page(3, &[]).replace("2 to 20 ms", "2 to 30 ms");
+        std::fs::write(&path, text).unwrap();
+        let found = Pages::at(folder.path()).check(&page).unwrap().unwrap();
+        assert!(found.old.unwrap().contains("30 ms") && found.new.unwrap().contains("20 ms"));
+    }
+}
