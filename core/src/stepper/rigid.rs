@@ -85,7 +85,7 @@ impl<T: Scalar> Stepper for Rigid<T> {
 #[cfg(test)]
 mod tests {
     use super::Rigid;
-    use crate::stepper::Stepper;
+    use crate::stepper::{AnyMotion, Stepper};
     use crate::{Angle, HubState, Link, Scene};
 
     /// Without a link that bends the torque is inertia times acceleration, `(m L²/3 + m_p L²) θ̈`.
@@ -96,7 +96,7 @@ mod tests {
         let arm = Rigid::<f64>::new(&scene, 0.01).expect("an arm");
         let mut hub = HubState::at_rest(Angle { turns: 3, part: 0.2 });
         hub.acceleration = 4.0;
-        let response = arm.response(&(), &hub);
+        let response = arm.response::<AnyMotion>(&(), &hub);
         let expected = (0.3 / 3.0 + 0.2) * 0.25 * 4.0;
         assert!((response.torque - expected).abs() < 1e-15, "{} N m", response.torque);
         assert_eq!(response.tip, [0.5, 0.0]);
