@@ -1,7 +1,6 @@
 //! The instruction table: what the bench counted, as CSV and as the page in `docs/`.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use crate::emulator::{self, Board, Clock, LIMIT};
 use crate::{firmware, image};
