@@ -6,7 +6,7 @@ use stillbeam::axis::Sequence;
 use stillbeam::drive::cia402::{Drive, InterpolationPeriod, sync};
 use stillbeam::drive::{ClassicFrame, Saturated};
 
-use crate::common::{demand, demands, not_finite};
+use super::common::{demand, demands, not_finite};
 
 fn drive() -> Drive {
     Drive::new(3, 10_000, 2.0).unwrap()

@@ -5,7 +5,7 @@ use moteus_protocol::{CanFdFrame, calculate_arbitration_id};
 use proptest::prelude::*;
 use stillbeam::drive::moteus::{BYTES, Servo};
 
-use crate::common::{demand, demands, not_finite};
+use super::common::{demand, demands, not_finite};
 
 /// By hand from the documentation: `01 00 0a` mode position, `0f 20` three floats from 0x020,
 /// 0.5, 1.0, −2.0, `0d 27` one float to 0x027, 0.1 s, filled up to 24 with `50`.

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use stillbeam::drive::odrive::{EncoderEstimates, Node, decode, encode};
 use stillbeam::drive::{ClassicFrame, Saturated};
 
-use crate::common::{demand, demands, not_finite};
+use super::common::{demand, demands, not_finite};
 
 fn standard(id: u16) -> Id {
     Id::Standard(StandardId::new(id).unwrap())

@@ -5,7 +5,7 @@ use stillbeam::axis::{Axis, Cause, Mode, Pace, Policy};
 use stillbeam::{Error, Move, Profile};
 use stillbeam_tests::assert_near;
 
-use crate::common::{
+use super::common::{
     Arm, LIMITS, POLICY, TICK, ask, assert_continuous, disabled, enabled, radians, run, stepper,
     stepper_at, to, turns,
 };

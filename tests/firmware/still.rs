@@ -5,7 +5,7 @@ use stillbeam::planner::Planner;
 use stillbeam::{Error, Limits, Link, Move, Scene};
 use stillbeam_tests::assert_near;
 
-use crate::common::{Arm, LIMITS, POLICY, TICK, ask, assert_continuous, enabled, radians, run};
+use super::common::{Arm, LIMITS, POLICY, TICK, ask, assert_continuous, enabled, radians, run};
 
 const LINK: Link = Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 };
 

@@ -5,7 +5,7 @@ use stillbeam::axis::{Cause, Mode, Policy};
 use stillbeam::{Limits, Move, Profile};
 use stillbeam_tests::assert_near;
 
-use crate::common::{Arm, LIMITS, POLICY, TICK, ask, assert_continuous, enabled, run, to};
+use super::common::{Arm, LIMITS, POLICY, TICK, ask, assert_continuous, enabled, run, to};
 
 /// Stops after `ticks` ticks of the moves and runs on; checks everything a stop promises.
 fn stopped(mut axis: Arm, moves: &[Move], ticks: u32, limits: &Limits) -> (Arm, u32) {

@@ -1,19 +1,21 @@
-# What `run` and `long` share; read from the folder of both.
+# What `run` and `long` share; read from the folder of both. `folder`: where each builds, below target/.
 
 TARGETS="scene frames axis odrive cia402 moteus"
 
-# Release speed with overflow and debug assertions on. The core forbids unsafe code: what an address
+# With overflow and debug assertions on. The core forbids unsafe code: what an address
 # sanitizer looks for is Miri's part here.
-BUILD="--fuzz-dir . --target-dir ../../../target/fuzz --sanitizer none"
+BUILD="--fuzz-dir . --target-dir ../../../target/$folder --sanitizer none"
 
 build_targets() {
     (cd targets && cargo fuzz --version >/dev/null 2>&1) || {
         echo "cargo-fuzz is missing: cargo install --locked cargo-fuzz" >&2
         return 1
     }
-    for target in $1; do
+    # Of all targets at once, cargo links several side by side.
+    [ "$1" != "$TARGETS" ] || set -- ""
+    for target in ${1:-""}; do
         # shellcheck disable=SC2086
-        (cd targets && cargo fuzz build $BUILD "$target")
+        (cd targets && cargo fuzz build $BUILD $target)
     done
 }
 

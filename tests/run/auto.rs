@@ -13,7 +13,7 @@ use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
 use stillbeam_sim::truth::{self, Reference};
-use stillbeam_tests::root;
+use stillbeam_tests::{instructions, root};
 
 /// Another seed than the document's.
 const SEED: u64 = 1;
@@ -32,22 +32,21 @@ fn choices_keep_the_tolerance_and_are_cheap() {
 }
 
 /// Instructions of the worst tick inside a cubic.
-fn instructions(rows: &str, rung: Rung, skip: &str) -> Option<u32> {
+fn worst(rows: &str, rung: Rung, skip: &str) -> Option<u32> {
     let (method, size, quality) = match rung {
         Rung::Rigid => ("rigid", 0, ""),
         Rung::Modal(modes) => ("modal", modes, ""),
         Rung::Elastica(modes, Quality::Fast) => ("elastica", modes, "fast"),
         Rung::Elastica(modes, Quality::Fine) => ("elastica", modes, "fine"),
     };
-    let key = format!("{method},{size},{quality},{skip},");
-    let row = rows.lines().find_map(|row| row.strip_prefix(&key))?;
-    Some(row.split(',').nth(1)?.parse().expect("tick_max"))
+    let key = [method, &size.to_string(), quality, skip].map(str::to_owned);
+    instructions::ticks(rows).expect("the table").get(&key).copied()
 }
 
 /// The same; three modes, fast, have no row of their own as long as the bench does not count them: the
 /// part of a fine tick that two modes' is.
 fn cost(rows: &str, rung: Rung, skip: &str) -> u32 {
-    let counted = |rung| instructions(rows, rung, skip);
+    let counted = |rung| worst(rows, rung, skip);
     counted(rung).unwrap_or_else(|| {
         assert_eq!(rung, Rung::Elastica(3, Quality::Fast), "{rung}, {skip}: no row");
         let row = |modes, quality| counted(Rung::Elastica(modes, quality)).expect("row");
@@ -82,10 +81,10 @@ fn the_ladder_is_in_the_order_of_measured_instructions() {
 /// The test above can fail.
 #[test]
 fn a_rung_out_of_order_would_be_found() {
-    let rows = "rigid,0,,,200,200,1\nmodal,1,,,150,160,1\n";
-    assert_eq!(instructions(rows, Rung::Rigid, ""), Some(200));
-    assert!(cost(rows, Rung::Rigid, "") > cost(rows, Rung::Modal(1), ""));
-    assert_eq!(instructions(rows, Rung::Modal(1), "no-gravity"), None);
+    let rows = format!("{}\nrigid,0,,,200,,,,,,,\nmodal,1,,,160,,,,,,,\n", instructions::HEADER);
+    assert_eq!(worst(&rows, Rung::Rigid, ""), Some(200));
+    assert!(cost(&rows, Rung::Rigid, "") > cost(&rows, Rung::Modal(1), ""));
+    assert_eq!(worst(&rows, Rung::Modal(1), "no-gravity"), None);
 }
 
 /// A stiff steel bar with a payload: its tip moves by less than a thousandth of its length, and the

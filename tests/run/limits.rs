@@ -280,7 +280,6 @@ fn a_weight_is_told_from_a_motion_that_is_too_fast() {
 /// A still move within a torque limit: the rod keeps it, and a twentieth less time does not.
 #[test]
 fn still_moves_keep_loads_in_truth() {
-    let second = "[[moves]]\nprofile = \"still\"\nto = 0.0\nsettle = 0.3\n";
     let cases = [
         (format!("{LINK}{PAYLOAD}"), "torque = 0.4", String::new()),
         (LINK.to_owned(), "torque = 0.2\nacceleration = 60.0", String::new()),
@@ -293,28 +292,36 @@ fn still_moves_keep_loads_in_truth() {
         ),
         (format!("{LINK}{PAYLOAD}[hub]\nradius = 0.05\n"), "moment = 0.3", String::new()),
     ];
-    for (arm, limits, first) in cases {
-        let text = format!("{arm}[limits]\n{limits}\n{first}{second}")
-            .replace("to = 0.0", if first.is_empty() { "to = 1.2" } else { "to = 0.0" });
-        let scene = parse(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
-        run(&scene, &elastica(0.01)).unwrap_or_else(|error| panic!("{error}: {text}"));
-        let case = scene.case(0.01);
-        let trajectory = case.trajectory().expect("a motion");
-        if let Some(torque) = scene.limits.torque {
-            let peak = sampled_torque(&scene, 0.01);
-            assert!(peak < 1.001 * torque, "{peak}: {text}");
+    // A minute one after the other.
+    std::thread::scope(|threads| {
+        for (arm, limits, first) in &cases {
+            threads.spawn(move || a_still_move_keeps_its_load(arm, limits, first));
         }
-        let found = load::excess(&case, &trajectory, &scene.limits, &|_| ()).expect("a rod");
-        assert!(found.is_none(), "{found:?}: {text}");
-        let duration = scene.moves.last().expect("a move").motion.duration();
-        let shorter = format!("profile = \"still\"\nduration = {}", 0.95 * duration);
-        let error = parse(&text.replace("profile = \"still\"", &shorter)).expect_err(&text);
-        assert!(error.contains("limits."), "{error}");
-        let way = number_after(&error, "a duration of ");
-        let typed = format!("profile = \"still\"\nduration = {way}");
-        let again = parse(&text.replace("profile = \"still\"", &typed));
-        again.unwrap_or_else(|error| panic!("{error}: {text}"));
+    });
+}
+
+fn a_still_move_keeps_its_load(arm: &str, limits: &str, first: &str) {
+    let second = "[[moves]]\nprofile = \"still\"\nto = 0.0\nsettle = 0.3\n";
+    let text = format!("{arm}[limits]\n{limits}\n{first}{second}")
+        .replace("to = 0.0", if first.is_empty() { "to = 1.2" } else { "to = 0.0" });
+    let scene = parse(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+    run(&scene, &elastica(0.01)).unwrap_or_else(|error| panic!("{error}: {text}"));
+    let case = scene.case(0.01);
+    let trajectory = case.trajectory().expect("a motion");
+    if let Some(torque) = scene.limits.torque {
+        let peak = sampled_torque(&scene, 0.01);
+        assert!(peak < 1.001 * torque, "{peak}: {text}");
     }
+    let found = load::excess(&case, &trajectory, &scene.limits, &|_| ()).expect("a rod");
+    assert!(found.is_none(), "{found:?}: {text}");
+    let duration = scene.moves.last().expect("a move").motion.duration();
+    let shorter = format!("profile = \"still\"\nduration = {}", 0.95 * duration);
+    let error = parse(&text.replace("profile = \"still\"", &shorter)).expect_err(&text);
+    assert!(error.contains("limits."), "{error}");
+    let way = number_after(&error, "a duration of ");
+    let typed = format!("profile = \"still\"\nduration = {way}");
+    let again = parse(&text.replace("profile = \"still\"", &typed));
+    again.unwrap_or_else(|error| panic!("{error}: {text}"));
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Builds the images for the target.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 use std::{env, fs};
 
 use crate::root;
@@ -13,14 +14,29 @@ pub const TARGET: &str = "thumbv7em-none-eabihf";
 /// A processor without floating-point unit, for the bench.
 pub const SOFT_TARGET: &str = "thumbv7m-none-eabi";
 
-/// Images with the same file name are built one after the other.
-static BUILDING: Mutex<()> = Mutex::new(());
+/// An image, or what cargo said.
+type Built = Result<PathBuf, String>;
+
+/// The images that this process has built, by the name that each is kept under. Images are built one
+/// after the other: cargo gives variants of a program the same file name.
+static IMAGES: Mutex<BTreeMap<String, Built>> = Mutex::new(BTreeMap::new());
+
+/// Builds the image `name` unless this process has built it before.
+fn once(name: String, build: impl FnOnce(&str) -> Built) -> Built {
+    let mut images = IMAGES.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(built) = images.get(&name) {
+        return built.clone();
+    }
+    let built = build(&name);
+    images.insert(name, built.clone());
+    built
+}
 
 /// Builds the program `bin` and returns its image.
 ///
 /// # Errors
 /// What cargo said, or which target to install.
-pub fn build(bin: &str) -> Result<PathBuf, String> {
+pub fn build(bin: &str) -> Built {
     build_variant(TARGET, bin, None)
 }
 
@@ -28,7 +44,7 @@ pub fn build(bin: &str) -> Result<PathBuf, String> {
 ///
 /// # Errors
 /// As [`build`].
-pub fn build_soft(bin: &str) -> Result<PathBuf, String> {
+pub fn build_soft(bin: &str) -> Built {
     build_variant(SOFT_TARGET, bin, None)
 }
 
@@ -36,7 +52,7 @@ pub fn build_soft(bin: &str) -> Result<PathBuf, String> {
 ///
 /// # Errors
 /// As [`build`].
-pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, String> {
+pub fn build_with(bin: &str, variable: &str, value: &str) -> Built {
     build_variant(TARGET, bin, Some((variable, value)))
 }
 
@@ -44,18 +60,17 @@ pub fn build_with(bin: &str, variable: &str, value: &str) -> Result<PathBuf, Str
 ///
 /// # Errors
 /// As [`build`].
-pub fn application(features: &str) -> Result<PathBuf, String> {
-    let _one = BUILDING.lock();
-    as_application("application", features, None, &application_name(features))
+pub fn application(features: &str) -> Built {
+    once(application_name(features), |name| as_application("application", features, None, name))
 }
 
 /// Builds two axes with one method, by its name in the list of methods, as the application is built.
 ///
 /// # Errors
 /// As [`build`].
-pub fn fit(method: &str) -> Result<PathBuf, String> {
-    let _one = BUILDING.lock();
-    as_application("fit", "mps2", Some(("STILLBEAM_METHOD", method)), &format!("fit-{method}"))
+pub fn fit(method: &str) -> Built {
+    let variable = Some(("STILLBEAM_METHOD", method));
+    once(format!("fit-{method}"), |name| as_application("fit", "mps2", variable, name))
 }
 
 /// Builds the application for a board after one change to `axes.rs`, as a user would make it; the
@@ -63,37 +78,28 @@ pub fn fit(method: &str) -> Result<PathBuf, String> {
 ///
 /// # Errors
 /// As [`build`]; `from` does not stand in `axes.rs` exactly once.
-pub fn changed_application(
-    board: &str,
-    name: &str,
-    [from, to]: [&str; 2],
-) -> Result<PathBuf, String> {
+pub fn changed_application(board: &str, name: &str, [from, to]: [&str; 2]) -> Built {
     let path = root().join("wiring/src/axes.rs");
     let axes = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     if axes.matches(from).count() != 1 {
         return Err(format!("{}: \"{from}\" must stand in it once", path.display()));
     }
-    let _one = BUILDING.lock();
-    let folder = root().join("target/firmware");
-    let other = folder.join("axes.rs");
-    fs::create_dir_all(&folder)
-        .and_then(|()| fs::write(&other, axes.replace(from, to)))
-        .map_err(|error| format!("{}: {error}", other.display()))?;
-    let name = format!("{}-{name}", application_name(board));
-    as_application("application", &format!("{board},_other-axes"), None, &name)
+    once(format!("{}-{name}", application_name(board)), |name| {
+        let folder = root().join("target/firmware");
+        let other = folder.join("axes.rs");
+        fs::create_dir_all(&folder)
+            .and_then(|()| fs::write(&other, axes.replace(from, to)))
+            .map_err(|error| format!("{}: {error}", other.display()))?;
+        as_application("application", &format!("{board},_other-axes"), None, name)
+    })
 }
 
 fn application_name(features: &str) -> String {
     format!("application-{}", features.replace(',', "-"))
 }
 
-/// Builds a program with the application's profile and keeps it under the name. For one caller at a time.
-fn as_application(
-    bin: &str,
-    features: &str,
-    variable: Option<(&str, &str)>,
-    name: &str,
-) -> Result<PathBuf, String> {
+/// Builds a program with the application's profile and keeps it under the name. For [`once`].
+fn as_application(bin: &str, features: &str, variable: Option<(&str, &str)>, name: &str) -> Built {
     require_target(TARGET)?;
     let folder = root().join("target/firmware");
     run(cargo()
@@ -106,35 +112,26 @@ fn as_application(
     keep(&folder, TARGET, "application", bin, name)
 }
 
-fn build_variant(
-    target: &str,
-    bin: &str,
-    variable: Option<(&str, &str)>,
-) -> Result<PathBuf, String> {
-    require_target(target)?;
-    let _one = BUILDING.lock();
-    // A folder of its own: the cargo that runs the tests may hold the lock of the usual one.
-    let folder = root().join("target/firmware");
-    run(cargo()
-        .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", bin])
-        .args(["--profile", "firmware", "--target", target, "--target-dir"])
-        .arg(&folder)
-        .env_remove("STILLBEAM_METHOD")
-        .env_remove("STILLBEAM_FAULT")
-        .envs(variable))?;
+fn build_variant(target: &str, bin: &str, variable: Option<(&str, &str)>) -> Built {
     let variant = variable.map(|(_, value)| value).or((target != TARGET).then_some(target));
     let name = variant.map_or(bin.to_owned(), |variant| format!("{bin}-{variant}"));
-    keep(&folder, target, "firmware", bin, &name)
+    once(name, |name| {
+        require_target(target)?;
+        // A folder of its own: the cargo that runs the tests may hold the lock of the usual one.
+        let folder = root().join("target/firmware");
+        run(cargo()
+            .args(["build", "--quiet", "--package", "stillbeam-firmware", "--bin", bin])
+            .args(["--profile", "firmware", "--target", target, "--target-dir"])
+            .arg(&folder)
+            .env_remove("STILLBEAM_METHOD")
+            .env_remove("STILLBEAM_FAULT")
+            .envs(variable))?;
+        keep(&folder, target, "firmware", bin, name)
+    })
 }
 
 /// Variants share a file name: each is kept under one of its own.
-fn keep(
-    folder: &Path,
-    target: &str,
-    profile: &str,
-    bin: &str,
-    name: &str,
-) -> Result<PathBuf, String> {
+fn keep(folder: &Path, target: &str, profile: &str, bin: &str, name: &str) -> Built {
     let built = folder.join(target).join(profile).join(bin);
     let kept = folder.join("images").join(name);
     fs::create_dir_all(folder.join("images"))

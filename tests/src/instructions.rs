@@ -1,14 +1,25 @@
 //! The instruction table: what the bench counted, as CSV and as the page in `docs/`.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use crate::emulator::{self, Board, Clock, LIMIT};
 use crate::{firmware, image};
 
-/// Columns of the CSV.
-pub const HEADER: &str =
-    "method,size,quality,skip,tick_min,tick_max,setup,flash_bytes,ram_bytes,stack_bytes";
+/// Columns of the CSV: what a row is about, then the worst tick of each path.
+pub const HEADER: &str = "method,size,quality,skip,tick,next_segment,next_segment_still,landing,landing_still,cruise,\
+     at_rest,asleep";
+
+/// The bench's words for the paths, in the order of the columns.
+pub const PATHS: [&str; 8] = [
+    "",
+    "next-segment",
+    "next-segment still",
+    "landing",
+    "landing still",
+    "cruise",
+    "at-rest",
+    "at-rest asleep",
+];
 
 /// What makes a row: method, size, quality, skip.
 pub type Key = [String; 4];
@@ -124,44 +135,60 @@ pub fn parse(lines: &str) -> Result<Bench, String> {
     if bench.counts.is_empty() { Err("the bench printed nothing".into()) } else { Ok(bench) }
 }
 
-/// The CSV.
-pub fn csv(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
-    let mut csv = format!("{HEADER}\n");
-    for count in &bench.counts {
-        let Minimal { flash, ram, stack } = minimal[&count.id];
-        let Count { least, worst, setup, .. } = count;
-        let key = count.key.join(",");
-        writeln!(csv, "{key},{least},{worst},{setup},{flash},{ram},{stack}").expect("a string");
+/// The words of `skip` that say what the scene or the method leaves out, and those of the path.
+fn split(skip: &str) -> (String, String) {
+    let (terms, path): (Vec<_>, Vec<_>) =
+        skip.split_whitespace().partition(|word| word.starts_with("no-"));
+    (terms.join(" "), path.join(" "))
+}
+
+/// A payload and a hub radius change no operation, which a test asserts: their rows would repeat
+/// others.
+fn repeats(count: &Count) -> bool {
+    ["no-payload", "no-radius"].iter().any(|word| count.key[3].contains(word))
+}
+
+/// The CSV of ticks: a row for what is left out, a column a path.
+pub fn csv(bench: &Bench) -> String {
+    let mut rows: Vec<(String, [String; PATHS.len()])> = Vec::new();
+    for count in bench.counts.iter().filter(|count| !repeats(count)) {
+        let (terms, path) = split(&count.key[3]);
+        let row = format!("{},{terms}", count.key[..3].join(","));
+        let column = PATHS.iter().position(|known| *known == path);
+        let column = column.unwrap_or_else(|| panic!("{path}: no column of this path"));
+        let at = rows.iter().position(|(known, _)| *known == row).unwrap_or(rows.len());
+        if at == rows.len() {
+            rows.push((row, Default::default()));
+        }
+        rows[at].1[column] = count.worst.to_string();
     }
-    csv
+    let lines = rows.iter().map(|(row, worst)| format!("{row},{}\n", worst.join(",")));
+    format!("{HEADER}\n{}", lines.collect::<String>())
 }
 
-/// The CSV with zeros in the columns of the minimal images, which [`ticks`] does not read.
-pub fn csv_of_ticks(bench: &Bench) -> String {
-    let none = Minimal { flash: 0, ram: 0, stack: 0 };
-    csv(bench, &bench.counts.iter().map(|count| (count.id.clone(), none)).collect())
-}
-
-/// `tick_min` and `tick_max` of each row of a CSV.
+/// The worst tick of each method, size, quality and skip in a CSV.
 ///
 /// # Errors
 /// The header or the first line that is not as expected.
-pub fn ticks(csv: &str) -> Result<BTreeMap<Key, (u32, u32)>, String> {
+pub fn ticks(csv: &str) -> Result<BTreeMap<Key, u32>, String> {
     let mut lines = csv.lines();
     if lines.next() != Some(HEADER) {
         return Err(format!("the columns are to be {HEADER}"));
     }
-    lines
-        .map(|line| {
-            let fields: Vec<&str> = line.split(',').collect();
-            let [method, size, quality, skip, least, worst, _, _, _, _] = fields[..] else {
-                return Err(format!("not ten columns: {line}"));
-            };
-            let number = |text: &str| text.parse().map_err(|_| format!("not a number: {line}"));
-            let key = [method, size, quality, skip].map(str::to_owned);
-            Ok((key, (number(least)?, number(worst)?)))
-        })
-        .collect()
+    let mut ticks = BTreeMap::new();
+    for line in lines {
+        let fields: Vec<&str> = line.split(',').collect();
+        if fields.len() != 4 + PATHS.len() {
+            return Err(format!("not {} columns: {line}", 4 + PATHS.len()));
+        }
+        for (path, worst) in PATHS.iter().zip(&fields[4..]).filter(|(_, worst)| !worst.is_empty()) {
+            let worst = worst.parse().map_err(|_| format!("not a number: {line}"))?;
+            let skip = [fields[3], path].join(" ");
+            let key = [fields[0], fields[1], fields[2], skip.trim()].map(str::to_owned);
+            ticks.insert(key, worst);
+        }
+    }
+    Ok(ticks)
 }
 
 /// Ticks that grew by more than `percent` against the CSV, and rows that only one of them has.
@@ -171,18 +198,15 @@ pub fn ticks(csv: &str) -> Result<BTreeMap<Key, (u32, u32)>, String> {
 pub fn regressions(bench: &Bench, csv: &str, percent: u32) -> Result<Vec<String>, String> {
     let mut before = ticks(csv)?;
     let mut found = Vec::new();
-    for count in &bench.counts {
+    for count in bench.counts.iter().filter(|count| !repeats(count)) {
         let name = count.key.join(",");
-        let Some((least, worst)) = before.remove(&count.key) else {
+        let Some(was) = before.remove(&count.key) else {
             found.push(format!("{name}: not in docs/instructions.csv"));
             continue;
         };
-        for (column, was, is) in
-            [("tick_min", least, count.least), ("tick_max", worst, count.worst)]
-        {
-            if u64::from(is) * 100 > u64::from(was) * u64::from(100 + percent) {
-                found.push(format!("{name}: {column} grew from {was} to {is}"));
-            }
+        let is = count.worst;
+        if u64::from(is) * 100 > u64::from(was) * u64::from(100 + percent) {
+            found.push(format!("{name}: the worst tick grew from {was} to {is}"));
         }
     }
     found.extend(before.keys().map(|key| format!("{}: no longer counted", key.join(","))));

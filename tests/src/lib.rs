@@ -2,6 +2,7 @@
 //! What the tests share: truth files and the scenes they belong to; building the firmware, running
 //! it in QEMU, comparing its stream, the table of instructions.
 
+pub mod embedded;
 pub mod emulator;
 pub mod firmware;
 pub mod firmware_page;

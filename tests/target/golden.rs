@@ -8,8 +8,8 @@ use stillbeam_golden::record::{BYTES, FIELDS};
 use stillbeam_golden::run::STILL_SCENES;
 use stillbeam_golden::scenes::SCENES;
 use stillbeam_tests::emulator::{self, Clock, LIMIT};
-use stillbeam_tests::firmware;
 use stillbeam_tests::stream::{self, Mismatch};
+use stillbeam_tests::{embedded, firmware, root};
 
 fn target() -> &'static [u8] {
     static STREAM: OnceLock<Vec<u8>> = OnceLock::new();
@@ -17,6 +17,19 @@ fn target() -> &'static [u8] {
         let image = firmware::build("golden").unwrap_or_else(|error| panic!("{error}"));
         emulator::run(&image, Clock::Host, LIMIT).unwrap_or_else(|error| panic!("{error}"))
     })
+}
+
+/// The constants that the target runs are the scene files, to the bit.
+#[test]
+fn the_embedded_scenes_are_those_of_the_scene_files() {
+    let written = std::fs::read_to_string(root().join(embedded::PATH)).expect(embedded::PATH);
+    let expected = embedded::constants().unwrap_or_else(|error| panic!("{error}"));
+    let differing = expected.lines().zip(written.lines()).find(|(is, was)| is != was);
+    assert!(
+        written == expected,
+        "{}: {differing:?}\nwrite it anew: cargo run -p stillbeam-tests --bin scenes",
+        embedded::PATH
+    );
 }
 
 #[test]

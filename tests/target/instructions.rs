@@ -35,11 +35,12 @@ fn growth_is_found() {
     slow.worst += slow.worst * 3 / 100 + 1;
     let slow = slow.key.join(",");
     grown.counts[9].key[1] = "99".into();
-    let mut found =
-        instructions::regressions(&grown, &instructions::csv_of_ticks(bench()), 2).unwrap();
+    let mut found = instructions::regressions(&grown, &instructions::csv(bench()), 2).unwrap();
     found.sort();
     assert_eq!(found.len(), 3, "{found:?}");
-    assert!(found.iter().any(|line| line.starts_with(&slow) && line.contains("tick_max grew")));
+    assert!(
+        found.iter().any(|line| line.starts_with(&slow) && line.contains("the worst tick grew"))
+    );
     assert!(found.iter().any(|line| line.contains(",99,") && line.contains("not in")));
     assert!(found.iter().any(|line| line.contains("no longer counted")));
 }

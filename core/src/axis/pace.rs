@@ -69,3 +69,37 @@ impl Pace {
         Timing { due: true, early, late, missed }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Pace, Timing};
+
+    #[test]
+    fn a_period_is_a_whole_number_of_counts() {
+        assert_eq!(Pace::period(0.010, 1_000_000), Some(10_000));
+        assert_eq!(Pace::period(1.0 / 3.0, 1_000), None, "333.3 counts would drift");
+        assert_eq!(Pace::period(0.0, 1_000), None);
+        assert_eq!(Pace::period(f64::NAN, 1_000), None);
+    }
+
+    /// Ticks at 0, 103, 350 and 400 of a period of 100: one late, one and a half missed, one in time.
+    #[test]
+    fn lateness_does_not_shift_later_ticks() {
+        let mut pace = Pace::new(100);
+        let timing = |late, missed| Timing { due: true, early: 0, late, missed };
+        assert_eq!(pace.arrive(0), timing(0, 0));
+        assert_eq!(pace.arrive(103), timing(3, 0));
+        assert_eq!(pace.arrive(350), timing(50, 1));
+        assert_eq!(pace.arrive(400), timing(0, 0));
+    }
+
+    #[test]
+    fn a_tick_more_than_half_a_period_early_is_not_due() {
+        let mut pace = Pace::new(100);
+        assert!(pace.arrive(u32::MAX - 9).due, "the counter wraps before the next");
+        assert_eq!(pace.arrive(30).early, 60);
+        assert!(!pace.arrive(30).due);
+        assert_eq!(pace.arrive(45), Timing { due: true, early: 45, late: 0, missed: 0 });
+        assert_eq!(pace.arrive(190), Timing { due: true, early: 0, late: 0, missed: 0 });
+    }
+}

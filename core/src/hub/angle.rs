@@ -62,3 +62,46 @@ impl Angle<f64> {
         Angle { turns: self.turns, part: T::from_f64(self.part) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Angle;
+
+    /// A turn of ten thousand keeps the fraction that an f32 of radians would have lost.
+    #[test]
+    fn far_turns_keep_their_fraction() {
+        let mut angle = Angle { turns: 0, part: 0.0_f32 };
+        for _ in 0..10_000 {
+            angle = angle.plus(1.0);
+        }
+        angle = angle.plus(1e-7);
+        assert_eq!(angle, Angle { turns: 10_000, part: 1e-7 });
+    }
+
+    #[test]
+    fn half_a_turn_is_where_the_count_changes() {
+        let before = Angle { turns: 0, part: 0.499_f64 };
+        let after = before.plus(0.002);
+        assert_eq!(after.turns, 1);
+        assert!((after.part + 0.499).abs() < 1e-15, "{after:?}");
+        assert!((after.since(before) - 0.002).abs() < 1e-15);
+        assert!((before.since(after) + 0.002).abs() < 1e-15);
+    }
+
+    #[test]
+    fn radians_come_back() {
+        for radians in [-1e6, -3.2, 0.0, 1e-9, 100.0] {
+            let back = Angle::from_radians(radians).radians();
+            assert!((back - radians).abs() <= 4.0 * f64::EPSILON * radians.abs(), "{back}");
+        }
+    }
+
+    /// The difference survives the wrap of the count of turns.
+    #[test]
+    fn the_count_of_turns_may_wrap() {
+        let before = Angle { turns: i32::MAX, part: 0.25_f64 };
+        let after = before.plus(0.5);
+        assert_eq!(after, Angle { turns: i32::MIN, part: -0.25 });
+        assert_eq!(after.since(before), 0.5);
+    }
+}

@@ -275,3 +275,44 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
         x
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Band;
+
+    /// A chain of three: positive definite, two sub-diagonals, the outermost entry zero.
+    fn chain() -> Band<f64, 3, 3> {
+        let mut chain = Band::ZERO;
+        for (i, j, value) in [(0, 0, 4.0), (1, 1, 5.0), (2, 2, 6.0), (1, 0, -1.0), (2, 1, 2.0)] {
+            chain.add(i, j, value);
+        }
+        chain
+    }
+
+    #[test]
+    fn a_product_takes_both_triangles() {
+        assert_eq!(chain().times(&[1.0, 2.0, 3.0]), [2.0, 15.0, 22.0]);
+        assert_eq!(chain().half_form().at(&[1.0, 2.0, 3.0]), 49.0, "half of 1·2 + 2·15 + 3·22");
+    }
+
+    #[test]
+    fn solutions_satisfy_the_equations() {
+        let x = [1.0, -2.0, 0.5];
+        let b = chain().times(&x);
+        for found in [chain().solve(&b), chain().factor().solve(&b)] {
+            for i in 0..3 {
+                assert!((found[i] - x[i]).abs() < 1e-15, "{found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_indefinite_matrix_is_told_by_its_factors() {
+        let positive = chain().factor();
+        assert!(positive.is_positive());
+        assert!((positive.pivot(1) - 4.75).abs() < 1e-15, "5 − 1/4: {}", positive.pivot(1));
+        let mut indefinite = chain();
+        indefinite.add(2, 2, -6.0);
+        assert!(!indefinite.factor().is_positive());
+    }
+}

@@ -120,3 +120,30 @@ fn back_substitute<const N: usize>(s: &[[f64; N]; N], y: &[f64; N]) -> [f64; N] 
     }
     x
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Band;
+    use super::generalized_eigen;
+
+    /// Two equal masses between three equal springs: k and 3k over m, in and out of step.
+    #[test]
+    fn two_masses_between_three_springs() {
+        let (mut k, mut m) = (Band::<f64, 2, 2>::ZERO, Band::<f64, 2, 2>::ZERO);
+        for i in 0..2 {
+            k.add(i, i, 2.0 * 50.0);
+            m.add(i, i, 0.25);
+        }
+        k.add(1, 0, -50.0);
+        let (inverse, shapes) = generalized_eigen(&k, &m);
+        for (found, expected) in inverse.into_iter().zip([200.0, 600.0]) {
+            assert!((found * expected - 1.0).abs() < 1e-14, "{found} is not 1/{expected}");
+        }
+        for (i, sign) in [1.0, -1.0].into_iter().enumerate() {
+            let ratio = shapes[i][1] / shapes[i][0];
+            assert!((ratio - sign).abs() < 1e-14, "shape {i}: {ratio}");
+            let norm: f64 = k.times(&shapes[i]).iter().zip(&shapes[i]).map(|(x, y)| x * y).sum();
+            assert!((norm - 1.0).abs() < 1e-14, "φᵀKφ = {norm}");
+        }
+    }
+}

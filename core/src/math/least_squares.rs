@@ -46,3 +46,34 @@ impl<const M: usize, const Q: usize> LeastSquares<M, Q> {
         coefficients
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::LeastSquares;
+
+    /// Samples of a line are fitted by that line; a function that is zero throughout takes no part.
+    #[test]
+    fn a_line_is_found_among_its_samples() {
+        let mut fit = LeastSquares::<3, 2>::new();
+        for i in 0..5 {
+            let x = f64::from(i) / 4.0;
+            fit.add(&[1.0, x, 0.0], &[2.0 - 3.0 * x, x]);
+        }
+        let found = fit.solve(&[1.0, 1.0, 0.0]);
+        let expected = [[2.0, 0.0], [-3.0, 1.0], [0.0, 0.0]];
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((found - expected).abs() < 1e-13, "{found} is not {expected}");
+        }
+    }
+
+    /// The normal equations leave what the functions cannot fit: of 0, 0, 1 the mean is a third.
+    #[test]
+    fn a_constant_is_fitted_by_the_mean() {
+        let mut fit = LeastSquares::<1, 1>::new();
+        for quantity in [0.0, 0.0, 1.0] {
+            fit.add(&[1.0], &[quantity]);
+        }
+        let [[mean]] = fit.solve(&[2.0]);
+        assert!((mean - 1.0 / 6.0).abs() < 1e-15, "a third in units of 2: {mean}");
+    }
+}

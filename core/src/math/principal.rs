@@ -86,3 +86,35 @@ pub(crate) fn root<T: Scalar>(x: T) -> T {
         if next < root { root = next } else { return root }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Band;
+    use super::{form, principal_axes, root};
+
+    /// Axes of `K = diag(1, 4)` and `G` with off-diagonals: `K` becomes the identity, `G` diagonal.
+    #[test]
+    fn both_forms_are_sums_of_squares_along_the_axes() {
+        let (mut k, mut g) = (Band::<f64, 2, 2>::ZERO, Band::<f64, 2, 2>::ZERO);
+        for (i, j, stiffness, other) in [(0, 0, 1.0, 3.0), (1, 1, 4.0, -2.0), (1, 0, 0.5, 1.0)] {
+            k.add(i, j, stiffness);
+            g.add(i, j, other);
+        }
+        let axes = principal_axes(&k, &g);
+        for i in 0..2 {
+            for j in 0..2 {
+                let same = if i == j { 1.0 } else { 0.0 };
+                assert!((form(&k, &axes[i], &axes[j]) - same).abs() < 1e-14, "K [{i}][{j}]");
+            }
+        }
+        assert!(form(&g, &axes[0], &axes[1]).abs() < 1e-14);
+    }
+
+    #[test]
+    fn roots_of_small_and_large_numbers() {
+        for x in [1e-12, 0.25, 2.0, 1e9] {
+            let found: f64 = root(x);
+            assert!((found * found / x - 1.0).abs() < 1e-15 * 4.0, "{x}: {found}");
+        }
+    }
+}

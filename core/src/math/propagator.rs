@@ -62,3 +62,39 @@ fn sum<const N: usize>(terms: &[Matrix2; N]) -> Matrix2 {
 fn scaled(s: f64, a: &Matrix2) -> Matrix2 {
     a.map(|row| row.map(|x| s * x))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{phi_functions, product};
+
+    /// The matrix exponential of a rotation by `angle` is cosine and sine of it, small and large.
+    #[test]
+    fn the_exponential_of_a_rotation_is_its_cosine_and_sine() {
+        for angle in [1e-6, 0.3, 2.0, 50.0] {
+            let [exponential, ..] = phi_functions(&[[0.0, angle], [-angle, 0.0]]);
+            let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+            for (found, expected) in exponential.iter().flatten().zip([cos, sin, -sin, cos]) {
+                assert!((found - expected).abs() < 1e-13, "{angle}: {found} is not {expected}");
+            }
+        }
+    }
+
+    /// `Z φₖ₊₁ = φₖ − 1/k!`, the definition, for a damped oscillator.
+    #[test]
+    fn each_function_is_the_one_before_less_its_first_term() {
+        let z = [[0.0, 1.0], [-4.0, -0.5]];
+        let phi = phi_functions(&z);
+        let mut factorial = 1.0;
+        for k in 0..4 {
+            factorial *= if k == 0 { 1.0 } else { k as f64 };
+            let left = product(&z, &phi[k + 1]);
+            for i in 0..2 {
+                for j in 0..2 {
+                    let identity = if i == j { 1.0 / factorial } else { 0.0 };
+                    let right = phi[k][i][j] - identity;
+                    assert!((left[i][j] - right).abs() < 1e-14, "φ{k} [{i}][{j}]");
+                }
+            }
+        }
+    }
+}

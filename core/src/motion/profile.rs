@@ -165,3 +165,37 @@ impl fmt::Display for Move {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Move, Profile};
+
+    #[test]
+    fn names_are_found_again() {
+        for profile in Profile::ALL {
+            assert_eq!(Profile::named(profile.name()), Some(profile));
+        }
+        assert_eq!(Profile::named("bang-bang"), None);
+    }
+
+    /// Half the time: twice the rate, four times the acceleration, eight times the jerk.
+    #[test]
+    fn peaks_scale_with_the_duration() {
+        for profile in Profile::ALL {
+            let (slow, fast) = (profile.peaks(-1.5, 2.0), profile.peaks(1.5, 1.0));
+            assert_eq!(fast.rate, 2.0 * slow.rate, "{}", profile.name());
+            assert_eq!(fast.acceleration, 4.0 * slow.acceleration, "{}", profile.name());
+            assert_eq!(fast.jerk, 8.0 * slow.jerk, "{}", profile.name());
+            assert_eq!(profile.peaks(0.0, 1.0).jerk, 0.0, "no move has no jumps");
+        }
+    }
+
+    #[test]
+    fn durations_are_rounded_to_the_nearest_tick() {
+        let ticks = |duration: f64| Move::Dwell { duration }.ticks(0.01);
+        assert_eq!(ticks(0.0149), Ok(1));
+        assert_eq!(ticks(0.0151), Ok(2));
+        assert_eq!(ticks(0.0051), Ok(1));
+        assert!(ticks(0.0049).is_err() && ticks(f64::NAN).is_err());
+    }
+}

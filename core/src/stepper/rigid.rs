@@ -81,3 +81,24 @@ impl<T: Scalar> Stepper for Rigid<T> {
         true
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Rigid;
+    use crate::stepper::{AnyMotion, Stepper};
+    use crate::{Angle, HubState, Link, Scene};
+
+    /// Without a link that bends the torque is inertia times acceleration, `(m L²/3 + m_p L²) θ̈`.
+    #[test]
+    fn the_torque_is_inertia_times_acceleration() {
+        let mut scene = Scene::new(Link { length: 0.5, mass: 0.3, bending_stiffness: 1.0 });
+        scene.payload.mass = 0.2;
+        let arm = Rigid::<f64>::new(&scene, 0.01).expect("an arm");
+        let mut hub = HubState::at_rest(Angle { turns: 3, part: 0.2 });
+        hub.acceleration = 4.0;
+        let response = arm.response::<AnyMotion>(&(), &hub);
+        let expected = (0.3 / 3.0 + 0.2) * 0.25 * 4.0;
+        assert!((response.torque - expected).abs() < 1e-15, "{} N m", response.torque);
+        assert_eq!(response.tip, [0.5, 0.0]);
+    }
+}

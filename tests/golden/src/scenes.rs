@@ -1,4 +1,6 @@
-//! The embedded scenes, from `host-sim/scenes/*.toml` by way of `build.rs`.
+//! The embedded scenes: those of `host-sim/scenes/*.toml`, as constants, because the target cannot
+//! read TOML. `cargo run -p stillbeam-tests --bin scenes` writes `embedded.in` from the scene files,
+//! and a test of `stillbeam-tests` fails where the two differ.
 
 use stillbeam::{Move, Scene};
 
@@ -25,5 +27,5 @@ pub const SCENES: &[Run] = {
     use stillbeam::Move::{Dwell, SpinUp, To};
     use stillbeam::Profile::{Cubic, Cycloid, Quintic, SCurve, Trapezoid};
     use stillbeam::{Damping, Hub, Link, Payload};
-    include!(concat!(env!("OUT_DIR"), "/scenes.rs"))
+    include!("embedded.in")
 };

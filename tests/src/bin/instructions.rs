@@ -13,9 +13,7 @@ fn main() -> ExitCode {
     let done = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => write(),
         ["--check"] => check(),
-        ["--list"] => {
-            instructions::count().map(|bench| print!("{}", instructions::csv_of_ticks(&bench)))
-        }
+        ["--list"] => instructions::count().map(|bench| print!("{}", instructions::csv(&bench))),
         _ => Err("usage: instructions [--check | --list]".into()),
     };
     match done {
@@ -36,7 +34,7 @@ fn write() -> Result<(), String> {
         }
     }
     let path = root().join("docs/instructions.csv");
-    fs::write(&path, instructions::csv(&bench, &minimal)).map_err(|e| format!("{path:?}: {e}"))?;
+    fs::write(&path, instructions::csv(&bench)).map_err(|e| format!("{path:?}: {e}"))?;
     let path = root().join("docs/instructions.md");
     let text = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
     let text = page::replace(&text, &page::tables(&bench, &soft, &minimal))?;

@@ -297,3 +297,34 @@ fn running_integrals(points: &[f64; POINTS], weights: &[f64; POINTS]) -> [[f64; 
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Rod;
+    use crate::math::sqrt;
+    use crate::{Link, Scene};
+
+    /// Roots of `cos λ cosh λ = −1`: `ω = λ² √(EI/ρA)/L²`.
+    #[test]
+    fn frequencies_are_those_of_the_cantilever() {
+        let link = Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 };
+        let rod = Rod::<2>::new(&Scene::new(link)).expect("a rod");
+        let scale = sqrt(0.46 / (0.0224 / 0.4)) / (0.4 * 0.4);
+        for (i, (root, error)) in
+            [(1.875_104_069, 1e-5), (4.694_091_133, 1e-3)].into_iter().enumerate()
+        {
+            let ratio = rod.frequency()[i] / (root * root * scale);
+            assert!((ratio - 1.0).abs() < error, "mode {i}: {ratio} of the closed form");
+        }
+    }
+
+    /// A heavy payload on a light link: a massless cantilever, `ω² = 3EI/(m_p L³)`.
+    #[test]
+    fn a_heavy_payload_swings_on_a_spring() {
+        let mut scene = Scene::new(Link { length: 0.5, mass: 1e-4, bending_stiffness: 2.0 });
+        scene.payload.mass = 1.0;
+        let rod = Rod::<1>::new(&scene).expect("a rod");
+        let ratio = rod.frequency()[0] / sqrt(3.0 * 2.0 / 0.125);
+        assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
+    }
+}

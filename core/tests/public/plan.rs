@@ -1,9 +1,9 @@
 use std::f64::consts::{PI, TAU};
 
+use crate::assert_near;
 use stillbeam::hub::HubState;
 use stillbeam::motion::{Plan, Segment};
 use stillbeam::{Angle, Error, Limits, Move, Profile, Scalar};
-use stillbeam_tests::assert_near;
 
 const REST: HubState<f64> = HubState::at_rest(Angle { turns: 0, part: 0.0 });
 

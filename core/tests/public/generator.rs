@@ -1,9 +1,9 @@
 use std::f64::consts::TAU;
 
+use crate::assert_near;
 use stillbeam::model::{EightElements, OneElement, Rod};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
-use stillbeam_tests::assert_near;
 
 type Arm = Generator<Newmark<f64, 2, 2>, 7>;
 

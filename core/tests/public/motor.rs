@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use crate::assert_near;
 use proptest::prelude::*;
 use stillbeam::motor::{Direction, Drivetrain, Joint, Mapping, Ratio};
 use stillbeam::{Angle, Setpoint};
-use stillbeam_tests::assert_near;
 
 const JOINT: Joint<f64> = Joint {
     ratio: Ratio { motor: 50, link: 1 },

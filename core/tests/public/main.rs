@@ -1,0 +1,21 @@
+//! The core by its public names alone: what a user of the crate may rely on. What needs other crates,
+//! such as the reference solvers, stands in the workspace's `tests/`.
+
+mod exact;
+mod generator;
+mod motor;
+mod peaks;
+mod plan;
+mod remedy;
+mod sequence;
+mod shapers;
+mod statics;
+
+/// Asserts `|value − expected| ≤ tolerance` and says by how much it fails.
+#[track_caller]
+fn assert_near(what: &str, value: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (value - expected).abs() <= tolerance,
+        "{what}: {value} is not {expected} within {tolerance}"
+    );
+}

@@ -1,0 +1,12 @@
+//! What crosses crates and runs on this machine. One program: seven would each be linked, and their
+//! long tests would run one after the other.
+
+mod drive;
+mod faults;
+mod firmware;
+mod model;
+mod motion;
+mod packages;
+mod pages;
+mod run;
+mod stress;

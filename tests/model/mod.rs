@@ -1,0 +1,4 @@
+//! The beam's models against each other and against the scenes' published periods.
+
+mod modes;
+mod sag;

@@ -1,0 +1,11 @@
+//! What is built for the target, and run in QEMU where there is a board for it. One program, so that
+//! an image that several tests need is built once.
+
+mod application;
+mod boards;
+mod emulator;
+mod footprint;
+mod golden;
+mod instructions;
+mod no_panic;
+mod portability;
