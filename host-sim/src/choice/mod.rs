@@ -12,7 +12,7 @@ use rayon::prelude::*;
 pub use document::{page, picture};
 pub use random::{Case, DISTRIBUTION};
 pub use summary::Summary;
-pub use verdict::Verdict;
+pub use verdict::{Doubt, Judged, Verdict};
 
 use crate::error::Error;
 
