@@ -18,7 +18,7 @@ pub(super) const ORDERS: [usize; 4] = [5, 6, 7, 8];
 
 /// Least and largest tolerance of a step, rad. Most steps are bound by the highest polynomial's
 /// vibration; this is for the others.
-pub(super) const TOLERANCE: (f64, f64) = (1e-9, 1e-7);
+pub(super) const TOLERANCE: (f64, f64) = (1e-11, 1e-7);
 
 /// Tolerance of a step, fraction of the angle that the arm bends by: a stiff arm bends by 1e-4, and its
 /// torque is to be right to a part in a thousand of that.
@@ -55,7 +55,9 @@ impl Case {
         let mut run = self.moves.clone();
         run.push(Move::Dwell { duration: self.period });
         let trajectory = Trajectory::plan(self.from, &run, &Limits::default(), self.tick)?;
-        let bend = self.bend(&trajectory)?;
+        let expected = self.bend(&trajectory)?;
+        let (least, most) = Elastica::<f32, 1>::BEND;
+        let bend = expected.clamp(least, most);
         let away = away(&trajectory, self.tick);
         let ladder = Rung::ladder(&self.arm);
         let errors = |truth: &[Sample]| {
@@ -64,7 +66,7 @@ impl Case {
         };
         let chosen = choice.as_ref().ok().map(|choice| choice.rung);
         let chosen = ladder.iter().position(|&rung| Some(rung) == chosen);
-        let tolerance = (PART * bend).clamp(TOLERANCE.0, TOLERANCE.1);
+        let tolerance = (PART * expected).clamp(TOLERANCE.0, TOLERANCE.1);
         let judge = |order| -> Result<_, Error> {
             let options = rod::Options { order, tolerance, integrator: None };
             Ok(errors(&self.truth(&trajectory, &options)?))
@@ -100,12 +102,10 @@ impl Case {
         Ok(rod::solve(&self.arm, trajectory, &times, options)?)
     }
 
-    /// Tip angle that the rungs are set up for, as `auto` does.
+    /// Tip angle to expect, rad.
     fn bend(&self, trajectory: &Trajectory) -> Result<f64, Error> {
         let peaks = trajectory.plans().iter().map(|plan| plan.outline.peaks.acceleration);
-        let bend = Rod::<1>::new(&self.arm)?.bend(peaks.fold(0.0, f64::max));
-        let (least, most) = Elastica::<f32, 1>::BEND;
-        Ok(bend.clamp(least, most))
+        Ok(Rod::<1>::new(&self.arm)?.bend(peaks.fold(0.0, f64::max)))
     }
 
     /// Largest distance of the tip from the truth and largest difference of the torque at the ticks
