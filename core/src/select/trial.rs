@@ -8,6 +8,7 @@ use super::ladder::{Assessment, Outcome};
 use super::peak::Peak;
 use crate::Error;
 use crate::hub::HubState;
+use crate::math::sqrt;
 use crate::model::Rod;
 use crate::motion::{Commanded, Kink, Stretch};
 use crate::scene::Scene;
@@ -63,9 +64,11 @@ struct Flight<'t, 'a, 'c, S: Stepper> {
     blocked: f64,
     steps: u32,
     deflection: f64,
-    /// Largest torque at a tick, N m, and largest jump of the acceleration, rad/s².
+    /// Largest torque at a tick, N m.
     at_ticks: f64,
-    jump: f64,
+    /// Sum of the squares of the acceleration's jumps, rad²/s⁴. What they make ring adds up: without
+    /// damping, at phases that have nothing to do with each other.
+    jumps: f64,
     torque: Peak,
     moment: Peak,
 }
@@ -112,7 +115,7 @@ impl<'a> Trial<'a> {
             steps: 0,
             deflection: 0.0,
             at_ticks: 0.0,
-            jump: 0.0,
+            jumps: 0.0,
             torque: Peak::default(),
             moment: Peak::default(),
         };
@@ -130,8 +133,8 @@ impl<'a> Trial<'a> {
         for candidate in flight.candidates.iter_mut() {
             candidate.finish();
         }
-        let Flight { steps, deflection, at_ticks, jump, torque, moment, .. } = flight;
-        let unseen = self.exact.unresolved() * jump;
+        let Flight { steps, deflection, at_ticks, jumps, torque, moment, .. } = flight;
+        let unseen = self.exact.unresolved() * sqrt(jumps);
         Ok(move |candidate: &Candidate<S>| {
             let Candidate { distance, torque: apart, .. } = *candidate;
             let outcome = Outcome { distance, deflection, torque: apart, peak: at_ticks, unseen };
@@ -214,7 +217,7 @@ impl<S: Stepper> Flight<'_, '_, '_, S> {
         if jump <= JUMP * self.trial.motion.peaks().acceleration {
             return;
         }
-        self.jump = self.jump.max(jump);
+        self.jumps += jump * jump;
         self.blocked = begin + BESIDE;
         // The latest tick is nearer than a tick, the one before it nearer than two.
         let both = begin - (self.next as f64 - 2.0) < BESIDE - NEAR;

@@ -13,18 +13,27 @@ pub(super) struct Rod<const N: usize> {
     pub scene: Scene,
     /// `ρA L wₚ` of the points, the payload's mass at the tip, kg.
     masses: [f64; STATIONS],
+    /// `ψₖ` at the points, shape by shape.
+    by_shape: [[f64; POINTS]; N],
+    /// R, what integrates values at the points from the clamp to each station, m: station by station, and
+    /// the same point by point.
+    by_station: [[f64; POINTS]; STATIONS],
+    by_point: [[f64; STATIONS]; POINTS],
+    /// `Σₛ mₛ Rₛₚ Rₛ_q`, kg m²: the inertia that the angles at the points
+    /// p and q share but for the cosine of their difference.
+    shared: [[f64; POINTS]; POINTS],
     /// `EI/L ∫ψₖ'²`, N m: the stiffness matrix is diagonal.
     pub stiffness: [f64; N],
 }
 
-/// Where the link is, and how that depends on the unknowns; station by station.
-pub(super) struct Configuration<const N: usize> {
-    /// `∂X/∂aₖ`, m.
-    ax: [[f64; N]; STATIONS],
-    /// `∂Y/∂aₖ`, m.
-    ay: [[f64; N]; STATIONS],
-    /// X, Y (m) and the part of Ẍ, Ÿ that holds no ä (m/s²).
-    rest: [[f64; 4]; STATIONS],
+/// Where the link is and how it moves in hub axes. One array a quantity: the loops over points and
+/// stations then run through memory in order, several at a time.
+pub(super) struct Configuration {
+    /// Cosine and sine of φ, point by point.
+    cos: [f64; POINTS],
+    sin: [f64; POINTS],
+    /// X, Y (m), their rates (m/s) and the part of Ẍ, Ÿ that holds no ä (m/s²), station by station.
+    stations: [[f64; STATIONS]; 6],
 }
 
 impl<const N: usize> Rod<N> {
@@ -36,83 +45,96 @@ impl<const N: usize> Rod<N> {
         });
         let scale = scene.link.bending_stiffness / scene.link.length;
         let stiffness = std::array::from_fn(|k| scale * basis.bending[k]);
-        Self { basis, scene: *scene, masses, stiffness }
+        let by_station = basis.running.map(|row| row.map(|weight| scene.link.length * weight));
+        let by_point = transposed(&by_station);
+        let by_shape = transposed(&basis.shapes);
+        let of = |p: usize, q: usize| -> f64 {
+            (0..STATIONS).map(|s| masses[s] * by_point[p][s] * by_point[q][s]).sum()
+        };
+        let shared = std::array::from_fn(|p| std::array::from_fn(|q| of(p, q)));
+        Self { basis, scene: *scene, masses, by_shape, by_station, by_point, shared, stiffness }
     }
 
     /// The link at unknowns `a` (rad) and rates `v` (rad/s).
-    pub fn configuration(&self, a: &SVector<f64, N>, v: &SVector<f64, N>) -> Configuration<N> {
-        let mut gx = [[0.0; N]; POINTS];
-        let mut gy = [[0.0; N]; POINTS];
-        let mut g = [[0.0; 4]; POINTS];
-        for (p, shapes) in self.basis.shapes.iter().enumerate() {
-            let (mut angle, mut rate) = (0.0, 0.0);
-            for k in 0..N {
-                angle += shapes[k] * a[k];
-                rate += shapes[k] * v[k];
-            }
-            let (sin, cos) = angle.sin_cos();
-            for k in 0..N {
-                gx[p][k] = -shapes[k] * sin;
-                gy[p][k] = shapes[k] * cos;
-            }
-            g[p] = [cos, sin, -rate * rate * cos, -rate * rate * sin];
+    pub fn configuration(&self, a: &SVector<f64, N>, v: &SVector<f64, N>) -> Configuration {
+        let (angle, rate) = (self.at_points(a), self.at_points(v));
+        let (mut cos, mut sin) = ([0.0; POINTS], [0.0; POINTS]);
+        for p in 0..POINTS {
+            (sin[p], cos[p]) = angle[p].sin_cos();
         }
-        let l = self.scene.link.length;
-        let mut out = Configuration {
-            ax: [[0.0; N]; STATIONS],
-            ay: [[0.0; N]; STATIONS],
-            rest: [[0.0; 4]; STATIONS],
+        // (cos φ)˙ = −φ̇ sin φ, (sin φ)˙ = φ̇ cos φ, and once more with φ̈ left out.
+        let product = |x: &[f64; POINTS], y: &[f64; POINTS]| -> [f64; POINTS] {
+            std::array::from_fn(|p| x[p] * y[p])
         };
-        for s in 0..STATIONS {
-            let (mut ax, mut ay, mut rest) = ([0.0; N], [0.0; N], [0.0; 4]);
-            for q in 0..POINTS {
-                let weight = l * self.basis.running[s][q];
-                for k in 0..N {
-                    ax[k] += weight * gx[q][k];
-                    ay[k] += weight * gy[q][k];
-                }
-                for k in 0..4 {
-                    rest[k] += weight * g[q][k];
-                }
-            }
-            rest[0] += self.scene.hub.radius;
-            out.ax[s] = ax;
-            out.ay[s] = ay;
-            out.rest[s] = rest;
+        let (across, along) = (product(&rate, &sin), product(&rate, &cos));
+        let slopes = [
+            cos,
+            sin,
+            across.map(|x| -x),
+            along,
+            product(&rate, &along).map(|x| -x),
+            product(&rate, &across).map(|x| -x),
+        ];
+        let mut stations = slopes.map(|slope| self.integral(&slope));
+        for x in &mut stations[0] {
+            *x += self.scene.hub.radius;
         }
-        out
+        Configuration { cos, sin, stations }
     }
 
-    /// `M(a)`, kg m².
-    pub fn mass_matrix(&self, at: &Configuration<N>) -> SMatrix<f64, N, N> {
-        let tip = &self.basis.tip;
-        let mut mass = [[0.0; N]; N];
-        for s in 0..STATIONS {
-            for i in 0..N {
-                let (x, y) = (self.masses[s] * at.ax[s][i], self.masses[s] * at.ay[s][i]);
-                for j in 0..N {
-                    mass[i][j] += x * at.ax[s][j] + y * at.ay[s][j];
-                }
-            }
-        }
-        SMatrix::from_fn(|i, j| mass[i][j] + self.scene.payload.inertia * tip[i] * tip[j])
-    }
-
-    /// Absolute acceleration of a station in hub axes but for `Σ A ä`, drag and weight counted as
-    /// accelerations, m/s².
-    fn bias(
-        &self,
-        at: &Configuration<N>,
-        s: usize,
-        v: &SVector<f64, N>,
-        hub: &HubState<f64>,
-    ) -> [f64; 2] {
-        let [x, y, cx, cy] = at.rest[s];
-        let (mut xd, mut yd) = (0.0, 0.0);
+    /// `Σ aₖ ψₖ` at the points.
+    fn at_points(&self, a: &SVector<f64, N>) -> [f64; POINTS] {
+        let mut sum = [0.0; POINTS];
         for k in 0..N {
-            xd += at.ax[s][k] * v[k];
-            yd += at.ay[s][k] * v[k];
+            for p in 0..POINTS {
+                sum[p] += a[k] * self.by_shape[k][p];
+            }
         }
+        sum
+    }
+
+    /// Integral from the clamp to each station of what is `slope` at the points.
+    fn integral(&self, slope: &[f64; POINTS]) -> [f64; STATIONS] {
+        let mut sum = [0.0; STATIONS];
+        for (q, slope) in slope.iter().enumerate() {
+            for s in 0..STATIONS {
+                sum[s] += slope * self.by_point[q][s];
+            }
+        }
+        sum
+    }
+
+    /// `M(a)`, kg m²: `Mᵢⱼ = Σ ψᵢ(p) ψⱼ(q) cos(φₚ − φ_q)` times what the points share.
+    pub fn mass_matrix(&self, at: &Configuration) -> SMatrix<f64, N, N> {
+        let mut moved = [[0.0; POINTS]; N];
+        for q in 0..POINTS {
+            let (cos, sin) = (at.cos[q], at.sin[q]);
+            let mut row = [0.0; POINTS];
+            for p in 0..POINTS {
+                row[p] = self.shared[q][p] * (cos * at.cos[p] + sin * at.sin[p]);
+            }
+            for j in 0..N {
+                let shape = self.by_shape[j][q];
+                for p in 0..POINTS {
+                    moved[j][p] += shape * row[p];
+                }
+            }
+        }
+        let (tip, twist) = (&self.basis.tip, self.scene.payload.inertia);
+        let mut mass = SMatrix::zeros();
+        for i in 0..N {
+            for j in 0..=i {
+                let sum = dot(&self.by_shape[i], &moved[j]) + twist * tip[i] * tip[j];
+                (mass[(i, j)], mass[(j, i)]) = (sum, sum);
+            }
+        }
+        mass
+    }
+
+    /// Absolute acceleration of a station in hub axes but for what ä gives it, drag and weight counted
+    /// as accelerations, m/s².
+    fn bias(&self, at: &Configuration, s: usize, hub: &HubState<f64>) -> [f64; 2] {
+        let [x, y, xd, yd, cx, cy] = at.stations.map(|quantity| quantity[s]);
         let (rate, acceleration) = (hub.rate, hub.acceleration);
         let (alpha, gravity) = (self.scene.damping.alpha, self.scene.gravity);
         [
@@ -129,7 +151,7 @@ impl<const N: usize> Rod<N> {
     /// where the state is not.
     pub fn acceleration(
         &self,
-        at: &Configuration<N>,
+        at: &Configuration,
         a: &SVector<f64, N>,
         v: &SVector<f64, N>,
         hub: &HubState<f64>,
@@ -141,11 +163,19 @@ impl<const N: usize> Rod<N> {
             -self.stiffness[k] * (a[k] + beta * v[k])
                 - self.scene.payload.inertia * tip[k] * turning
         });
+        // What the stations outboard of a point weigh on its angle.
+        let (mut along, mut across) = ([0.0; POINTS], [0.0; POINTS]);
         for s in 0..STATIONS {
-            let [x, y] = self.bias(at, s, v, hub).map(|bias| self.masses[s] * bias);
-            for k in 0..N {
-                force[k] -= at.ax[s][k] * x + at.ay[s][k] * y;
+            let [x, y] = self.bias(at, s, hub).map(|bias| self.masses[s] * bias);
+            for p in 0..POINTS {
+                along[p] += self.by_station[s][p] * x;
+                across[p] += self.by_station[s][p] * y;
             }
+        }
+        let moment: [f64; POINTS] =
+            std::array::from_fn(|p| at.cos[p] * across[p] - at.sin[p] * along[p]);
+        for k in 0..N {
+            force[k] -= dot(&self.by_shape[k], &moment);
         }
         match Cholesky::new(self.mass_matrix(at)) {
             Some(factor) => factor.solve(&force),
@@ -166,7 +196,7 @@ impl<const N: usize> Rod<N> {
     /// `∫(X a_Y − Y a_X) dm`. Moment: the same about the clamp at `(r, 0)`, without the hub's own.
     pub fn loads(
         &self,
-        at: &Configuration<N>,
+        at: &Configuration,
         v: &SVector<f64, N>,
         acceleration: &SVector<f64, N>,
         hub: &HubState<f64>,
@@ -175,13 +205,13 @@ impl<const N: usize> Rod<N> {
         let spin: f64 = (0..N).map(|k| tip[k] * acceleration[k]).sum();
         let mut moment = self.scene.payload.inertia * (spin + self.turning(v, hub));
         let mut shear = 0.0;
+        let bent = self.at_points(acceleration);
+        let along = self.integral(&std::array::from_fn(|p| -bent[p] * at.sin[p]));
+        let across = self.integral(&std::array::from_fn(|p| bent[p] * at.cos[p]));
         for s in 0..STATIONS {
-            let [mut ax, mut ay] = self.bias(at, s, v, hub);
-            for k in 0..N {
-                ax += at.ax[s][k] * acceleration[k];
-                ay += at.ay[s][k] * acceleration[k];
-            }
-            let [x, y, ..] = at.rest[s];
+            let [ax, ay] = self.bias(at, s, hub);
+            let (ax, ay) = (ax + along[s], ay + across[s]);
+            let (x, y) = (at.stations[0][s], at.stations[1][s]);
             moment += self.masses[s] * ((x - self.scene.hub.radius) * ay - y * ax);
             shear += self.masses[s] * ay;
         }
@@ -191,10 +221,22 @@ impl<const N: usize> Rod<N> {
     }
 }
 
-impl<const N: usize> Configuration<N> {
+impl Configuration {
     /// Hub-frame X and Y of the tip, m.
     pub fn tip(&self) -> [f64; 2] {
-        let [x, y, ..] = self.rest[POINTS];
-        [x, y]
+        [self.stations[0][POINTS], self.stations[1][POINTS]]
     }
+}
+
+/// The sum of the products, in four parts that do not wait for each other.
+fn dot(x: &[f64; POINTS], y: &[f64; POINTS]) -> f64 {
+    let mut sum = [0.0; 4];
+    for p in 0..POINTS {
+        sum[p % 4] += x[p] * y[p];
+    }
+    (sum[0] + sum[1]) + (sum[2] + sum[3])
+}
+
+fn transposed<const R: usize, const C: usize>(rows: &[[f64; C]; R]) -> [[f64; R]; C] {
+    std::array::from_fn(|c| std::array::from_fn(|r| rows[r][c]))
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use stillbeam::select::Rung;
 
-use super::judge::{CLOSE, JUDGE, MARGIN, STRICT, STRICT_EACH};
+use super::judge::{CHANGE, FAR, NEAR, ORDERS, PART, STRICT, STRICT_EACH, TOLERANCE};
 use super::random::DISTRIBUTION;
 use super::summary::Summary;
 use super::verdict::Verdict;
@@ -176,21 +176,32 @@ fn distribution(seed: u64) -> Block {
 }
 
 fn judge(summary: &Summary) -> String {
+    let [first, second, third, fourth] = summary.judged.map(thousands);
+    let (least, most) = TOLERANCE;
     format!(
-        "## The judge\n\nThe reference rod with {} polynomials, every step of which is shorter than its \
-         highest vibration asks for; where that finds a rung within {:.0} % of the tolerance, on either \
-         side, with {} polynomials ({} arms). On every {}th arm all is judged once more with {} \
-         polynomials and {:e} a step: over {} arms the errors of the rungs that meet twice the tolerance \
-         change by at most {:.3} of the tolerance.\n",
-        JUDGE.order,
-        100.0 * MARGIN,
-        CLOSE.order,
-        thousands(summary.closely),
+        "## The judge\n\nThe reference rod, first with {} polynomials, then with one more each time until \
+         the errors that a verdict hangs on are known. These are the larger of tip and torque over its \
+         tolerance, of every rung up to the chosen one, or of all where none was chosen or it did not keep \
+         them. The first judge is enough where they all differ from the tolerance by a factor of {FAR}. \
+         Otherwise an error counts as known when the last polynomial changed it by at most {CHANGE} of its \
+         distance from the tolerance, and by at most {NEAR} of the tolerance where it is below two. {} \
+         polynomials did for {first} arms, {} for {second}, {} for {third}, {} were asked for {fourth}; {} \
+         arms were still not known then. Every step is shorter than the highest vibration asks for, and its \
+         tolerance is {PART:e} of the angle that the arm bends by, {least:e} to {most:e} rad. On every {}th \
+         arm all is judged once more with {} polynomials and {:e} a step: over {} arms the errors below \
+         twice the tolerance change by at most {:.3} of the tolerance, and {} of the rungs change sides.\n",
+        ORDERS[0],
+        ORDERS[0],
+        ORDERS[1],
+        ORDERS[2],
+        ORDERS[3],
+        thousands(summary.unsettled),
         STRICT_EACH,
         STRICT.order,
         STRICT.tolerance,
         thousands(summary.doubted),
-        summary.doubt
+        summary.doubt,
+        thousands(summary.turned),
     )
 }
 

@@ -7,25 +7,39 @@ use stillbeam::stepper::Elastica;
 use stillbeam::{Error as CoreError, Generator, Move};
 
 use super::random::Case;
-use super::verdict::Verdict;
+use super::verdict::{Doubt, Judged, Verdict};
 use stillbeam_sim::compare;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::reference::{Sample, rod};
 use stillbeam_sim::trajectory::Trajectory;
 
-/// The judge. Its steps are bound by the highest polynomial's vibration; where damping has it take the
-/// implicit method, by the tolerance, an angle in rad: a stiff arm bends by 1e-4, and its torque is to be
-/// right to a part in a thousand of that.
-pub(super) const JUDGE: rod::Options = rod::Options { order: 6, tolerance: 1e-9, integrator: None };
+/// Polynomials of the judge, coarsest first. An arm is judged with one more each time, until no verdict
+/// hangs on it.
+pub(super) const ORDERS: [usize; 4] = [5, 6, 7, 8];
 
-/// The judge where it is close.
-pub(super) const CLOSE: rod::Options = rod::Options { order: 7, ..JUDGE };
+/// Least and largest tolerance of a step, rad. Most steps are bound by the highest polynomial's
+/// vibration; this is for the others.
+pub(super) const TOLERANCE: (f64, f64) = (1e-11, 1e-7);
 
-/// Where it is close: a rung that errs by the tolerance, give or take this part of it.
-pub(super) const MARGIN: f64 = 0.1;
+/// Tolerance of a step, fraction of the angle that the arm bends by: a stiff arm bends by 1e-4, and its
+/// torque is to be right to a part in a thousand of that.
+pub(super) const PART: f64 = 1e-5;
+
+/// Factor between a rung's error and the tolerance from which on the coarsest judge is enough: it errs
+/// by two fifths of the error where the torque rings most.
+pub(super) const FAR: f64 = 2.5;
+
+/// Largest change of a rung's error from one judge to the next, fraction of its distance from the
+/// tolerance. Each polynomial more takes half of the remaining error or less, so that what is left is no
+/// larger than the change.
+pub(super) const CHANGE: f64 = 0.25;
+
+/// Largest change where the error is below twice the tolerance, fraction of the tolerance.
+pub(super) const NEAR: f64 = 0.03;
 
 /// The judge's judge.
-pub(super) const STRICT: rod::Options = rod::Options { order: 8, tolerance: 1e-11, ..JUDGE };
+pub(super) const STRICT: rod::Options =
+    rod::Options { order: 8, tolerance: 1e-11, integrator: None };
 
 /// Every so many arms the judge itself is judged.
 pub(super) const STRICT_EACH: u64 = 50;
@@ -42,34 +56,46 @@ impl Case {
         let mut run = self.moves.clone();
         run.push(Move::Dwell { duration: self.period });
         let trajectory = Trajectory::plan(self.from, &run, &Limits::default(), self.tick)?;
-        let bend = self.bend(&trajectory)?;
+        let expected = self.bend(&trajectory)?;
+        let (least, most) = Elastica::<f32, 1>::BEND;
+        let bend = expected.clamp(least, most);
         let away = away(&trajectory, self.tick);
         let ladder = Rung::ladder(&self.arm);
         let errors = |truth: &[Sample]| {
             let of = |rung| self.errors(&run, rung, bend, truth, &away);
             ladder.map(|rung| of(rung).unwrap_or([f64::INFINITY; 2]))
         };
-        let mut truth = self.truth(&trajectory, &JUDGE)?;
-        let mut found = errors(&truth);
-        let close = |ratio: &f64| (ratio - 1.0).abs() < MARGIN;
-        let closely = found.as_flattened().iter().any(close);
-        if closely {
-            truth = self.truth(&trajectory, &CLOSE)?;
-            found = errors(&truth);
+        let chosen = choice.as_ref().ok().map(|choice| choice.rung);
+        let chosen = ladder.iter().position(|&rung| Some(rung) == chosen);
+        let tolerance = (PART * expected).clamp(TOLERANCE.0, TOLERANCE.1);
+        let judge = |order| -> Result<_, Error> {
+            let options = rod::Options { order, tolerance, integrator: None };
+            Ok(errors(&self.truth(&trajectory, &options)?))
+        };
+        let mut order = ORDERS[0];
+        let mut found = judge(order)?;
+        let alone = pairs(&found, &found, chosen);
+        let mut settled = alone.iter().all(|(error, _)| !(1.0 / FAR..FAR).contains(error));
+        for finer in &ORDERS[1..] {
+            if settled {
+                break;
+            }
+            let before = std::mem::replace(&mut found, judge(*finer)?);
+            order = *finer;
+            let both = pairs(&before, &found, chosen);
+            settled = both.iter().all(|&(a, b)| is_settled(a, b));
         }
         let doubt = if index.is_multiple_of(STRICT_EACH) {
             let strict = errors(&self.truth(&trajectory, &STRICT)?);
-            Some(doubt(&found, &strict))
+            Some(Doubt::of(&pairs(&found, &strict, chosen)))
         } else {
             None
         };
+        let judged = Judged { order, settled, doubt };
         let ticks = trajectory.ticks();
         let errors = found.map(larger);
-        let tolerance = self.tolerance;
-        let mut verdict =
-            Verdict { tolerance, ticks, ladder, choice, errors, parts: None, closely, doubt };
-        verdict.parts = verdict.chosen().map(|rung| found[rung]);
-        Ok(verdict)
+        let parts = chosen.map(|rung| found[rung]);
+        Ok(Verdict { tolerance: self.tolerance, ticks, ladder, choice, errors, parts, judged })
     }
 
     fn truth(&self, trajectory: &Trajectory, options: &rod::Options) -> Result<Vec<Sample>, Error> {
@@ -77,12 +103,10 @@ impl Case {
         Ok(rod::solve(&self.arm, trajectory, &times, options)?)
     }
 
-    /// Tip angle that the rungs are set up for, as `auto` does.
+    /// Tip angle to expect, rad.
     fn bend(&self, trajectory: &Trajectory) -> Result<f64, Error> {
         let peaks = trajectory.plans().iter().map(|plan| plan.outline.peaks.acceleration);
-        let bend = Rod::<1>::new(&self.arm)?.bend(peaks.fold(0.0, f64::max));
-        let (least, most) = Elastica::<f32, 1>::BEND;
-        Ok(bend.clamp(least, most))
+        Ok(Rod::<1>::new(&self.arm)?.bend(peaks.fold(0.0, f64::max)))
     }
 
     /// Largest distance of the tip from the truth and largest difference of the torque at the ticks
@@ -131,10 +155,18 @@ fn larger([a, b]: [f64; 2]) -> f64 {
     a.max(b)
 }
 
-/// Largest change of a rung's error over its tolerance by a stricter judge, of the rungs that either
-/// finds within twice the tolerance.
-fn doubt(errors: &[[f64; 2]], strict: &[[f64; 2]]) -> f64 {
-    let pairs = errors.as_flattened().iter().zip(strict.as_flattened());
-    let pairs = pairs.filter(|(a, b)| a.min(**b) <= 2.0);
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+/// Errors of a rung by two judges, for the rungs that a verdict hangs on: those up to the chosen one, or
+/// all where that is none or beyond its tolerances.
+fn pairs(a: &[[f64; 2]], b: &[[f64; 2]], chosen: Option<usize>) -> Vec<(f64, f64)> {
+    let kept = |rung: &usize| larger(a[*rung]).max(larger(b[*rung])) <= 1.0;
+    let count = chosen.filter(kept).map_or(a.len(), |rung| rung + 1);
+    a.iter().zip(b).take(count).map(|(&a, &b)| (larger(a), larger(b))).collect()
+}
+
+/// True if an error over its tolerance, `before` and now, is known well enough to say whether it is
+/// kept.
+fn is_settled(before: f64, now: f64) -> bool {
+    // Both may be infinite.
+    let change = if now == before { 0.0 } else { (now - before).abs() };
+    change <= CHANGE * (now - 1.0).abs() && (now > 2.0 || change <= NEAR)
 }

@@ -10,7 +10,7 @@ mod verdict;
 pub use document::{blocks, page, picture};
 pub use random::{Case, DISTRIBUTION};
 pub use summary::Summary;
-pub use verdict::Verdict;
+pub use verdict::{Doubt, Judged, Verdict};
 
 use crate::campaign;
 use stillbeam_sim::error::Error;

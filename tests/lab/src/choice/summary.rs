@@ -3,6 +3,7 @@
 use stillbeam::Error as CoreError;
 use stillbeam::select::Rung;
 
+use super::judge::ORDERS;
 use super::verdict::Verdict;
 
 /// What the choices have come to.
@@ -32,12 +33,16 @@ pub struct Summary {
     pub other: usize,
     /// Refused although a rung met the tolerance.
     pub needless: usize,
-    /// Arms that took the judge for close cases.
-    pub closely: usize,
+    /// Arms by the judge that had the last word: the coarsest first.
+    pub judged: [usize; ORDERS.len()],
+    /// Arms whose errors still changed as the finest judge had been asked.
+    pub unsettled: usize,
     /// Arms whose judge was judged.
     pub doubted: usize,
     /// Largest error of the judge over the tolerance.
     pub doubt: f64,
+    /// Rungs that a stricter judge has found on the other side of the tolerance.
+    pub turned: usize,
 }
 
 impl Summary {
@@ -61,7 +66,7 @@ impl Summary {
         let expected = |verdict: &Verdict| {
             verdict.choice.as_ref().ok().map(|choice| choice.expected.excess(&verdict.tolerance))
         };
-        let doubts = || verdicts.iter().filter_map(|v| v.doubt);
+        let doubts = || verdicts.iter().filter_map(|v| v.judged.doubt);
         Self {
             arms: verdicts.len(),
             chosen: by_rung(&Verdict::chosen),
@@ -80,9 +85,11 @@ impl Summary {
             bends,
             other: refused(|_| true) - tolerance - bends,
             needless: count(&|verdict| verdict.choice.is_err() && verdict.cheapest().is_some()),
-            closely: count(&|verdict| verdict.closely),
+            judged: std::array::from_fn(|k| count(&|v| v.judged.order == ORDERS[k])),
+            unsettled: count(&|verdict| !verdict.judged.settled),
             doubted: doubts().count(),
-            doubt: doubts().fold(0.0, f64::max),
+            doubt: doubts().map(|doubt| doubt.change).fold(0.0, f64::max),
+            turned: doubts().map(|doubt| doubt.turned).sum(),
         }
     }
 

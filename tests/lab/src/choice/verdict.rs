@@ -19,11 +19,40 @@ pub struct Verdict {
     pub errors: [f64; Rung::LADDER.len()],
     /// Of the chosen rung, each over its tolerance: tip and torque.
     pub parts: Option<[f64; 2]>,
-    /// True if the judge was the one for close cases.
-    pub closely: bool,
-    /// What a stricter judge makes of a rung's error over the tolerance, largest change, where that
-    /// was looked at.
-    pub doubt: Option<f64>,
+    /// How it was found.
+    pub judged: Judged,
+}
+
+/// How a verdict was found.
+#[derive(Clone, Copy, Debug)]
+pub struct Judged {
+    /// Polynomials of the judge that had the last word.
+    pub order: usize,
+    /// False if the errors still changed too much as the finest judge had been asked.
+    pub settled: bool,
+    /// What a stricter judge makes of it, where that was looked at.
+    pub doubt: Option<Doubt>,
+}
+
+/// How a stricter judge differs, over the rungs that the verdict hangs on.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Doubt {
+    /// Largest change of an error over its tolerance, of those that either judge finds below two.
+    pub change: f64,
+    /// Rungs that meet both tolerances for one judge and not for the other.
+    pub turned: usize,
+}
+
+impl Doubt {
+    /// Of a rung's error over its tolerance by the one judge and by the other.
+    pub(super) fn of(pairs: &[(f64, f64)]) -> Self {
+        let mut doubt = Self::default();
+        for (a, b) in pairs.iter().filter(|(a, b)| a.min(*b) <= 2.0) {
+            doubt.change = doubt.change.max((a - b).abs());
+            doubt.turned += usize::from((*a <= 1.0) != (*b <= 1.0));
+        }
+        doubt
+    }
 }
 
 impl Verdict {
