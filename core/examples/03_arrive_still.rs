@@ -7,7 +7,7 @@
 
 use rasciigraph::{Config, plot_many};
 use stillbeam::model::Rod;
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::{Elastica2, Quality};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
 
@@ -36,13 +36,13 @@ pub fn main() -> Result<(), Error> {
     let to = std::f64::consts::FRAC_PI_2;
 
     // Set-up takes its time. A plan then takes milliseconds on a microcontroller, beside the tick.
-    let planner = Still::<f32, 2>::new(&scene, TICK)?;
+    let planner = Planner::<f32, 2>::new(&scene, TICK)?;
     let duration = 1.4 * planner.first_period();
-    let plan = planner.plan(0.0, to, duration)?;
+    let plan = planner.plan(&Request::from_rest(0.0, to).duration(duration))?;
     println!(
-        "{} ticks, found in {} flights; the planner expects {:.4} % of the length to be left",
+        "{} ticks, found in {} simulations; the planner expects {:.4} % of the length to be left",
         plan.ticks,
-        plan.flights,
+        plan.simulations,
         100.0 * plan.residual
     );
 

@@ -2,7 +2,7 @@
 
 use stillbeam::axis::Mode;
 use stillbeam::model::OneElement;
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::Newmark;
 use stillbeam::{Error, Generator, Move, Payload, Profile, Scene};
 use stillbeam_lab::faults::machine::{CONFIGURATIONS, TICK};
@@ -29,8 +29,8 @@ fn plan(motion: &Move) -> Result<(), Error> {
 }
 
 fn planned_still() -> Move {
-    Still::<f32, 2>::new(&scene(), TICK)
-        .and_then(|s| s.plan(0.0, 0.4, 2.0))
+    Planner::<f32, 2>::new(&scene(), TICK)
+        .and_then(|s| s.plan(&Request::from_rest(0.0, 0.4).duration(2.0)))
         .expect("a plan")
         .motion()
 }

@@ -1,7 +1,7 @@
 //! Still moves of an axis, as the firmware's planner makes them.
 
 use stillbeam::axis::Policy;
-use stillbeam::planner::Still;
+use stillbeam::planner::Planner;
 use stillbeam::{Error, Limits, Link, Move, Scene};
 use stillbeam_tests::assert_near;
 
@@ -9,11 +9,11 @@ use crate::common::{Arm, LIMITS, POLICY, TICK, ask, assert_continuous, enabled, 
 
 const LINK: Link = Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 };
 
-fn planner() -> Still<f32, 2> {
+fn planner() -> Planner<f32, 2> {
     let mut scene = Scene::new(LINK);
     scene.payload.mass = 0.03;
     scene.gravity = 1.0;
-    Still::new(&scene, TICK).unwrap()
+    Planner::new(&scene, TICK).unwrap()
 }
 
 fn still(axis: &mut Arm, to: f64, duration: Option<f64>) -> Result<u32, Error> {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 use stillbeam::hub::Angle;
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request, Target};
 use stillbeam::stepper::Rigid;
 use stillbeam::{Generator, Link, Move, Profile, Scalar, Scene, Setpoint};
 
@@ -126,7 +126,7 @@ fn assert_spin_ups<T: Scalar>(ticks: u32, rates: [f64; 2], idle: u32) {
 
 /// Broken off anywhere: the plan goes on from the hub's own bits.
 fn assert_redirected<T: Scalar>(profile: Profile, when: u32, to: f64) {
-    let planner = Still::<f32, 2>::new(&scene(), TICK).expect("a planner");
+    let planner = Planner::<f32, 2>::new(&scene(), TICK).expect("a planner");
     let mut arm = arm::<T>(0.1);
     arm.push(&Move::To { profile, duration: 0.3, to: 1.2 }).expect("a move");
     for _ in 0..=when {
@@ -134,7 +134,8 @@ fn assert_redirected<T: Scalar>(profile: Profile, when: u32, to: f64) {
     }
     let mut straight = arm.clone();
     let next = straight.tick();
-    let plan = planner.plan_from(&straight.hub().precise(), None, to, 0.4).expect("a plan");
+    let request = Request::from_hub(straight.hub().precise(), Target::Angle(to)).duration(0.4);
+    let plan = planner.plan(&request.any_deflection()).expect("a plan");
     arm.redirect(0, &plan).expect("a course");
     let Setpoint { angle, rate, acceleration, .. } = next;
     assert_at(&arm.tick(), angle, rate.to_f64(), acceleration.to_f64());
@@ -192,10 +193,13 @@ fn a_changed_course_begins_with_the_hubs_own_bits() {
 /// A still move like every other.
 #[test]
 fn a_still_move_begins_and_ends_exactly() {
-    let planner = Still::<f32, 2>::new(&scene(), TICK).expect("a planner");
+    let planner = Planner::<f32, 2>::new(&scene(), TICK).expect("a planner");
     for to in [0.3, -1.1, 2.7] {
         let mut arm = arm::<f32>(0.0);
-        let motion = planner.plan(0.0, to, 0.31).expect("a plan").motion();
+        let motion = planner
+            .plan(&Request::from_rest(0.0, to).duration(0.31).any_deflection())
+            .expect("a plan")
+            .motion();
         arm.push(&motion).expect("a move");
         assert_at(&arm.tick(), target(0.0), 0.0, 0.0);
         for _ in 1..31 {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use proptest::prelude::*;
 use stillbeam::hub::Angle;
 use stillbeam::motion::{BULGE, Peaks, Plan, Segment};
-use stillbeam::planner::{Still, StillMove};
+use stillbeam::planner::{Planner, Request, StillMove, Target};
 use stillbeam::stepper::Rigid;
 use stillbeam::{Error, Generator, HubState, Limits, Link, Move, Profile, Scene};
 
@@ -109,7 +109,7 @@ fn moving() -> impl Strategy<Value = StillMove> {
             let from =
                 HubState { acceleration, ..HubState::turning(Angle::from_radians(0.4), rate) };
             let peaks = Peaks { rate: 0.0, acceleration: 0.0, jerk: 0.0 };
-            StillMove { from, to, ticks, tick: 0.01, bulge, peaks, residual: 0.0, flights: 0 }
+            StillMove { from, to, ticks, tick: 0.01, bulge, peaks, residual: 0.0, simulations: 0 }
         },
     )
 }
@@ -174,9 +174,10 @@ proptest! {
 #[test]
 fn a_plan_that_lies_is_refused() {
     let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
-    let planner = Still::<f32, 2>::new(&scene, 0.01).expect("a planner");
+    let planner = Planner::<f32, 2>::new(&scene, 0.01).expect("a planner");
     let arm = || Generator::<_, 8>::new(rigid(), 0.4).expect("a generator");
-    let honest = planner.plan_from(&arm().hub().precise(), None, PI, 0.3).expect("a plan");
+    let request = Request::from_hub(arm().hub().precise(), Target::Angle(PI)).duration(0.3);
+    let honest = planner.plan(&request.any_deflection()).expect("a plan");
     let limits = Limits { rate: Some(0.99 * honest.peaks.rate), ..Limits::default() };
     let nothing = Peaks { rate: 0.0, acceleration: 0.0, jerk: 0.0 };
     let lie = StillMove { peaks: nothing, ..honest };

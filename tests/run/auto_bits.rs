@@ -1,7 +1,7 @@
 //! `Auto` ticks exactly as the rung that it holds: the same bits, and the same energy at rest.
 
 use stillbeam::model::{EightElements, Rod};
-use stillbeam::planner::{Still, StillMove};
+use stillbeam::planner::{Planner, Request, StillMove, Target};
 use stillbeam::select::{Auto, Rung};
 use stillbeam::stepper::{Elastica, Modal, Quality, Rigid, Stepper};
 use stillbeam::{Damping, Generator, Hub, Link, Move, Payload, Profile, Scalar, Scene};
@@ -78,8 +78,9 @@ fn course(scene: &Scene) -> StillMove {
     for _ in 0..13 {
         arm.tick();
     }
-    let planner = Still::<f64, 2>::new(scene, TICK).expect("planner");
-    planner.plan_from(&arm.hub().precise(), None, 0.5, 1.2).expect("plan")
+    let planner = Planner::<f64, 2>::new(scene, TICK).expect("planner");
+    let request = Request::from_hub(arm.hub().precise(), Target::Angle(0.5)).duration(1.2);
+    planner.plan(&request.any_deflection()).expect("plan")
 }
 
 fn course_in<T: Scalar>(scene: &Scene) -> StillMove {

@@ -130,7 +130,7 @@ fn a_scene_file_shapes_its_moves() {
 #[test]
 fn first_periods_agree() {
     let scene = SceneFile::parse("test", SCENE).expect("a scene").arm;
-    let planner = stillbeam::planner::Still::<f64, 2>::new(&scene, 0.01).expect("planner");
+    let planner = stillbeam::planner::Planner::<f64, 2>::new(&scene, 0.01).expect("planner");
     let period = rod::first_period(&scene).expect("a rod");
     assert!((planner.first_period() / period - 1.0).abs() < 1e-4);
 }

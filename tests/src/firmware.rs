@@ -68,7 +68,7 @@ pub fn changed_application(
     name: &str,
     [from, to]: [&str; 2],
 ) -> Result<PathBuf, String> {
-    let path = root().join("firmware/src/bin/application/axes.rs");
+    let path = root().join("wiring/src/axes.rs");
     let axes = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     if axes.matches(from).count() != 1 {
         return Err(format!("{}: \"{from}\" must stand in it once", path.display()));

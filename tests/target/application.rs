@@ -254,11 +254,12 @@ fn the_application_keeps_its_budgets() {
 /// A stop may come out of any tick; no panic may.
 #[test]
 fn no_panic_is_reachable_from_an_axis_tick() {
-    let image = firmware::build("policy").unwrap_or_else(|error| panic!("{error}"));
+    let image = firmware::build("no_panic_axis").unwrap_or_else(|error| panic!("{error}"));
     let functions = image::functions(&image).unwrap_or_else(|error| panic!("{error}"));
     // The ticks are really in there.
     assert!(functions.iter().any(|name| name.contains("axis")), "{functions:#?}");
-    let error = firmware::build_with("policy", "STILLBEAM_FAULT", "panic").expect_err("a panic");
+    let error =
+        firmware::build_with("no_panic_axis", "STILLBEAM_FAULT", "panic").expect_err("a panic");
     assert!(error.contains("panic-never"), "{error}");
 }
 

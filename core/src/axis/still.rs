@@ -2,14 +2,14 @@
 
 use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::planner::Still;
+use crate::planner::{Planner, Request, Target};
 use crate::{Departure, Error, Planned};
 
 impl Departure {
     /// Plans a move to `to` rad after which the arm is at rest: in `duration` s, rounded to whole
     /// ticks, or if none is told in the shortest time within the limits. Torque and bending moment
     /// are kept by the planner's model where the planner has
-    /// [limits of them](Still::with_load_limits).
+    /// [limits of them](Planner::with_load_limits).
     ///
     /// From rest, as a queue of moves that end at rest leaves it, in any number of ticks from now.
     /// Runs for 10⁵ to 10⁸ instructions: at a low priority, never in the tick.
@@ -19,7 +19,7 @@ impl Departure {
     /// value and what it must be.
     pub fn plan_still<T: Scalar, const K: usize>(
         &self,
-        planner: &Still<T, K>,
+        planner: &Planner<T, K>,
         to: f64,
         duration: Option<f64>,
     ) -> Result<Planned<T>, Error> {
@@ -27,11 +27,12 @@ impl Departure {
         if start.rate != 0.0 {
             return Err(Error::NotAtRest { rate: start.rate });
         }
-        let (origin, limits) = (HubState::at_rest(start.angle), self.limits());
-        let still = match duration {
-            None => planner.shortest_from(&origin, None, to, limits)?.0,
-            Some(duration) => planner.within(&origin, None, to, duration, limits)?.0,
+        let request = Request {
+            duration,
+            limits: *self.limits(),
+            ..Request::from_hub(HubState::at_rest(start.angle), Target::Angle(to))
         };
+        let still = planner.plan(&request)?;
         self.plan(&still.motion())
     }
 }

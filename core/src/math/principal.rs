@@ -5,8 +5,8 @@ use super::{Band, Scalar, dot};
 /// Sweeps after which the iteration stops; two axes need one, eight about six.
 const MAX_SWEEPS: usize = 30;
 
-/// Axes with `vᵢᵀ K vⱼ = δᵢⱼ` and `vᵢᵀ G vⱼ = 0`, `i ≠ j`, as rows in no order; `K` positive definite,
-/// `G` symmetric.
+/// Axes with `vᵢᵀ K vⱼ = δᵢⱼ` and `vᵢᵀ G vⱼ = 0`, `i ≠ j`, as rows in no order; `K` positive
+/// definite, `G` symmetric.
 ///
 /// Gram and Schmidt's orthogonalisation in the metric of `K`, then Jacobi's rotations of pairs of
 /// axes. Error: a few roundings of the largest entry of either form.

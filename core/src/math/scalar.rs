@@ -5,9 +5,10 @@ use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A real number of the tick path.
 ///
-/// Only `+ − × ÷`, the absolute value, comparisons and conversions: these are IEEE-exact on every target, so that a
-/// run gives the same bits everywhere. There is deliberately no `sin`, `sqrt` or `mul_add`: the
-/// first two would pull libm into the tick, the last would change bits between machines.
+/// Only `+ − × ÷`, the absolute value, comparisons and conversions: these are IEEE-exact on every
+/// target, so that a run gives the same bits everywhere. There is deliberately no `sin`, `sqrt` or
+/// `mul_add`: the first two would pull libm into the tick, the last would change bits between
+/// machines.
 pub trait Scalar:
     Copy
     + Debug
@@ -45,8 +46,8 @@ pub trait Scalar:
 
     /// The nearest whole number, halves to even, and what is left: `self = whole + rest` exactly.
     ///
-    /// `|self| < 2²¹ − ½`, the nearest of which is a whole number of 22 bits. Outside of it, and for NaN,
-    /// both are arbitrary.
+    /// `|self| < 2²¹ − ½`, the nearest of which is a whole number of 22 bits. Outside of it, and
+    /// for NaN, both are arbitrary.
     fn split(self) -> (i32, Self);
 
     /// The signed binary fraction `value / 2⁶⁴`, in `−½ ..= ½`, to the scalar's precision.

@@ -97,7 +97,7 @@ pub enum Move {
         rate: f64,
     },
     /// Rest to rest by a quintic that bulges: `θ = quintic + (1 − u²)³ Σ bₖuᵏ`, `u = 2t/T − 1`.
-    /// With the bulge that [`Still`](crate::planner::Still) plans, the arm arrives without
+    /// With the bulge that [`Planner`](crate::planner::Planner) plans, the arm arrives without
     /// vibration.
     Still {
         /// T, s; rounded to the nearest whole tick.

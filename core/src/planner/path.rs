@@ -1,4 +1,4 @@
-//! Where a still move begins, the curve it follows, and the greatest values on it.
+//! The curve of a still move, before its bulge.
 
 use core::f64::consts::TAU;
 
@@ -6,8 +6,8 @@ use crate::hub::HubState;
 use crate::motion::segment::Shape;
 use crate::motion::{BULGE, Segment};
 
-/// A quintic from a departure to rest at `to`, angle, rate and acceleration continuous at both
-/// ends, to be bulged.
+/// A quintic from any state of the hub to rest at `to`, continuous in angle, rate and acceleration
+/// at both ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Path {
     pub from: HubState<f64>,
@@ -25,7 +25,7 @@ const RATE: [f64; 5] = [-7.0, -6.0, 10.0, 1.0, -3.0];
 const ACCELERATION: [f64; 5] = [-1.0, -2.0, 2.0, 1.0, -1.0];
 
 impl Path {
-    /// T, s.
+    /// Duration T, s.
     pub fn duration(&self) -> f64 {
         f64::from(self.ticks) * self.tick
     }
@@ -46,7 +46,7 @@ impl Path {
         })
     }
 
-    /// The curve with a bulge in rad.
+    /// The quintic with a bulge in rad.
     pub fn segment(&self, bulge: &[f64; BULGE]) -> Segment<f64> {
         let shape = Shape::Bulged { c: self.quintic(), d: bulge.map(|b| b / TAU) };
         let length = f64::from(self.ticks);

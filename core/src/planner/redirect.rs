@@ -1,4 +1,4 @@
-//! Changing course: a still move from a coming tick on, whatever is under way then.
+//! Redirects a generator: a still move from a coming tick on, whatever is under way then.
 
 use super::StillMove;
 use crate::Error;
@@ -17,14 +17,14 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ///
     /// ```
     /// # use stillbeam::model::Rod;
-    /// # use stillbeam::planner::Still;
+    /// # use stillbeam::planner::{Planner, Request, Target};
     /// # use stillbeam::stepper::{Elastica, Quality};
     /// # use stillbeam::{Generator, Link, Move, Profile, Scene};
     /// # let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
     /// # let rod = Rod::<2>::new(&scene)?;
     /// # let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fine, rod.bend(150.0))?;
     /// # let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
-    /// let planner = Still::<f32, 2>::new(&scene, 0.010)?;
+    /// let planner = Planner::<f32, 2>::new(&scene, 0.010)?;
     /// arm.push(&Move::To { profile: Profile::Cubic, duration: 0.3, to: 1.57 })?;
     /// # for _ in 0..8 { arm.tick(); }
     /// // In the middle of the move: somewhere else, from the fifth tick on.
@@ -33,7 +33,10 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ///     ahead.tick();
     /// }
     /// let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
-    /// let plan = planner.plan_from(&ahead.hub().precise(), Some(&flex), 0.5, 0.25)?;
+    /// let request = Request::from_hub(ahead.hub().precise(), Target::Angle(0.5))
+    ///     .arm(flex)
+    ///     .duration(0.25);
+    /// let plan = planner.plan(&request)?;
     /// arm.redirect(4, &plan)?;
     /// # for _ in 0..31 { arm.tick(); }
     /// # assert!((arm.setpoint().angle.radians() - 0.5).abs() < 1e-6);

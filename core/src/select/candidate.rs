@@ -45,8 +45,8 @@ pub(super) struct Candidate<S: Stepper> {
     pub distance: f64,
     /// Largest difference of the torques away from jumps, N m.
     pub torque: f64,
-    /// Differences of the torque at the latest two ticks, the later one last: a jump may still follow
-    /// that is too close.
+    /// Differences of the torque at the latest two ticks, the later one last: a jump may still
+    /// follow that is too close.
     pending: [f64; 2],
     /// Why it cannot follow.
     pub error: Option<Error>,

@@ -17,8 +17,8 @@ const AT_ONCE: usize = 4;
 /// Why there is no choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoChoice {
-    /// [`Error::Tolerance`] with the error of the finest rung, or why the finest cannot be set up for
-    /// this motion.
+    /// [`Error::Tolerance`] with the error of the finest rung, or why the finest cannot be set up
+    /// for this motion.
     pub error: Error,
     /// The rung that comes nearest to the tolerances, if one can follow at all.
     pub nearest: Option<Choice>,
@@ -30,13 +30,13 @@ impl From<NoChoice> for Error {
     }
 }
 
-/// Chooses the cheapest rung whose tip and torque stay within `tolerance` of the real ones, over the
-/// motion and one first period after it.
+/// Chooses the cheapest rung whose tip and torque stay within `tolerance` of the real ones, over
+/// the motion and one first period after it.
 ///
-/// Four rungs at a time, cheapest first, are flown along the motion beside the exact rod in six modes and
-/// small steps. What that costs at set-up stands in `docs/auto.md`: the exact rod flies once or twice,
-/// each time in at most 60,000 steps or 32 a tick, whichever is more. `progress` is given the part that
-/// is done, 0 to 1.
+/// Four rungs at a time, cheapest first, are flown along the motion beside the exact rod in six
+/// modes and small steps. What that costs at set-up stands in `docs/auto.md`: the exact rod flies
+/// once or twice, each time in at most 60,000 steps or 32 a tick, whichever is more. `progress` is
+/// given the part that is done, 0 to 1.
 #[allow(clippy::result_large_err)] // Once a set-up, and there is no heap to put it on.
 pub fn choose(
     scene: &Scene,
@@ -52,8 +52,8 @@ pub fn choose(
     })
 }
 
-/// The errors to expect of a stepper along a motion and one first period after it. Runs the exact rod
-/// beside it, once.
+/// The errors to expect of a stepper along a motion and one first period after it. Runs the exact
+/// rod beside it, once.
 pub fn assess<S: Stepper>(
     scene: &Scene,
     stepper: S,
@@ -67,6 +67,49 @@ pub fn assess<S: Stepper>(
     match candidate.error {
         Some(error) => Err(error),
         None => Ok(assessment(&candidate)),
+    }
+}
+
+/// Rungs that are tried at once.
+struct Part {
+    names: Vec<Rung, AT_ONCE>,
+    candidates: Vec<Candidate<Auto<f32>>, AT_ONCE>,
+    /// Error of the last rung that cannot be set up.
+    refused: Option<Error>,
+}
+
+impl Part {
+    /// Sets the rungs up, for a motion that bends the arm by `expected` rad.
+    ///
+    /// # Errors
+    /// An arm that cannot stand upright, which no rung changes, nor one that seems stiff.
+    fn new(
+        trial: &Trial<'_>,
+        scene: &Scene,
+        tick: f64,
+        rungs: &[Rung],
+        expected: f64,
+    ) -> Result<Self, Error> {
+        let (least, most) = Elastica::<f32, 3>::BEND;
+        let bend = expected.clamp(least, most);
+        let mut part = Self { names: Vec::new(), candidates: Vec::new(), refused: None };
+        for &rung in rungs {
+            let candidate = if rung.is_elastica() && expected > most {
+                Err(Error::BendsTooFar { bend: expected, max: most })
+            } else {
+                Auto::new(scene, tick, rung, bend).and_then(|auto| trial.candidate(auto))
+            };
+            match candidate {
+                // There is room for as many as are tried at once.
+                Ok(candidate) => {
+                    let _ = (part.names.push(rung), part.candidates.push(candidate));
+                }
+                Err(error @ Error::Buckles { .. }) => return Err(error),
+                // Else the scene and the motion are valid: it is the rung that cannot do it.
+                Err(error) => part.refused = Some(error),
+            }
+        }
+        Ok(part)
     }
 }
 
@@ -98,25 +141,9 @@ impl Search {
             best: f64::INFINITY,
         };
         for (part, rungs) in ladder.chunks(AT_ONCE).enumerate() {
-            let mut names = Vec::<Rung, AT_ONCE>::new();
-            let mut candidates = Vec::<Candidate<Auto<f32>>, AT_ONCE>::new();
-            for &rung in rungs {
-                let candidate = if rung.is_elastica() && expected_bend > most {
-                    Err(Error::BendsTooFar { bend: expected_bend, max: most })
-                } else {
-                    Auto::new(scene, tick, rung, bend).and_then(|auto| trial.candidate(auto))
-                };
-                match candidate {
-                    // There is room for as many as are tried at once.
-                    Ok(candidate) => {
-                        let _ = (names.push(rung), candidates.push(candidate));
-                    }
-                    // An arm that cannot stand is no matter of the rung, nor one that seems stiff.
-                    Err(error @ Error::Buckles { .. }) => return Err(error),
-                    // Else the scene and the motion are valid: it is the rung that cannot do it.
-                    Err(error) => reason = error,
-                }
-            }
+            let Part { names, mut candidates, refused } =
+                Part::new(&trial, scene, tick, rungs, expected_bend)?;
+            reason = refused.unwrap_or(reason);
             if candidates.is_empty() {
                 continue;
             }

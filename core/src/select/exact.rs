@@ -10,15 +10,15 @@ const STATIONS: usize = POINTS + 1;
 /// Most steps a tick.
 const MAX_STEPS: f64 = 128.0;
 
-/// Steps of a whole flight beyond which a step is made no shorter than the second mode asks for, nor
-/// than a [`FEWEST`]th of a tick. On a host they take a quarter of a second.
+/// Steps of a whole flight beyond which a step is made no shorter than the second mode asks for,
+/// nor than a [`FEWEST`]th of a tick. On a host they take a quarter of a second.
 const STEPS: f64 = 60_000.0;
 
 /// Steps a tick that are affordable however long the flight.
 const FEWEST: f64 = 32.0;
 
-/// What a step may turn a mode by, rad, and decay it by: the method bears 2.8. The second highest of
-/// six modes is held to it; the third then turns by 0.4, and its phase errs by 1e-4 of that.
+/// What a step may turn a mode by, rad, and decay it by: the method bears 2.8. The second highest
+/// of six modes is held to it; the third then turns by 0.4, and its phase errs by 1e-4 of that.
 const MOST: f64 = 1.5;
 
 /// What a step may turn a mode by, rad, so that its ringing is followed rather than damped away: it
@@ -41,13 +41,14 @@ pub(super) struct Shape<T, const MODES: usize> {
 /// `φ = Σ aₖψₖ`, `X = r + ∫cos φ`, `Y = ∫sin φ` at eight Gauss points and the tip, Lagrange's
 /// equations without an expansion in `a`, classical Runge-Kutta of fourth order.
 ///
-/// The steps are made for the second highest mode, or where a flight of so many ticks would take more
-/// than [`STEPS`] of them, for as high a mode as it affords, the second in most cases. Every mode that the steps
-/// do not resolve, or whose decay they do not, is given as much more inertia as makes it bearable: it
-/// still follows its load, many periods a tick.
+/// The steps are made for the second highest mode, or where a flight of so many ticks would take
+/// more than [`STEPS`] of them, for as high a mode as it affords, the second in most cases. Every
+/// mode that the steps do not resolve, or whose decay they do not, is given as much more inertia as
+/// makes it bearable: it still follows its load, many periods a tick.
 ///
-/// Hub torque and clamp moment are those of the inertia forces, drag and weight about the axis and about
-/// the clamp, `τ = J_hθ̈ + ∫(X a_Y − Y a_X) dm + J_p α_L`, as the host's reference rod has them.
+/// Hub torque and clamp moment are those of the inertia forces, drag and weight about the axis and
+/// about the clamp, `τ = J_hθ̈ + ∫(X a_Y − Y a_X) dm + J_p α_L`, as the host's reference rod has
+/// them.
 pub(super) struct Exact<T, const MODES: usize> {
     steps_a_tick: f64,
     /// h, s.
@@ -94,6 +95,15 @@ struct Forces<T, const MODES: usize> {
     /// Moment about the axis and force across the hub at the clamp but for `ä`, and per unit of it.
     fixed: [T; 2],
     moving: [[T; MODES]; 2],
+}
+
+/// What is integrated along the rod, at the Gauss points.
+struct Integrands<T, const MODES: usize> {
+    /// `∂X/∂a` and `∂Y/∂a`.
+    x_slope: [[T; POINTS]; MODES],
+    y_slope: [[T; POINTS]; MODES],
+    /// X, Y and the centripetal parts of their second derivatives.
+    rest: [[T; POINTS]; 4],
 }
 
 impl<T: Scalar, const MODES: usize> Forces<T, MODES> {
@@ -161,16 +171,16 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         T::from_f64(self.tick)
     }
 
-    /// Inertia about the axis of the modes that ring, after a jump of the commanded acceleration, without
-    /// being seen here: `J − Σ bₖ²` over those that the steps resolve, kg m².
+    /// Inertia about the axis of the modes that ring, after a jump of the commanded acceleration,
+    /// without being seen here: `J − Σ bₖ²` over those that the steps resolve, kg m².
     pub fn unresolved(&self) -> f64 {
         self.unresolved
     }
 
-    fn forces(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> Forces<T, MODES> {
+    /// Evaluates what is integrated along the rod, at the Gauss points.
+    #[inline(always)]
+    fn integrands(&self, shape: &Shape<T, MODES>) -> Integrands<T, MODES> {
         let Shape { a, v } = shape;
-        // What is integrated: ∂X/∂a, ∂Y/∂a, then X, Y and the centripetal parts of their second
-        // derivatives.
         let mut x_slope = [[T::ZERO; POINTS]; MODES];
         let mut y_slope = [[T::ZERO; POINTS]; MODES];
         let mut rest = [[T::ZERO; POINTS]; 4];
@@ -190,6 +200,13 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             (rest[0][p], rest[1][p]) = (cos, sin);
             (rest[2][p], rest[3][p]) = (-(square * cos), -(square * sin));
         }
+        Integrands { x_slope, y_slope, rest }
+    }
+
+    /// Assembles Lagrange's equations.
+    fn forces(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> Forces<T, MODES> {
+        let Shape { a, v } = shape;
+        let Integrands { x_slope, y_slope, rest } = self.integrands(shape);
         let (omega, faster, alpha) = (hub.rate, hub.acceleration, self.alpha);
         let turning = alpha * (dot(&self.tip_slope, v) + omega) + faster;
         let mut mass = Band::ZERO;
@@ -250,8 +267,8 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         }
     }
 
-    /// The tip in the hub frame, m, and what acts on the arm. Where the acceleration jumps, that is of
-    /// the side that the hub is of.
+    /// The tip in the hub frame, m, and what acts on the arm. Where the acceleration jumps, that is
+    /// of the side that the hub is of.
     pub fn answer(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> ([T; 2], Load<T>) {
         let forces = self.forces(shape, hub);
         (forces.tip, self.load(&forces, &forces.acceleration(), hub))
@@ -281,8 +298,9 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         })
     }
 
-    /// Advances from `begin` to `end`, ticks no more than one apart, along a motion with one formula;
-    /// returns how many steps that took. `seen` is given the load at the beginning of every step.
+    /// Advances from `begin` to `end`, ticks no more than one apart, along a motion with one
+    /// formula; returns how many steps that took. `seen` is given the load at the beginning of
+    /// every step.
     pub fn advance(
         &self,
         shape: &mut Shape<T, MODES>,

@@ -21,8 +21,9 @@ impl Rung {
     /// Every rung, in the order of what its tick costs on the target for an arm without damping and
     /// gravity.
     ///
-    /// Left out: a third mode of small deflections costs as much as one of the exact kinematics, and
-    /// a finer step of that one as much as a second, and they are the better of the two next to never.
+    /// Left out: a third mode of small deflections costs as much as one of the exact kinematics,
+    /// and a finer step of that one as much as a second, and they are the better of the two next to
+    /// never.
     pub const LADDER: [Self; 8] = [
         Self::Rigid,
         Self::Modal(1),
@@ -37,9 +38,9 @@ impl Rung {
     /// The last.
     pub const FINEST: Self = Self::Elastica(3, Quality::Fine);
 
-    /// Every rung, in the order of what its tick costs on the target for that arm. Damping and gravity
-    /// cost small deflections more than the exact kinematics. A test compares both orders with
-    /// `docs/instructions.csv`.
+    /// Every rung, in the order of what its tick costs on the target for that arm. Damping and
+    /// gravity cost small deflections more than the exact kinematics. A test compares both orders
+    /// with `docs/instructions.csv`.
     pub fn ladder(scene: &Scene) -> [Self; 8] {
         let mut ladder = Self::LADDER;
         let Damping { alpha, beta } = scene.damping;
@@ -72,9 +73,9 @@ impl fmt::Display for Rung {
 pub struct Tolerance {
     /// Largest distance of the tip from the real one, fraction of L, 1e-6 to 1.
     pub tip: f64,
-    /// Largest difference of the torque from the real one at the ticks, fraction of its peak, from 1e-6
-    /// to one. Ticks less than one and a half ticks from a jump of the commanded acceleration are left
-    /// out: what the torque is there depends on how many modes are taken for all of them.
+    /// Largest difference of the torque from the real one at the ticks, fraction of its peak, from
+    /// 1e-6 to one. Ticks less than one and a half ticks from a jump of the commanded acceleration
+    /// are left out: what the torque is there depends on how many modes are taken for all of them.
     pub torque: f64,
 }
 
@@ -97,14 +98,16 @@ impl Tolerance {
 /// The errors to expect of a stepper on a motion, and the loads that the motion takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assessment {
-    /// Largest distance of the tip from the real one, fraction of L: the distance seen in the trial,
-    /// and a little for what the trial itself leaves out. Infinite where the stepper has no answer.
+    /// Largest distance of the tip from the real one, fraction of L: the distance seen in the
+    /// trial, and a little for what the trial itself leaves out. Infinite where the stepper has no
+    /// answer.
     pub tip: f64,
     /// Largest difference of the torque, fraction of its peak, as [`Tolerance::torque`] has it.
     pub torque: f64,
     /// Largest magnitude of the exact rod's hub torque, between the ticks too, N m.
     pub peak_torque: f64,
-    /// Largest magnitude of the exact rod's bending moment at the clamp, between the ticks too, N m.
+    /// Largest magnitude of the exact rod's bending moment at the clamp, between the ticks too, N
+    /// m.
     pub peak_moment: f64,
     /// Steps of the exact rod that were taken to find it.
     pub steps: u32,
@@ -156,14 +159,14 @@ pub(super) struct Outcome {
 }
 
 impl Outcome {
-    /// Error of the tip to expect, fraction of L: the distance from the exact rod, and what that leaves
-    /// out, more polynomials and the rounding of long moves.
+    /// Error of the tip to expect, fraction of L: the distance from the exact rod, and what that
+    /// leaves out, more polynomials and the rounding of long moves.
     pub fn tip(&self) -> f64 {
         1.02 * self.distance + 2e-5 * self.deflection + 2e-6
     }
 
-    /// Error of the torque to expect, fraction of its peak: the difference from the exact rod, and what
-    /// that leaves out, the modes that ring unseen and rounding.
+    /// Error of the torque to expect, fraction of its peak: the difference from the exact rod, and
+    /// what that leaves out, the modes that ring unseen and rounding.
     pub fn torque(&self) -> f64 {
         let apart = 1.02 * self.torque + UNSEEN * self.unseen;
         if apart == 0.0 { 0.0 } else { apart / self.peak + 1e-4 }

@@ -105,12 +105,12 @@ impl<T: Scalar> Auto<T> {
         })
     }
 
-    /// Sets up the cheapest rung whose tip and torque stay within `tolerance` of the real ones, over
-    /// these moves from rest at `from` rad and one first period after them: see [`choose`].
+    /// Sets up the cheapest rung whose tip and torque stay within `tolerance` of the real ones,
+    /// over these moves from rest at `from` rad and one first period after them: see [`choose`].
     ///
     /// # Errors
-    /// No rung is good enough: [`Error::Tolerance`] with the error of the finest; or the finest cannot
-    /// be set up for these moves, and why.
+    /// [`Error::Tolerance`] with the error of the finest rung if none is good enough, or why the
+    /// finest cannot be set up for these moves.
     pub fn choose(
         scene: &Scene,
         tick: f64,
@@ -133,7 +133,8 @@ impl<T: Scalar> Stepper for Auto<T> {
     type Scalar = T;
     type State = AutoState<T>;
 
-    // The same for every rung, so that each ticks on the paths that it takes when it is linked itself.
+    // The same for every rung, so that each ticks on the paths that it takes when it is linked
+    // itself.
     const FAST: FastPaths = every_rung_has(
         FastPaths::BOTH,
         [
@@ -203,8 +204,8 @@ impl<T: Scalar> Stepper for Auto<T> {
     }
 }
 
-/// Returns `paths`, which every rung must have: one that differed would tick otherwise than when it is
-/// linked.
+/// Returns `paths`, which every rung must have: one that differed would tick otherwise than when it
+/// is linked.
 const fn every_rung_has(paths: FastPaths, rungs: [FastPaths; 7]) -> FastPaths {
     let mut k = 0;
     while k < rungs.len() {

@@ -26,8 +26,8 @@ const NEAR: f64 = 1e-6;
 /// Ticks beside a jump of the commanded acceleration within which the torque is not compared.
 const BESIDE: f64 = 1.5;
 
-/// Change of the commanded acceleration, of its peak, from which on it is a jump: a hundred times what an
-/// f32 rounds it by.
+/// Change of the commanded acceleration, of its peak, from which on it is a jump: a hundred times
+/// what an f32 rounds it by.
 const JUMP: f64 = 1e-4;
 
 /// Ticks between two looks at whether the arm has come to rest.
@@ -90,8 +90,8 @@ impl<'a> Trial<'a> {
         Candidate::new(stepper, self.motion, &first)
     }
 
-    /// Tries them all at once: the exact rod, which is what a trial costs, flies once. Ends early when
-    /// none of them is within `most` of L. `progress` is given the part that is done.
+    /// Tries them all at once: the exact rod, which is what a trial costs, flies once. Ends early
+    /// when none of them is within `most` of L. `progress` is given the part that is done.
     pub fn fly<S: Stepper>(
         &self,
         candidates: &mut [Candidate<S>],

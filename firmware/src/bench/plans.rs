@@ -3,7 +3,7 @@
 use core::fmt::Write;
 use core::hint::black_box;
 
-use stillbeam::planner::{Still, StillMove};
+use stillbeam::planner::{Request, StillMove, Target};
 use stillbeam::stepper::Flex;
 use stillbeam::{Angle, Damping, Error, Hub, HubState, Link, Payload, Scene};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
@@ -28,15 +28,20 @@ const B: Scene = Scene {
     ..A
 };
 
-type Planner = Still<f32, 2>;
+type Planner = stillbeam::planner::Planner<f32, 2>;
+/// A move by `TURN` in `duration` s, searched for but not simulated once more for its deflection.
+fn half_turn(duration: f64) -> Request<f32, 2> {
+    Request::from_rest(0.0, TURN).duration(duration).any_deflection()
+}
+
 type Plan = fn(&Planner) -> Result<StillMove, Error>;
 
 /// What is planned: name, arm, spread of its frequency, plan.
 const PLANS: [(&str, &Scene, f64, Plan); 6] = [
-    ("d-fast", &D, 0.0, |planner| planner.plan(0.0, TURN, 0.2)),
-    ("a-tip30", &A, 0.0, |planner| planner.plan(0.0, TURN, 2.0)),
-    ("damped", &B, 0.0, |planner| planner.plan(0.0, TURN, 2.0)),
-    ("gravity", &Scene { gravity: 0.5, ..B }, 0.0, |planner| planner.plan(0.0, TURN, 2.0)),
+    ("d-fast", &D, 0.0, |planner| planner.plan(&half_turn(0.2))),
+    ("a-tip30", &A, 0.0, |planner| planner.plan(&half_turn(2.0))),
+    ("damped", &B, 0.0, |planner| planner.plan(&half_turn(2.0))),
+    ("gravity", &Scene { gravity: 0.5, ..B }, 0.0, |planner| planner.plan(&half_turn(2.0))),
     ("redirected", &D, 0.0, |planner| {
         // In the middle of a move, the arm bent and moving.
         let from = HubState {
@@ -44,9 +49,10 @@ const PLANS: [(&str, &Scene, f64, Plan); 6] = [
             ..HubState::turning(Angle { turns: 0, part: 0.1 }, 8.0)
         };
         let flex = Flex { coordinate: [-0.003, 0.0], rate: [0.1, 0.0] };
-        planner.plan_from(&from, Some(&flex), 1.0, 0.2)
+        let request = Request::from_hub(from, Target::Angle(1.0)).arm(flex).duration(0.2);
+        planner.plan(&request.any_deflection())
     }),
-    ("robust", &A, 0.2, |planner| planner.plan(0.0, TURN, 2.26)),
+    ("robust", &A, 0.2, |planner| planner.plan(&half_turn(2.26))),
 ];
 
 /// Prints a line a plan, in the form of a tick's.
@@ -63,5 +69,5 @@ pub fn print<C: Counter>(watch: &Stopwatch<C>, output: &mut impl Write) {
 
 #[inline(never)]
 fn set_up(scene: &Scene, spread: f64) -> Result<Planner, Error> {
-    if spread == 0.0 { Still::new(scene, TICK) } else { Still::robust(scene, TICK, spread) }
+    if spread == 0.0 { Planner::new(scene, TICK) } else { Planner::robust(scene, TICK, spread) }
 }

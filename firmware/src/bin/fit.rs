@@ -16,16 +16,14 @@ use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
 use heapless::Vec;
 use semihosting::process::ExitCode;
-use stillbeam::axis::{Axis, Cause, Mode, Tick};
+use stillbeam::axis::{Axis, Mode};
 use stillbeam::{Angle, Error, Move, Profile};
 use stillbeam_firmware::counter::{Chosen as Counter, Stopwatch};
 use stillbeam_firmware::output::Output;
 use stillbeam_golden::methods::Method;
-
-/// The application's: the second axis has every term, so that both are that one here.
-#[allow(dead_code)]
-#[path = "application/axes.rs"]
-mod axes;
+use stillbeam_wiring::Configuration;
+use stillbeam_wiring::axes::{CONFIGURATIONS, QUEUE, TICK};
+use stillbeam_wiring::drive::Setpoint;
 
 /// `Chosen`, a method: written by build.rs.
 mod method {
@@ -37,16 +35,7 @@ stillbeam_firmware::unused_interrupts!();
 
 const AXES: usize = 2;
 
-type Joint = Axis<<method::Chosen as Method>::Stepper, 8>;
-
-/// As the application's.
-#[derive(Clone, Copy)]
-#[allow(dead_code)]
-struct Setpoint {
-    axis: u8,
-    tick: Tick<f32>,
-    cause: Option<Cause>,
-}
+type Joint = Axis<<method::Chosen as Method>::Stepper, QUEUE>;
 
 type Outlet = Channel<CriticalSectionRawMutex, Setpoint, { 2 * AXES }>;
 
@@ -61,10 +50,11 @@ fn with<R>(look: impl FnOnce(&mut Vec<Joint, AXES>) -> R) -> R {
 
 #[inline(never)]
 fn set_up() -> Result<(), Error> {
-    let axes::Configuration { scene, policy, .. } = &axes::CONFIGURATIONS[1];
+    // The application's second axis has every term, so that both are that one here.
+    let Configuration { scene, policy, .. } = &CONFIGURATIONS[1];
     let origin = Angle { turns: 0, part: 0.0 };
     for _ in 0..AXES {
-        let axis = Axis::new(method::Chosen::stepper(scene, axes::TICK)?, origin, *policy)?;
+        let axis = Axis::new(method::Chosen::stepper(scene, TICK)?, origin, *policy)?;
         with(|joints| {
             // As many as there is room for.
             let _ = joints.push(axis);

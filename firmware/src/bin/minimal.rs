@@ -12,7 +12,7 @@ use cortex_m_rt::entry;
 use semihosting::io::{self, Write};
 use semihosting::process;
 use stillbeam::model::Rod;
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
 use stillbeam_firmware::{exit, stack};
@@ -69,8 +69,9 @@ fn one_still_move() -> Result<(), Error> {
     let rod = Rod::<2>::new(&scene)?;
     let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fast, rod.bend(10.0))?;
     let mut arm = Generator::<_, 2>::new(stepper, 0.0)?;
-    let planner = Still::<f32, 2>::new(&scene, 0.010)?;
-    arm.push(&planner.plan(0.0, black_box(core::f64::consts::PI), 2.0)?.motion())?;
+    let planner = Planner::<f32, 2>::new(&scene, 0.010)?;
+    let request = Request::from_rest(0.0, black_box(core::f64::consts::PI)).duration(2.0);
+    arm.push(&planner.plan(&request.any_deflection())?.motion())?;
     for _ in 0..=400 {
         black_box(arm.tick());
     }

@@ -82,7 +82,7 @@ impl PlanArgs {
 }
 
 fn print(name: &str, request: &Request, planned: &Planned) {
-    let Planned { plan, survey, judgement, .. } = planned;
+    let Planned { plan, prediction, judgement, .. } = planned;
     let length = request.arm.link.length;
     let kind = match request.robust {
         Some(spread) => format!("still, robust to \u{b1}{} %", 100.0 * spread),
@@ -108,13 +108,13 @@ fn print(name: &str, request: &Request, planned: &Planned) {
     );
     println!(
         "  peak deflection    {:.2} mm ({:.1} % of L)",
-        1e3 * survey.deflection,
-        100.0 * survey.deflection / length
+        1e3 * prediction.deflection,
+        100.0 * prediction.deflection / length
     );
     println!("  residual           {:.4} % of L in the reference rod", 100.0 * judgement.residual);
     println!(
         "  planner\u{2019}s bound    {:.4} % of L by its model, all modes in step",
-        100.0 * survey.residual / length
+        100.0 * prediction.residual / length
     );
     let at = |error: f64| 100.0 * planned.residual_at(error);
     println!(
@@ -126,5 +126,5 @@ fn print(name: &str, request: &Request, planned: &Planned) {
         at(0.1),
         at(0.2)
     );
-    println!("  planned in         {} flights through the move", plan.flights);
+    println!("  planned in         {} simulations of the move", plan.simulations);
 }

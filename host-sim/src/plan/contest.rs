@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use rayon::prelude::*;
 use stillbeam::motion::{Shaper, ShaperKind};
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request};
 use stillbeam::{Error as CoreError, Move, Profile, Scene};
 
 use super::judge::{self, Judgement, Motion};
@@ -116,8 +116,9 @@ pub(super) fn motions(
             }
         }
     }
-    let still = Still::<f32, 2>::new(arm, tick)?.plan(0.0, to, duration);
-    let robust = Still::<f32, 2>::robust(arm, tick, SPREAD)?.plan(0.0, to, duration);
+    let request = Request::from_rest(0.0, to).duration(duration).any_deflection();
+    let still = Planner::<f32, 2>::new(arm, tick)?.plan(&request);
+    let robust = Planner::<f32, 2>::robust(arm, tick, SPREAD)?.plan(&request);
     for (name, plan) in [("still", still), (ROBUST, robust)] {
         match plan {
             Ok(plan) => all.push((name.to_owned(), Motion::of(0.0, plan.motion(), tick))),

@@ -6,15 +6,13 @@
 
 use std::cell::OnceCell;
 
-use stillbeam::hub::Angle;
-use stillbeam::planner::{Still, StillMove, Survey};
+use stillbeam::planner::{Planner, Prediction, Request, StillMove};
 use stillbeam::{Error as CoreError, Limits, Remedy};
 
 use crate::error::Error;
 use crate::limits::{Case, Excess, Peak, Quantity, Refusal, Way, kinematic, load, remedy};
 use crate::reference::rod::Resume;
 use crate::scene_file::Step;
-use stillbeam::HubState;
 
 /// Fraction of the torque limit that a shortest move is planned for: a method's own setpoints, good
 /// to a hundredth of the peak, then keep the limit too.
@@ -58,7 +56,7 @@ pub struct Kept {
     /// The plan.
     pub plan: StillMove,
     /// What its planner expects.
-    pub survey: Survey,
+    pub prediction: Prediction,
     /// `2π/ω₁`, s.
     pub first_period: f64,
 }
@@ -68,20 +66,19 @@ impl Asked<'_> {
     pub fn plan(&self) -> Result<Kept, Error> {
         let tick = self.before.tick;
         let planner = match self.robust {
-            Some(spread) => Still::<f32, 2>::robust(self.before.arm, tick, spread)?,
-            None => Still::<f32, 2>::new(self.before.arm, tick)?,
+            Some(spread) => Planner::<f32, 2>::robust(self.before.arm, tick, spread)?,
+            None => Planner::<f32, 2>::new(self.before.arm, tick)?,
         };
         let search = Search { asked: self, planner, state: OnceCell::new() };
         search.weight()?;
-        let (plan, survey) = match self.duration {
+        let plan = match self.duration {
             Some(duration) => search.lasting(duration)?,
             None => search.shortest()?,
         };
-        Ok(Kept { plan, survey, first_period: search.planner.first_period() })
+        let prediction = search.planner.predict(&plan, None);
+        Ok(Kept { plan, prediction, first_period: search.planner.first_period() })
     }
 }
-
-type Found = (StillMove, Survey);
 
 /// Why a plan is none.
 enum Failure {
@@ -91,7 +88,7 @@ enum Failure {
 
 struct Search<'a> {
     asked: &'a Asked<'a>,
-    planner: Still<f32, 2>,
+    planner: Planner<f32, 2>,
     /// The rod where the move begins; none at rest.
     state: OnceCell<Option<Resume>>,
 }
@@ -115,18 +112,23 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// The move from rest to rest.
+    fn request(&self) -> Request<f32, 2> {
+        Request::from_rest(self.asked.from, self.asked.to)
+    }
+
     fn refusal(&self, excess: Excess, way: Way) -> Error {
         Refusal { excess, count: self.asked.count, way }.into()
     }
 
     /// The move of a given duration, or the refusal that says which would do.
-    fn lasting(&self, duration: f64) -> Result<Found, Error> {
+    fn lasting(&self, duration: f64) -> Result<StillMove, Error> {
         let excess = match self.attempt(duration, self.asked.limits)? {
             Ok(found) => return Ok(found),
             Err(Failure::Core(error)) => return Err(error.into()),
             Err(Failure::Exceeds(excess)) => excess,
         };
-        let fits = self.shortest().ok().and_then(|(plan, _)| {
+        let fits = self.shortest().ok().and_then(|plan| {
             let longest = plan.ticks + plan.ticks / 10 + 10;
             (plan.ticks..longest)
                 .map(|ticks| f64::from(ticks) * plan.tick)
@@ -139,20 +141,20 @@ impl Search<'_> {
     }
 
     /// A move of that duration, s, within the limits in truth.
-    fn attempt(&self, duration: f64, limits: &Limits) -> Result<Result<Found, Failure>, Error> {
-        let (from, to) = (HubState::at_rest(Angle::from_radians(self.asked.from)), self.asked.to);
-        let within = |limits: &Limits| self.planner.within(&from, None, to, duration, limits);
+    fn attempt(&self, duration: f64, limits: &Limits) -> Result<Result<StillMove, Failure>, Error> {
+        let within =
+            |limits: &Limits| self.planner.plan(&self.request().limits(*limits).duration(duration));
         // The planner's own idea of the peaks is not asked first: the truth counts, behind the shaper and
         // by the rod.
         let free = match within(&Limits::default()) {
             Ok(found) => found,
             Err(error) => return Ok(Err(Failure::Core(error))),
         };
-        let over = self.over(&free.0, limits)?;
+        let over = self.over(&free, limits)?;
         let Some(&excess) = over.first() else { return Ok(Ok(free)) };
         let unloaded = Limits { torque: None, moment: None, ..*limits };
         if let Ok(found) = within(&unloaded)
-            && self.over(&found.0, limits)?.is_empty()
+            && self.over(&found, limits)?.is_empty()
         {
             return Ok(Ok(found));
         }
@@ -164,10 +166,11 @@ impl Search<'_> {
     }
 
     /// The shortest move within the limits in truth.
-    fn shortest(&self) -> Result<Found, Error> {
-        let Asked { from, to, limits, .. } = *self.asked;
+    fn shortest(&self) -> Result<StillMove, Error> {
+        let limits = self.asked.limits;
         let goal = Limits { torque: limits.torque.map(|torque| GOAL * torque), ..*limits };
-        let found = self.tightened(&goal, |limits| self.planner.shortest(from, to, limits))?;
+        let found =
+            self.tightened(&goal, |limits| self.planner.plan(&self.request().limits(*limits)))?;
         let (excess, from_ticks) = match found {
             Ok(found) => return self.shortened(found, &goal),
             Err((Failure::Core(error), _)) => return Err(error.into()),
@@ -185,14 +188,14 @@ impl Search<'_> {
 
     /// Halves a duration back that tightened load limits made too long: they take the weight's share
     /// of a load for the motion's.
-    fn shortened(&self, found: Found, goal: &Limits) -> Result<Found, Error> {
+    fn shortened(&self, found: StillMove, goal: &Limits) -> Result<StillMove, Error> {
         let mut found = found;
         if !load::limited(goal) {
             return Ok(found);
         }
-        let mut failing = (SHORTER * f64::from(found.0.ticks)) as u32;
+        let mut failing = (SHORTER * f64::from(found.ticks)) as u32;
         for _ in 0..HALVINGS {
-            let middle = failing + (found.0.ticks - failing) / 2;
+            let middle = failing + (found.ticks - failing) / 2;
             if middle <= failing {
                 break;
             }
@@ -209,8 +212,8 @@ impl Search<'_> {
     fn tightened(
         &self,
         goal: &Limits,
-        plan: impl Fn(&Limits) -> Result<Found, CoreError>,
-    ) -> Result<Result<Found, (Failure, u32)>, Error> {
+        plan: impl Fn(&Limits) -> Result<StillMove, CoreError>,
+    ) -> Result<Result<StillMove, (Failure, u32)>, Error> {
         let mut limits = *goal;
         let mut last = None;
         for _ in 0..ROUNDS {
@@ -223,9 +226,9 @@ impl Search<'_> {
                     return Ok(Err(failure));
                 }
             };
-            let over = self.over(&found.0, goal)?;
+            let over = self.over(&found, goal)?;
             let Some(&excess) = over.first() else { return Ok(Ok(found)) };
-            last = Some((excess, found.0.ticks));
+            last = Some((excess, found.ticks));
             for excess in over {
                 if let Some(limit) = excess.quantity.of_mut(&mut limits) {
                     // A little more, so that rounding does not take another round.

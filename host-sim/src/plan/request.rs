@@ -1,7 +1,7 @@
 //! A still move as it is asked for, and all that is found out about it.
 
 use rayon::prelude::*;
-use stillbeam::planner::{StillMove, Survey};
+use stillbeam::planner::{Prediction, StillMove};
 use stillbeam::{Limits, Scene};
 
 use super::judge::{Judgement, Motion};
@@ -41,7 +41,7 @@ pub struct Planned {
     /// The plan.
     pub plan: StillMove,
     /// What its planner expects.
-    pub survey: Survey,
+    pub prediction: Prediction,
     /// `2π/ω₁`, s.
     pub first_period: f64,
     /// What the reference rod does.
@@ -73,7 +73,7 @@ impl Request {
 
     /// Plans and judges; `tick` is called once for each of [`ERRORS`].
     pub fn carry_out(&self, tick: &(dyn Fn() + Sync)) -> Result<Planned, Error> {
-        let Kept { plan, survey, first_period } = self.plan()?;
+        let Kept { plan, prediction, first_period } = self.plan()?;
         let motion = Motion::of(self.from, plan.motion(), self.tick);
         let judgements = ERRORS
             .par_iter()
@@ -87,7 +87,7 @@ impl Request {
         let sensitivity = ERRORS.into_iter().zip(residuals).collect();
         let judgement = judgements[ERRORS.len() / 2].clone();
         let loads = self.loads(&plan)?;
-        Ok(Planned { plan, survey, first_period, judgement, loads, sensitivity })
+        Ok(Planned { plan, prediction, first_period, judgement, loads, sensitivity })
     }
 }
 

@@ -1,42 +1,48 @@
 //! An axis with the method that the firmware names.
 
-use stillbeam::axis::{Axis, Cause, Mode, Policy, Tick};
-use stillbeam::{Angle, Departure, Error as CoreError, Planned, Scene};
+use stillbeam::axis::{Cause, Mode, Tick};
+use stillbeam::motor::Drivetrain;
+use stillbeam::{Angle, Departure, Error as CoreError, Payload, Planned, Scene};
 use stillbeam_methods::{Method, Visitor, visit_all};
+use stillbeam_protocol::{Command, Refusal};
+use stillbeam_wiring::{Configuration, Joint};
 
 use crate::error::Error;
 
 /// Segments of the queue: more than any firmware has, so that what it accepted is never refused here.
 const QUEUE: usize = 64;
 
-/// An axis of any method: what a replica needs of it.
+/// The firmware's wiring of an axis, for any method.
 pub(super) trait Arm {
-    fn enable(&mut self, measured: Angle<f32>) -> Result<(), CoreError>;
-    fn disable(&mut self);
+    /// Carries out a command that needs no plan, the shaft being at `shaft`.
+    fn carry_out(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Refusal<'static>>;
     fn stop(&mut self, cause: Cause);
     fn departure(&self) -> Result<Departure, CoreError>;
     fn take(&mut self, planned: &Planned<f32>) -> Result<u32, CoreError>;
-    /// Sets the stepper of another arm up, and puts it in the place of the old one.
-    fn reload(&mut self, scene: &Scene, tick: f64) -> Result<(), Error>;
+    /// Sets the arm with another payload up and puts it in the place of the old one.
+    fn reload(&mut self, payload: Payload, tick: f64) -> Result<(), Error>;
     fn heard(&mut self);
     fn missed(&mut self, ticks: u32);
     fn tick(&mut self) -> Tick<f32>;
     fn mode(&self) -> Mode;
     fn cause(&self) -> Option<Cause>;
     fn rests(&self) -> bool;
+    fn scene(&self) -> &Scene;
+    fn train(&self) -> &Drivetrain<f32>;
 }
 
-/// A disabled axis at angle 0, with the method of that name.
+/// Builds a disabled axis with the method of that name: its hub is at angle 0 where the shaft is at
+/// `zero`, to the bit, which the configuration's zero in turns need not be.
 ///
 /// # Errors
-/// No method has the name, or the scene or the policy cannot be.
+/// No method has the name, or the method or the axis refuses the configuration.
 pub(super) fn build(
     method: &str,
-    scene: &Scene,
+    configuration: &Configuration,
+    zero: Angle<f32>,
     tick: f64,
-    policy: Policy,
 ) -> Result<Box<dyn Arm>, Error> {
-    let mut builder = Builder { method, scene, tick, policy, built: None, names: Vec::new() };
+    let mut builder = Builder { method, configuration, zero, tick, built: None, names: Vec::new() };
     visit_all(&mut builder);
     let Builder { built, names, .. } = builder;
     built.unwrap_or_else(|| {
@@ -51,9 +57,9 @@ pub(super) fn build(
 /// Builds the method with the name that is looked for.
 struct Builder<'a> {
     method: &'a str,
-    scene: &'a Scene,
+    configuration: &'a Configuration,
+    zero: Angle<f32>,
     tick: f64,
-    policy: Policy,
     built: Option<Result<Box<dyn Arm>, Error>>,
     names: Vec<&'static str>,
 }
@@ -62,72 +68,84 @@ impl Visitor for Builder<'_> {
     fn visit<M: Method>(&mut self) {
         self.names.push(M::ID);
         if M::ID == self.method {
-            self.built = Some(Of::<M>::boxed(self.scene, self.tick, self.policy));
+            self.built = Some(Of::<M>::boxed(self.configuration, self.zero, self.tick));
         }
     }
 }
 
 /// An axis of one method.
-struct Of<M: Method>(Axis<M::Stepper, QUEUE>);
+struct Of<M: Method>(Joint<M::Stepper, QUEUE>);
 
 impl<M: Method> Of<M> {
-    fn boxed(scene: &Scene, tick: f64, policy: Policy) -> Result<Box<dyn Arm>, Error> {
-        let origin = Angle { turns: 0, part: 0.0 };
-        Ok(Box::new(Self(Axis::new(M::stepper(scene, tick)?, origin, policy)?)))
+    fn boxed(
+        configuration: &Configuration,
+        zero: Angle<f32>,
+        tick: f64,
+    ) -> Result<Box<dyn Arm>, Error> {
+        let mut joint = Joint::new(configuration, M::stepper(&configuration.scene, tick)?)?;
+        joint.train.home(zero, Angle { turns: 0, part: 0.0 });
+        Ok(Box::new(Self(joint)))
     }
 }
 
 /// The error of a replica that is not in the firmware's state.
-pub(super) fn apart(refused: CoreError) -> Error {
-    Error::new(format_args!("the firmware accepts what the host's axis refuses: {refused:?}"))
+pub(super) fn apart(refused: impl Into<Refusal<'static>>) -> Error {
+    let refusal = refused.into();
+    Error::new(format_args!("the firmware accepts what the host's axis refuses: {refusal}"))
 }
 
 impl<M: Method> Arm for Of<M> {
-    fn enable(&mut self, measured: Angle<f32>) -> Result<(), CoreError> {
-        self.0.enable(measured)
-    }
-
-    fn disable(&mut self) {
-        self.0.disable();
+    fn carry_out(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Refusal<'static>> {
+        self.0.measured = Some(shaft);
+        self.0.carry_out(command)
     }
 
     fn stop(&mut self, cause: Cause) {
-        self.0.stop(cause);
+        self.0.axis.stop(cause);
     }
 
     fn departure(&self) -> Result<Departure, CoreError> {
-        self.0.departure()
+        self.0.axis.departure()
     }
 
     fn take(&mut self, planned: &Planned<f32>) -> Result<u32, CoreError> {
-        self.0.take(planned)
+        self.0.axis.take(planned)
     }
 
-    fn reload(&mut self, scene: &Scene, tick: f64) -> Result<(), Error> {
-        self.0.replace(M::stepper(scene, tick)?).map_err(apart)
+    fn reload(&mut self, payload: Payload, tick: f64) -> Result<(), Error> {
+        let scene = Scene { payload, ..self.0.scene };
+        self.0.replace(scene, M::stepper(&scene, tick)?).map_err(apart)
     }
 
     fn heard(&mut self) {
-        self.0.heard();
+        self.0.axis.heard();
     }
 
     fn missed(&mut self, ticks: u32) {
-        self.0.missed(ticks);
+        self.0.axis.missed(ticks);
     }
 
     fn tick(&mut self) -> Tick<f32> {
-        self.0.tick()
+        self.0.axis.tick()
     }
 
     fn mode(&self) -> Mode {
-        self.0.mode()
+        self.0.axis.mode()
     }
 
     fn cause(&self) -> Option<Cause> {
-        self.0.cause()
+        self.0.axis.cause()
     }
 
     fn rests(&self) -> bool {
-        self.0.rests()
+        self.0.axis.rests()
+    }
+
+    fn scene(&self) -> &Scene {
+        &self.0.scene
+    }
+
+    fn train(&self) -> &Drivetrain<f32> {
+        &self.0.train
     }
 }

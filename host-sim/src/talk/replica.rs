@@ -3,9 +3,11 @@
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::{Demand, Drivetrain};
-use stillbeam::planner::Still;
-use stillbeam::{Angle, Move, Payload, Scene};
+use stillbeam::planner::Planner;
+use stillbeam::{Angle, Move};
 use stillbeam_protocol::{Command, Description};
+use stillbeam_wiring::drive::{Switch, demand};
+use stillbeam_wiring::{Configuration, Work};
 
 use super::arm::{self, Arm, apart};
 use crate::error::Error;
@@ -14,14 +16,11 @@ use crate::error::Error;
 /// firmware accepted is never refused here.
 pub struct Replica {
     axis: Box<dyn Arm>,
-    train: Drivetrain<f32>,
-    scene: Scene,
     tick: f64,
     node: Node,
-    /// Whether the drive was on at the last tick; at the first it is told.
-    on: Option<bool>,
+    switch: Switch,
     /// Set up when first asked.
-    planner: Option<Still<f32, 2>>,
+    planner: Option<Planner<f32, 2>>,
 }
 
 impl Replica {
@@ -34,11 +33,10 @@ impl Replica {
         let Description { method, scene, tick, policy, joint, direction, zero, node, .. } =
             *description;
         let policy = if patient { Policy { patience: 0.0, ..policy } } else { policy };
-        let axis = arm::build(method, &scene, tick, policy)?;
-        let mut train = Drivetrain::new(&joint, direction, 0.0)?;
-        // To the bit, which the zero in turns need not be.
-        train.home(zero, Angle { turns: 0, part: 0.0 });
-        Ok(Self { axis, train, scene, tick, node: Node::new(node)?, on: None, planner: None })
+        let configuration = Configuration { scene, policy, joint, direction, zero: 0.0, node };
+        let axis = arm::build(method, &configuration, zero, tick)?;
+        let (node, switch) = (Node::new(node)?, Switch::default());
+        Ok(Self { axis, tick, node, switch, planner: None })
     }
 
     /// Carries out what the firmware has accepted.
@@ -46,26 +44,15 @@ impl Replica {
     /// # Errors
     /// The host's axis refuses it: the two are not in the same state.
     pub fn apply(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Error> {
-        match *command {
-            Command::Enable => self.axis.enable(self.train.mapping().to_link(shaft)),
-            Command::Disable => {
-                self.axis.disable();
-                Ok(())
+        match Work::of(command) {
+            Some(Work::Move(motion)) => self.follow(&motion),
+            Some(Work::Still { to, duration }) => self.follow_still(to, duration),
+            Some(Work::Payload(payload)) => {
+                self.planner = None;
+                self.axis.reload(payload, self.tick)
             }
-            Command::Stop => {
-                self.axis.stop(Cause::Requested);
-                Ok(())
-            }
-            Command::Move(motion) => return self.follow(&motion),
-            Command::Still { to, duration } => return self.follow_still(to, duration),
-            Command::Payload(payload) => return self.reload(payload),
-            Command::Home(angle) => {
-                self.train.home(shaft, Angle::from_radians(angle).cast());
-                Ok(())
-            }
-            Command::Heartbeat | Command::Describe | Command::Status => Ok(()),
+            None => self.axis.carry_out(command, shaft).map_err(apart),
         }
-        .map_err(apart)
     }
 
     fn follow(&mut self, motion: &Move) -> Result<(), Error> {
@@ -77,17 +64,11 @@ impl Replica {
         let departure = self.axis.departure().map_err(apart)?;
         let planner = match self.planner.take() {
             Some(planner) => planner,
-            None => Still::new(&self.scene, self.tick)?,
+            None => Planner::new(self.axis.scene(), self.tick)?,
         };
         let planned = departure.plan_still(&planner, to, duration);
         self.planner = Some(planner);
         self.axis.take(&planned?).map(drop).map_err(apart)
-    }
-
-    fn reload(&mut self, payload: Payload) -> Result<(), Error> {
-        self.planner = None;
-        self.scene.payload = payload;
-        self.axis.reload(&self.scene, self.tick)
     }
 
     /// A word from the host was heard.
@@ -113,10 +94,7 @@ impl Replica {
 
     /// What the drive is told at a tick: the demand while it is on, and whether it is switched.
     pub fn told(&mut self, tick: &Tick<f32>) -> (Option<Demand<f32>>, Option<bool>) {
-        let on = tick.mode != Mode::Disabled;
-        let switched = (self.on != Some(on)).then_some(on);
-        self.on = Some(on);
-        (on.then(|| self.train.demand(&tick.setpoint)), switched)
+        (demand(self.axis.train(), tick), self.switch.turn(tick.mode))
     }
 
     /// The mode.
@@ -141,6 +119,6 @@ impl Replica {
 
     /// Link to motor.
     pub fn train(&self) -> &Drivetrain<f32> {
-        &self.train
+        self.axis.train()
     }
 }

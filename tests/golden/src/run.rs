@@ -1,7 +1,7 @@
 //! Runs every scene with every method, the same way on host and target.
 
 use stillbeam::model::Rod;
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request, Target};
 use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Error, Generator, Setpoint};
 
@@ -107,13 +107,14 @@ impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Runner<'_, F> {
 }
 
 fn one_still(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Result<(), Error> {
-    let planner = Still::<f32, 2>::new(&run.scene, run.tick)?;
+    let planner = Planner::<f32, 2>::new(&run.scene, run.tick)?;
     let rod = Rod::<2>::new(&run.scene)?;
     let stepper = Elastica::<f32, 2>::new(&rod, run.tick, Quality::Fast, 0.5)?;
     let mut arm = Generator::<_, QUEUE>::new(stepper, run.from)?;
     let (there, back) = (run.from + 1.0, run.from + 0.2);
     let duration = 1.5 * planner.first_period();
-    arm.push(&planner.plan(run.from, there, duration)?.motion())?;
+    let request = Request::from_rest(run.from, there).duration(duration).any_deflection();
+    arm.push(&planner.plan(&request)?.motion())?;
     let mut k = 0;
     let mut tick = |arm: &mut Generator<_, QUEUE>, ticks: u32| {
         for _ in 0..ticks {
@@ -125,7 +126,8 @@ fn one_still(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Result<()
     let mut ahead = arm.clone();
     ahead.tick();
     let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
-    let plan = planner.plan_from(&ahead.hub().precise(), Some(&flex), back, 2.0 * duration)?;
+    let request = Request::from_hub(ahead.hub().precise(), Target::Angle(back)).arm(flex);
+    let plan = planner.plan(&request.duration(2.0 * duration).any_deflection())?;
     arm.redirect(0, &plan)?;
     tick(&mut arm, plan.ticks + 10);
     Ok(())

@@ -115,8 +115,8 @@ fn sample<const K: usize>(rod: &Rod<K>, a: &[f64; K]) -> (Even<f64, K>, Odd<f64>
 }
 
 impl<const K: usize> Expansion<K> {
-    /// Fits the monomials by least squares over the box `|aₖ| ≤ range[k]`; values and, for Y, slopes
-    /// at `a = 0` are exact. `K` is 1 to 3.
+    /// Fits the monomials by least squares over the box `|aₖ| ≤ range[k]`; values and, for Y,
+    /// slopes at `a = 0` are exact. `K` is 1 to 3.
     pub(crate) fn fit(rod: &Rod<K>, range: &[f64; K]) -> Self {
         const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
         let (rest, _) = sample(rod, &[0.0; K]);

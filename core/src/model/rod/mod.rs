@@ -5,7 +5,7 @@ pub(crate) mod monomials;
 mod points;
 
 pub(crate) use expansion::Expansion;
-pub(crate) use points::{Chain, Load};
+pub(crate) use points::{Load, RodPoints};
 
 use crate::Error;
 use crate::math::{Band, Scalar, dot, generalized_eigen, sqrt};
@@ -73,8 +73,8 @@ impl<const K: usize> Rod<K> {
         Self::of_polynomials::<BASIS>(scene)
     }
 
-    /// Solves for the lowest `K` modes of `N` polynomials. `N` is at most 6: then the rule integrates
-    /// the products of two deflections exactly.
+    /// Solves for the lowest `K` modes of `N` polynomials. `N` is at most 6: then the rule
+    /// integrates the products of two deflections exactly.
     pub(crate) fn of_polynomials<const N: usize>(scene: &Scene) -> Result<Self, Error> {
         const { assert!(1 <= K && K <= N, "as many modes as polynomials at most") }
         const { assert!(2 * (N + 1) < 2 * POINTS, "the mass is integrated exactly") }
@@ -159,8 +159,8 @@ impl<const K: usize> Rod<K> {
         })
     }
 
-    /// `ψₖ` at the Gauss points, the rule's weights, and what integrates from the clamp to each point,
-    /// all for a link of length 1.
+    /// `ψₖ` at the Gauss points, the rule's weights, and what integrates from the clamp to each
+    /// point, all for a link of length 1.
     pub(crate) fn rule(&self) -> Rule<'_, K> {
         Rule { slope: &self.slope, weights: &self.weights, running: &self.running }
     }

@@ -1,9 +1,9 @@
 //! The inextensible rod by the angles at a few points: exact kinematics in the modes, in the
 //! scalar of the tick.
 //!
-//! With `φ_p = Σ aₖψₖ(ξ_p)` the position is `r (1, 0) + ∫ (cos φ, sin φ)`, and every integral of two
-//! of them over the mass is a sum over pairs of points with constant weights
-//! `W_pq = ∫ρA I_p I_q dx + m_p I_p(L) I_q(L)`, `I_p` the integrals of the Lagrange polynomials.
+//! With `φ_p = Σ aₖψₖ(ξ_p)` the position is `r (1, 0) + ∫ (cos φ, sin φ)`, and every integral of
+//! two of them over the mass is a sum over pairs of points with constant weights `W_pq = ∫ρA I_p
+//! I_q dx + m_p I_p(L) I_q(L)`, `I_p` the integrals of the Lagrange polynomials.
 
 use super::{Rod, legendre, rule};
 use crate::hub::HubState;
@@ -21,7 +21,7 @@ const HALF_RULE: [(f64, f64); POINTS / 2] = [
 
 /// What does not depend on the stiffness of a rod in `K` modes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Chain<T, const K: usize> {
+pub(crate) struct RodPoints<T, const K: usize> {
     /// `W_pq`, `q ≤ p`.
     pairs: [[T; POINTS]; POINTS],
     /// `∫ρA I_p dx + m_p I_p(L)`.
@@ -63,7 +63,7 @@ pub(crate) struct Load<T> {
     pub tip: [T; 2],
 }
 
-impl<T: Scalar, const K: usize> Chain<T, K> {
+impl<T: Scalar, const K: usize> RodPoints<T, K> {
     pub fn new(rod: &Rod<K>) -> Self {
         let scene = rod.scene();
         let length = scene.link.length;

@@ -3,16 +3,15 @@
 
 use embassy_futures::select::{Either, select};
 use embedded_io_async::Read;
-use stillbeam::axis::{Cause, Mode};
-use stillbeam::{Angle, Error};
 use stillbeam_firmware::stack;
 use stillbeam_methods::Method as _;
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status};
+use stillbeam_wiring::Work;
+use stillbeam_wiring::axes::{self, AXES, CONFIGURATIONS};
 
-use crate::axes::{self, AXES, CONFIGURATIONS};
 use crate::board::LinkReader;
-use crate::plan::{DONE, Done, JOBS, Job, Work};
+use crate::plan::{DONE, Done, JOBS, Job};
 use crate::shared::{self, Outcome, on, scene};
 use crate::{link, tick};
 
@@ -49,21 +48,15 @@ fn answer(request: &Request) -> Option<Report<'static>> {
     let Request { sequence, axis, command } = *request;
     shared::with(|s| s.joints.iter_mut().for_each(|joint| joint.axis.heard()));
     let axis = usize::from(axis);
+    if let Some(work) = Work::of(&command) {
+        return hand_down(sequence, axis, work);
+    }
     let outcome = match command {
         Command::Describe => {
             describe(axis).map(|description| Report::Description { sequence, description })
         }
         Command::Status => status(axis).map(|status| Report::Status { sequence, status }),
-        Command::Move(motion) => return hand_down(sequence, axis, Work::Move(motion)),
-        Command::Still { to, duration } => {
-            return hand_down(sequence, axis, Work::Still { to, duration });
-        }
-        Command::Payload(payload) => return hand_down(sequence, axis, Work::Payload(payload)),
-        Command::Enable
-        | Command::Disable
-        | Command::Stop
-        | Command::Home(_)
-        | Command::Heartbeat => Ok(accepted(sequence, change(axis, command))),
+        _ => Ok(accepted(sequence, on(axis, |joint| joint.carry_out(&command)))),
     };
     Some(outcome.unwrap_or_else(|refusal| Report::Refused { sequence, refusal }))
 }
@@ -79,50 +72,6 @@ fn accepted(sequence: u16, outcome: Outcome<u32>) -> Report<'static> {
 fn hand_down(sequence: u16, axis: usize, work: Work) -> Option<Report<'static>> {
     let full = JOBS.try_send(Job { sequence, axis, work }).is_err();
     full.then_some(Report::Refused { sequence, refusal: Refusal::Busy })
-}
-
-/// Carries out what needs no plan and returns the first tick that it shows in.
-fn change(axis: usize, command: Command) -> Outcome<u32> {
-    match command {
-        Command::Enable => on(axis, |joint| {
-            let shaft = joint.measured.ok_or(Refusal::NotMeasured)?;
-            Ok(joint.axis.enable(joint.train.mapping().to_link(shaft))?)
-        }),
-        Command::Disable => on(axis, |joint| {
-            joint.axis.disable();
-            Ok(())
-        }),
-        Command::Stop => on(axis, |joint| {
-            joint.axis.stop(Cause::Requested);
-            Ok(())
-        }),
-        Command::Home(angle) => home(axis, angle),
-        _ => on(axis, |_| Ok(())),
-    }
-}
-
-/// Names the angle where a disabled axis stands.
-fn home(axis: usize, angle: f64) -> Outcome<u32> {
-    if !(-1e6..=1e6).contains(&angle) {
-        let parameter = "home.angle";
-        return Err(Error::OutOfRange {
-            parameter,
-            value: angle,
-            min: -1e6,
-            max: 1e6,
-            unit: "rad",
-        }
-        .into());
-    }
-    let angle: Angle<f32> = Angle::from_radians(angle).cast();
-    on(axis, |joint| {
-        let shaft = joint.measured.ok_or(Refusal::NotMeasured)?;
-        match joint.axis.mode() {
-            Mode::Disabled => joint.train.home(shaft, angle),
-            mode => return Err(Refusal::Mode(mode)),
-        }
-        Ok(())
-    })
 }
 
 fn describe(axis: usize) -> Outcome<Description<'static>> {

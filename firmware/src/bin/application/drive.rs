@@ -1,20 +1,20 @@
 //! Frames to the drives and from them. ODrive CAN simple; another protocol of `stillbeam::drive`
 //! goes in here.
 
-use stillbeam::axis::{Freshness, Mode, Sequence, Tick};
-use stillbeam::drive::odrive::{Node, TORQUE_STEP};
+use stillbeam::axis::{Freshness, Sequence, Tick};
+use stillbeam::drive::odrive::TORQUE_STEP;
 use stillbeam::drive::{ClassicFrame, TorquePeak};
+use stillbeam_wiring::axes::AXES;
+use stillbeam_wiring::drive::{Setpoint, Switch, demand};
 
-use crate::axes::{AXES, CONFIGURATIONS};
 use crate::board::{BusReader, BusWriter};
 use crate::shared;
-use crate::tick::{Setpoint, TO_DRIVE};
+use crate::tick::TO_DRIVE;
 
-/// What is known of a drive.
+/// State of the talk with one drive.
 #[derive(Clone, Copy, Default)]
 struct Drive {
-    /// As it was last told; a drive may still be on when this board begins anew.
-    on: Option<bool>,
+    switch: Switch,
     sent: Option<Sequence>,
     moving: bool,
     peak: TorquePeak,
@@ -38,12 +38,10 @@ pub async fn send(mut bus: BusWriter) {
 }
 
 async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive) {
-    let Some(node) = node(axis) else { return };
-    let train = shared::with(|s| s.joints.get(usize::from(axis)).map(|joint| joint.train));
-    let Some(train) = train else { return };
-    let on = tick.mode != Mode::Disabled;
-    if on {
-        let demand = train.demand(&tick.setpoint);
+    let joint =
+        shared::with(|s| s.joints.get(usize::from(axis)).map(|joint| (joint.node(), joint.train)));
+    let Some((node, train)) = joint else { return };
+    if let Some(demand) = demand(&train, tick) {
         // What is not finite is not sent: the drive's own watchdog is the last resort.
         let Some(encoded) = node.set_input_pos::<ClassicFrame>(&demand) else { return };
         bus.send(&encoded.payload, tick.sequence()).await;
@@ -65,8 +63,7 @@ async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive)
         }
         drive.moving = moving;
     }
-    if drive.on != Some(on) {
-        drive.on = Some(on);
+    if let Some(on) = drive.switch.turn(tick.mode) {
         defmt::info!("axis {}: {}", axis, tick.mode);
         if let Some(frame) = node.set_axis_state::<ClassicFrame>(on) {
             bus.send(&frame, tick.sequence()).await;
@@ -74,25 +71,18 @@ async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive)
     }
 }
 
-/// Takes note of what the encoders say.
+/// Takes note of what the encoders report.
 #[embassy_executor::task]
 pub async fn receive(mut bus: BusReader) {
     loop {
         let frame = bus.receive().await;
-        for (i, configuration) in CONFIGURATIONS.iter().enumerate() {
-            let Ok(node) = Node::new(configuration.node) else { continue };
-            let Some(estimates) = node.estimates(&frame) else { continue };
-            // One that an angle cannot hold is no measurement.
-            let shaft = estimates.angle();
+        for i in 0..AXES {
+            // One axis at a time, so that the tick is masked no longer than one takes.
             shared::with(|s| {
                 if let Some(joint) = s.joints.get_mut(i) {
-                    joint.measured = shaft;
+                    joint.hear_drive(&frame);
                 }
             });
         }
     }
-}
-
-fn node(axis: u8) -> Option<Node> {
-    CONFIGURATIONS.get(usize::from(axis)).and_then(|c| Node::new(c.node).ok())
 }

@@ -4,9 +4,10 @@ use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::mutex::Mutex;
 use embedded_io_async::Write;
 use stillbeam_protocol::{Report, frame};
+use stillbeam_wiring::drive::Setpoint;
 
 use crate::board::LinkWriter;
-use crate::tick::{Setpoint, TO_HOST};
+use crate::tick::TO_HOST;
 
 /// Whoever holds it sends a whole frame.
 pub static LINK: Mutex<CriticalSectionRawMutex, Option<Link>> = Mutex::new(None);

@@ -13,8 +13,6 @@
 #![no_std]
 #![no_main]
 
-#[cfg_attr(feature = "_other-axes", path = "../../../../target/firmware/axes.rs")]
-mod axes;
 #[cfg_attr(feature = "mps2", path = "boards/mps2.rs")]
 #[cfg_attr(feature = "nucleo-g474re", path = "boards/nucleo_g474re.rs")]
 #[cfg_attr(feature = "nucleo-g491re", path = "boards/nucleo_g491re.rs")]

@@ -3,14 +3,15 @@
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
-use stillbeam::{Departure, Error, Move, Payload, Planned, Scene};
+use stillbeam::{Departure, Error, Payload, Planned, Scene};
 use stillbeam_protocol::Refusal;
+use stillbeam_wiring::Work;
+use stillbeam_wiring::axes::{self, AXES};
 
-use crate::axes::{self, AXES};
 use crate::shared::{self, Outcome, on, scene};
 use crate::still::Planners;
 
-/// What is to be planned or set up.
+/// Work for one axis.
 #[derive(Clone, Copy)]
 pub struct Job {
     /// The request's.
@@ -19,14 +20,7 @@ pub struct Job {
     pub work: Work,
 }
 
-#[derive(Clone, Copy)]
-pub enum Work {
-    Move(Move),
-    Still { to: f64, duration: Option<f64> },
-    Payload(Payload),
-}
-
-/// What came of it: the first tick that it shows in.
+/// Result of a job: the first tick that shows it.
 pub struct Done {
     pub sequence: u16,
     pub outcome: Outcome<u32>,
@@ -87,9 +81,5 @@ fn reload(axis: usize, payload: Payload) -> Outcome<u32> {
     let scene = scene(axis)?;
     let changed = Scene { payload, ..scene };
     let stepper = axes::stepper(&changed)?;
-    on(axis, |joint| {
-        joint.axis.replace(stepper)?;
-        joint.scene = changed;
-        Ok(())
-    })
+    on(axis, |joint| joint.replace(changed, stepper))
 }

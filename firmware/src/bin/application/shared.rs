@@ -5,28 +5,15 @@ use core::cell::RefCell;
 
 use embassy_sync::blocking_mutex::CriticalSectionMutex;
 use heapless::Vec;
-use stillbeam::motor::Drivetrain;
-use stillbeam::{Angle, Error, Scene};
+use stillbeam::{Error, Scene};
 use stillbeam_protocol::Refusal;
+use stillbeam_wiring::Configuration;
+use stillbeam_wiring::axes::{self, AXES, CONFIGURATIONS, Joint};
 
-use crate::axes::{self, AXES, Axis, CONFIGURATIONS, Configuration};
-
-/// What a request comes to.
+/// Result of a request.
 pub type Outcome<T> = Result<T, Refusal<'static>>;
 
-/// One axis.
-pub struct Joint {
-    /// The arm as it is now.
-    pub scene: Scene,
-    /// Generator and policy.
-    pub axis: Axis,
-    /// Link to motor.
-    pub train: Drivetrain<f32>,
-    /// Where the drive says that the shaft is, once it has.
-    pub measured: Option<Angle<f32>>,
-}
-
-/// What is counted.
+/// Counts since power-up.
 #[derive(Clone, Copy)]
 pub struct Counters {
     /// Cost of the latest tick.
@@ -89,13 +76,10 @@ pub fn set_up() -> Result<(), Error> {
 
 #[inline(never)]
 fn add(configuration: &Configuration) -> Result<(), Error> {
-    let Configuration { scene, policy, joint, direction, zero, .. } = configuration;
-    let origin = Angle { turns: 0, part: 0.0 };
-    let axis = Axis::new(axes::stepper(scene)?, origin, *policy)?;
-    let train = Drivetrain::new(joint, *direction, *zero)?;
+    let joint = Joint::new(configuration, axes::stepper(&configuration.scene)?)?;
     with(|shared| {
-        // As many as there are configurations.
-        let _ = shared.joints.push(Joint { scene: *scene, axis, train, measured: None });
+        // There is room for as many as there are configurations.
+        let _ = shared.joints.push(joint);
     });
     Ok(())
 }

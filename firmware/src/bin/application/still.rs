@@ -4,14 +4,13 @@
 
 #[cfg(feature = "still")]
 mod planner {
-    use stillbeam::planner::Still;
     use stillbeam::{Departure, Error, Planned};
+    use stillbeam_wiring::axes::{AXES, TICK};
 
-    use crate::axes::{AXES, TICK};
     use crate::shared::{Outcome, scene};
 
     /// The planner of one arm: its exact rod in two modes.
-    pub struct Planner(Still<f32, 2>);
+    pub struct Planner(stillbeam::planner::Planner<f32, 2>);
 
     impl Planner {
         pub fn plan(
@@ -33,7 +32,7 @@ mod planner {
             let scene = scene(axis)?;
             let planner = &mut self.0[axis];
             if planner.is_none() {
-                *planner = Some(Planner(Still::new(&scene, TICK)?));
+                *planner = Some(Planner(stillbeam::planner::Planner::new(&scene, TICK)?));
             }
             planner.as_ref().ok_or(stillbeam_protocol::Refusal::NoPlanner)
         }

@@ -5,9 +5,10 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
 use embassy_time::{Duration, Instant, Timer};
-use stillbeam::axis::{Cause, Pace, Tick};
+use stillbeam::axis::Pace;
+use stillbeam_wiring::axes::{AXES, TICK};
+use stillbeam_wiring::drive::Setpoint;
 
-use crate::axes::{AXES, TICK};
 use crate::{board, shared};
 
 /// The tick in µs, the timer's unit.
@@ -17,17 +18,6 @@ pub const MICROSECONDS: u32 =
 /// The tick in counts of the board.
 pub const PERIOD: u32 = Pace::period(TICK, board::COUNTS_PER_SECOND)
     .expect("axes.rs: TICK must be a whole number of the board's counts");
-
-/// A setpoint on its way.
-#[derive(Clone, Copy)]
-pub struct Setpoint {
-    /// Which axis.
-    pub axis: u8,
-    /// Number, mode, setpoint.
-    pub tick: Tick<f32>,
-    /// Why the axis stopped, if it did.
-    pub cause: Option<Cause>,
-}
 
 /// Setpoints of two ticks: whoever is later than that gets the newest and a count of what is lost.
 pub type Outlet = Channel<CriticalSectionRawMutex, Setpoint, { 2 * AXES }>;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rand::rngs::StdRng;
 use rand::seq::IndexedRandom;
 use rand::{Rng, SeedableRng};
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request};
 use stillbeam::select::Tolerance;
 use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 
@@ -107,9 +107,10 @@ impl Case {
     fn turn(&self, rng: &mut StdRng, from: f64, to: f64) -> Result<Move, Error> {
         let duration = self.duration(rng);
         if rng.random_bool(1.0 / 6.0) {
-            let planner = Still::<f32, 2>::new(&self.arm, self.tick)?;
+            let planner = Planner::<f32, 2>::new(&self.arm, self.tick)?;
             let quintic = Move::To { profile: Profile::Quintic, duration, to };
-            return Ok(planner.plan(from, to, duration).map_or(quintic, |plan| plan.motion()));
+            let request = Request::from_rest(from, to).duration(duration).any_deflection();
+            return Ok(planner.plan(&request).map_or(quintic, |plan| plan.motion()));
         }
         let profile = *Profile::ALL.choose(rng).unwrap_or(&Profile::Cubic);
         Ok(Move::To { profile, duration, to })

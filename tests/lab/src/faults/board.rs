@@ -3,17 +3,17 @@
 
 use std::collections::VecDeque;
 
-use stillbeam::axis::{Axis, Cause, Mode, Pace, Tick};
+use stillbeam::axis::{Axis, Mode, Pace, Tick};
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::Node;
-use stillbeam::model::OneElement;
-use stillbeam::motor::{Demand, Drivetrain};
-use stillbeam::stepper::Newmark;
-use stillbeam::{Angle, Error as CoreError, Move, Payload, Planned, Scene};
+use stillbeam::motor::Demand;
+use stillbeam::{Error as CoreError, Move, Payload, Planned, Scene};
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Request};
+use stillbeam_wiring::axes::{Joint, QUEUE, Stepper, stepper};
+use stillbeam_wiring::{Configuration, Work};
 
-use super::machine::{Configuration, TICK};
+use super::machine::TICK;
 use stillbeam_sim::error::Error;
 
 /// Counts of the board's clock, in µs, a tick.
@@ -22,18 +22,12 @@ pub const PERIOD: u32 = Pace::period(TICK, 1_000_000).expect("TICK is a whole nu
 /// Jobs that wait for the planner, as in the application; one more is refused.
 const JOBS: usize = 2;
 
-type Stepper = Newmark<f32, 2, 2, false>;
-
 /// What the board said to a request.
 pub type Answer = Result<u32, Refusal<'static>>;
 
 /// One axis of the application.
 pub struct Board {
-    axis: Axis<Stepper, 8>,
-    train: Drivetrain<f32>,
-    node: Node,
-    scene: Scene,
-    measured: Option<Angle<f32>>,
+    joint: Joint,
     splitter: Splitter,
     pace: Pace,
     /// What is to be planned or set up next; every other request is carried out as it comes.
@@ -51,13 +45,6 @@ pub struct Board {
     pub early: u64,
     /// The axis was switched on since the last tick, where the drive stands.
     begins: bool,
-}
-
-#[derive(Clone, Copy)]
-enum Work {
-    Move(Move),
-    Still,
-    Payload(Payload),
 }
 
 /// A job whose result is there in so many ticks.
@@ -95,14 +82,8 @@ pub struct Step {
 impl Board {
     /// Powers up. `takes` ticks go by while a move is planned.
     pub fn new(configuration: &Configuration, takes: u32) -> Result<Self, Error> {
-        let Configuration { scene, policy, joint, direction, zero } = *configuration;
-        let origin = Angle { turns: 0, part: 0.0 };
         Ok(Self {
-            axis: Axis::new(stepper(&scene)?, origin, policy)?,
-            train: Drivetrain::new(&joint, direction, zero)?,
-            node: Node::new(1)?,
-            scene,
-            measured: None,
+            joint: Joint::new(configuration, stepper(&configuration.scene)?)?,
             splitter: Splitter::new(),
             pace: Pace::new(PERIOD),
             jobs: VecDeque::new(),
@@ -134,22 +115,19 @@ impl Board {
 
     /// A frame from the drive.
     pub fn hear_drive(&mut self, frame: &ClassicFrame) {
-        if let Some(estimates) = self.node.estimates(frame) {
-            // As the application.
-            self.measured = estimates.angle();
-        }
+        self.joint.hear_drive(frame);
     }
 
     /// A tick at that reading of the clock; `None` if it is not due, for then there is none.
     pub fn tick(&mut self, now: u32) -> Option<Step> {
         let timing = self.pace.arrive(now);
-        let Some(tick) = self.axis.tick_if_due(&timing) else {
+        let Some(tick) = self.joint.axis.tick_if_due(&timing) else {
             self.early += 1;
             return None;
         };
         self.missed += u64::from(timing.missed);
         let begins = std::mem::take(&mut self.begins);
-        let step = Step { tick, demand: self.train.demand(&tick.setpoint), begins };
+        let step = Step { tick, demand: self.joint.train.demand(&tick.setpoint), begins };
         if let Some(job) = &mut self.under_way {
             job.left = job.left.saturating_sub(1);
         }
@@ -158,32 +136,27 @@ impl Board {
     }
 
     /// The axis.
-    pub fn axis(&self) -> &Axis<Stepper, 8> {
-        &self.axis
+    pub fn axis(&self) -> &Axis<Stepper, QUEUE> {
+        &self.joint.axis
     }
 
     /// The drive's node.
     pub fn node(&self) -> Node {
-        self.node
+        self.joint.node()
     }
 
     /// Carries a request out, or hands it down to the planner.
     fn answer(&mut self, request: &Request) {
-        self.axis.heard();
+        self.joint.axis.heard();
         if request.axis > 0 {
             self.answers.push(Err(Refusal::Axis(1)));
             return;
         }
-        let job = match request.command {
-            Command::Move(motion) => Work::Move(motion),
-            Command::Still { .. } => Work::Still,
-            Command::Payload(payload) => Work::Payload(payload),
-            command => {
-                let tick = self.axis.clock();
-                let answer = self.carry_out(command).map(|()| tick);
-                self.answers.push(answer);
-                return;
-            }
+        let Some(job) = Work::of(&request.command) else {
+            let tick = self.joint.axis.clock();
+            let answer = self.carry_out(&request.command).map(|()| tick);
+            self.answers.push(answer);
+            return;
         };
         if self.jobs.len() == JOBS {
             self.answers.push(Err(Refusal::Busy));
@@ -208,7 +181,7 @@ impl Board {
                 Work::Move(motion) => self.plan(motion, true),
                 Work::Payload(payload) => self.set_up(payload),
                 // As a firmware without the planner of still moves.
-                Work::Still => Err(Refusal::NoPlanner),
+                Work::Still { .. } => Err(Refusal::NoPlanner),
             };
             self.begin(begun);
         }
@@ -222,63 +195,34 @@ impl Board {
     }
 
     fn plan(&self, motion: Move, again: bool) -> Result<Ready, Refusal<'static>> {
-        let planned = self.axis.departure()?.plan(&motion)?;
+        let planned = self.joint.axis.departure()?.plan(&motion)?;
         Ok(Ready::Plan { motion, planned, again })
     }
 
     fn set_up(&self, payload: Payload) -> Result<Ready, Refusal<'static>> {
-        let scene = Scene { payload, ..self.scene };
+        let scene = Scene { payload, ..self.joint.scene };
         Ok(Ready::Arm { scene, stepper: stepper(&scene)? })
     }
 
     fn hand_over(&mut self, result: Ready) {
-        let tick = self.axis.clock();
+        let tick = self.joint.axis.clock();
         let done = match result {
-            Ready::Plan { motion, planned, again } => match self.axis.take(&planned) {
+            Ready::Plan { motion, planned, again } => match self.joint.axis.take(&planned) {
                 Err(CoreError::Stale) if again => {
                     let begun = self.plan(motion, false);
                     return self.begin(begun);
                 }
-                taken => taken.map(drop),
+                taken => taken.map(drop).map_err(Refusal::from),
             },
-            Ready::Arm { scene, stepper } => {
-                self.axis.replace(stepper).map(|()| self.scene = scene)
-            }
+            Ready::Arm { scene, stepper } => self.joint.replace(scene, stepper),
         };
-        self.answers.push(done.map(|()| tick).map_err(Refusal::from));
+        self.answers.push(done.map(|()| tick));
     }
 
-    fn carry_out(&mut self, command: Command) -> Result<(), Refusal<'static>> {
-        match command {
-            Command::Enable => {
-                let shaft = self.measured.ok_or(Refusal::NotMeasured)?;
-                let begins = self.axis.mode() == Mode::Disabled;
-                self.axis.enable(self.train.mapping().to_link(shaft))?;
-                self.begins |= begins;
-            }
-            Command::Disable => self.axis.disable(),
-            Command::Stop => self.axis.stop(Cause::Requested),
-            Command::Home(angle) => {
-                if !(-1e6..=1e6).contains(&angle) {
-                    let (min, max, unit) = (-1e6, 1e6, "rad");
-                    let parameter = "home.angle";
-                    return Err(
-                        CoreError::OutOfRange { parameter, value: angle, min, max, unit }.into()
-                    );
-                }
-                let shaft = self.measured.ok_or(Refusal::NotMeasured)?;
-                match self.axis.mode() {
-                    Mode::Disabled => self.train.home(shaft, Angle::from_radians(angle).cast()),
-                    mode => return Err(Refusal::Mode(mode)),
-                }
-            }
-            // Moves, still moves and payloads are the planner's.
-            _ => {}
-        }
+    fn carry_out(&mut self, command: &Command) -> Result<(), Refusal<'static>> {
+        let before = self.joint.axis.mode();
+        self.joint.carry_out(command)?;
+        self.begins |= *command == Command::Enable && before == Mode::Disabled;
         Ok(())
     }
-}
-
-fn stepper(scene: &Scene) -> Result<Stepper, CoreError> {
-    Newmark::nodal(&OneElement::consistent(&scene.cast::<f32>())?, TICK)
 }

@@ -1,7 +1,7 @@
 //! A stop at every tick of a move, for every cause, through the board.
 
 use stillbeam::axis::{Cause, Mode};
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request};
 use stillbeam::{Move, Profile};
 use stillbeam_protocol::Command;
 
@@ -18,8 +18,10 @@ const TICKS: u32 = ticks(1.3);
 fn moves(configuration: &Configuration) -> Result<Vec<Move>, Error> {
     let mut moves = Profile::ALL.map(|p| Move::To { profile: p, duration: 1.2, to: 1.5 }).to_vec();
     moves.push(Move::SpinUp { duration: 1.0, rate: 0.8 * 5.0 });
-    let planner = Still::<f32, 2>::new(&configuration.scene, TICK)?;
-    moves.push(planner.plan(0.0, 1.0, 1.2_f64.max(2.0 * planner.first_period()))?.motion());
+    let planner = Planner::<f32, 2>::new(&configuration.scene, TICK)?;
+    let duration = 1.2_f64.max(2.0 * planner.first_period());
+    let request = Request::from_rest(0.0, 1.0).duration(duration).any_deflection();
+    moves.push(planner.plan(&request)?.motion());
     Ok(moves)
 }
 

@@ -6,7 +6,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use rayon::prelude::*;
 use stillbeam::model::Rod;
-use stillbeam::planner::{Course, Still, StillMove};
+use stillbeam::planner::{Kinematics, Planner, Request, StillMove, Target};
 use stillbeam::stepper::{Elastica, Flex, Quality};
 use stillbeam::{
     Damping, Error as CoreError, Generator, Hub, Limits, Link, Move, Payload, Profile, Scene,
@@ -86,19 +86,20 @@ pub fn rests(
             let mut rng = StdRng::seed_from_u64(seed.wrapping_add(index as u64));
             let arm = arm(&mut rng);
             let tick = tick(&arm)?;
-            let planner = Still::<f32, 2>::new(&arm, tick)?;
+            let planner = Planner::<f32, 2>::new(&arm, tick)?;
             let (from, to) = (rng.random_range(-3.2..3.2), rng.random_range(-3.2..3.2));
             let ratio = rng.random_range(0.9..4.0);
             let duration = ratio * planner.first_period() + 0.5 * tick;
             let by_rod = index % rod_each == 0;
-            let plan = planner.plan(from, to, duration).and_then(|plan| {
-                planner.survey(&plan, None).admit(&Limits::default(), arm.link.length)?;
+            let request = Request::from_rest(from, to).duration(duration).any_deflection();
+            let plan = planner.plan(&request).and_then(|plan| {
+                planner.predict(&plan, None).admit(&Limits::default(), arm.link.length)?;
                 Ok(plan)
             });
             let residual = match plan {
                 Err(error) => Err(kind(&error)),
                 Ok(plan) => {
-                    let linear = planner.linear(from, to, duration)?;
+                    let linear = planner.plan(&request.kinematics(Kinematics::Linear))?;
                     let length = arm.link.length;
                     let judge = |motion: Move| -> Result<f64, Error> {
                         Ok(Motion::of(from, motion, tick).judge(&arm, 0.0)?.residual)
@@ -106,8 +107,8 @@ pub fn rests(
                     Ok(if by_rod {
                         (judge(plan.motion())?, judge(linear.motion())?)
                     } else {
-                        let fine = Still::<f64, 3>::new(&arm, tick)?;
-                        let left = |plan| fine.survey(plan, None).residual / length;
+                        let fine = Planner::<f64, 3>::new(&arm, tick)?;
+                        let left = |plan| fine.predict(plan, None).residual / length;
                         (left(&plan), left(&linear))
                     })
                 }
@@ -162,8 +163,8 @@ struct Case {
     arm: Scene,
     tick: f64,
     period: f64,
-    planners: [Still<f32, 2>; 2],
-    fine: [Still<f64, 2>; 2],
+    planners: [Planner<f32, 2>; 2],
+    fine: [Planner<f64, 2>; 2],
     rod: Rod<2>,
 }
 
@@ -177,8 +178,8 @@ impl Case {
             arm: *arm,
             tick,
             period: rod::first_period(arm)?,
-            planners: [Still::new(arm, tick)?, Still::new(&other, tick)?],
-            fine: [Still::new(arm, tick / 3.0)?, Still::new(&other, tick / 3.0)?],
+            planners: [Planner::new(arm, tick)?, Planner::new(&other, tick)?],
+            fine: [Planner::new(arm, tick / 3.0)?, Planner::new(&other, tick / 3.0)?],
             rod,
         })
     }
@@ -221,13 +222,10 @@ impl Case {
         let acceleration = 1.25 * acceleration.max(0.5 / (self.period * self.period));
         let limits =
             Limits { rate: Some(rate), acceleration: Some(acceleration), ..Limits::default() };
-        let from = hub.precise();
+        let end = target.map_or(Target::Stop, Target::Angle);
+        let request = Request::from_hub(hub.precise(), end).arm(flex).limits(limits);
         let plans = &self.planners[planner];
-        let found = match target {
-            Some(to) => plans.course(&from, Some(&flex), to, &limits),
-            None => plans.stop(&from, Some(&flex), &limits).map(Course::from),
-        };
-        let course = match found {
+        let course = match plans.plan_by_stop(&request) {
             Err(error) => return Ok(Interruption { outcome: Err(kind(&error)) }),
             Ok(course) => course,
         };
@@ -251,10 +249,10 @@ impl Case {
         // What the first of two moves leaves goes on through the second.
         let left = |plan: StillMove, flex| {
             let finer = StillMove { ticks: 3 * plan.ticks, tick: self.tick / 3.0, ..plan };
-            self.fine[planner].survey(&finer, flex).residual / length
+            self.fine[planner].predict(&finer, flex).residual / length
         };
         let residual = left(course.first, Some(&wide)) + course.then.map_or(0.0, |t| left(t, None));
-        let stated = course.survey.residual / length;
+        let stated = course.predict(plans, Some(&flex)).residual / length;
         let by_way_of_rest = course.then.is_some();
         Ok(Interruption { outcome: Ok(Outcome { excess, stated, residual, by_way_of_rest }) })
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request};
 use stillbeam::{Error as CoreError, Profile, Scene};
 
 use super::duration::durations;
@@ -83,10 +83,10 @@ fn residuals(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
             let period = rod::first_period(&arm)?;
             // Fast arms at ticks that divide their period as finely as slow ones'.
             let tick = TICK.min(period / 10.0);
-            let planner = Still::<f32, 2>::new(&arm, tick)?;
+            let planner = Planner::<f32, 2>::new(&arm, tick)?;
             let mut line = vec![name.to_owned()];
             for ratio in RATIOS {
-                let plan = planner.plan(0.0, PI, ratio * period)?;
+                let plan = planner.plan(&half_turn(ratio * period))?;
                 let judged = Motion::of(0.0, plan.motion(), tick).judge(&arm, 0.0)?;
                 line.push(percent(judged.residual));
                 done();
@@ -102,6 +102,11 @@ fn contest_table(entries: &[Entry], duration: f64) -> String {
     let header = contest::HEADER.map(str::to_owned).to_vec();
     let rows = entries.iter().map(|entry| entry.cells(duration));
     aligned(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
+}
+
+/// A move from 0 to π rad in `duration` s, whatever the arm deflects by.
+fn half_turn(duration: f64) -> Request<f32, 2> {
+    Request::from_rest(0.0, PI).duration(duration).any_deflection()
 }
 
 /// Robust moves for bands of other widths, with damping and gravity too.
@@ -121,8 +126,8 @@ fn robust_table(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
         .map(|((name, arm), spread, ratio)| {
             let period = rod::first_period(arm)?;
             let tick = TICK.min(period / 10.0);
-            let planner = Still::<f32, 2>::robust(arm, tick, spread)?;
-            let found = planner.plan(0.0, PI, ratio * period);
+            let planner = Planner::<f32, 2>::robust(arm, tick, spread)?;
+            let found = planner.plan(&half_turn(ratio * period));
             let mut line = vec![
                 (*name).to_owned(),
                 format!("\u{b1}{:.0} %", 100.0 * spread),

@@ -1,7 +1,7 @@
 //! How long motions take under the same limits.
 
 use rsruckig::prelude::*;
-use stillbeam::planner::Still;
+use stillbeam::planner::{Planner, Request};
 use stillbeam::{Limits, Profile, Scene};
 
 use stillbeam_sim::error::Error;
@@ -36,8 +36,8 @@ pub fn durations(
         jerk: smooth.then_some(peaks.jerk),
         ..Limits::default()
     };
-    let planner = Still::<f32, 2>::new(arm, tick)?;
-    let (still, _) = planner.shortest(0.0, to, &limits)?;
+    let planner = Planner::<f32, 2>::new(arm, tick)?;
+    let still = planner.plan(&Request::from_rest(0.0, to).limits(limits))?;
     let rigid = match limits {
         Limits { rate: Some(rate), acceleration: Some(acceleration), jerk: Some(jerk), .. } => {
             Some(time_optimal(to, rate, acceleration, jerk)?)

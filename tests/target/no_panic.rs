@@ -4,14 +4,14 @@ use stillbeam_tests::{firmware, image};
 
 #[test]
 fn no_panic_is_reachable_from_a_tick() {
-    firmware::build("kernel").unwrap_or_else(|error| panic!("{error}"));
+    firmware::build("no_panic_tick").unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// The proof can fail: with one index that may be out of range the image does not link.
 #[test]
 fn a_reachable_panic_is_found() {
-    let error =
-        firmware::build_with("kernel", "STILLBEAM_FAULT", "panic").expect_err("must not link");
+    let error = firmware::build_with("no_panic_tick", "STILLBEAM_FAULT", "panic")
+        .expect_err("must not link");
     assert!(error.contains("panic-never"), "{error}");
 }
 
@@ -19,8 +19,8 @@ fn a_reachable_panic_is_found() {
 /// to, and none into libm.
 #[test]
 fn the_tick_computes_in_hardware() {
-    let kernel = firmware::build("kernel").unwrap_or_else(|error| panic!("{error}"));
-    let functions = image::functions(&kernel).unwrap_or_else(|error| panic!("{error}"));
+    let tick = firmware::build("no_panic_tick").unwrap_or_else(|error| panic!("{error}"));
+    let functions = image::functions(&tick).unwrap_or_else(|error| panic!("{error}"));
     assert!(functions.len() > 10, "{functions:?}");
     for function in functions {
         let soft = function.starts_with("__aeabi_")

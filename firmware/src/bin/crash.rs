@@ -1,5 +1,5 @@
-//! Goes wrong in the way that the environment variable `STILLBEAM_FAULT` names when this is built:
-//! what the harness makes of it is tested with it.
+//! Crashes in the way that the environment variable `STILLBEAM_FAULT` names when this is built, to test
+//! how the harness reports it.
 #![no_std]
 #![no_main]
 

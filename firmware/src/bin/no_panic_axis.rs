@@ -1,8 +1,8 @@
 //! An axis' tick, with the stop that may come out of it, and nothing else: links only if no panic is
-//! reachable from them. As `kernel`, not for running; built with the environment variable
+//! reachable from them. As `no_panic_tick`, not for running; built with the environment variable
 //! `STILLBEAM_FAULT`, it has a panic and must not link.
 //!
-//! With the cheapest and the smallest bending stepper: `kernel` proves the others.
+//! With the cheapest and the smallest bending stepper: `no_panic_tick` proves the others.
 #![no_std]
 #![no_main]
 
@@ -18,7 +18,7 @@ use stillbeam_golden::methods::{Method, Newmark1, RigidArm};
 stillbeam_firmware::unused_interrupts!();
 
 #[inline(never)]
-fn policy<M: Method>(memory: *mut u8) {
+fn axis<M: Method>(memory: *mut u8) {
     let axis = memory.cast::<Axis<M::Stepper, 8>>();
     // SAFETY: this program is linked, never run.
     let axis = unsafe { &mut *axis };
@@ -36,8 +36,8 @@ fn main() -> ! {
         black_box([0; 4][black_box(0)]);
     }
     let memory = black_box(0x2000_0000 as *mut u8);
-    policy::<RigidArm>(memory);
-    policy::<Newmark1>(memory);
+    axis::<RigidArm>(memory);
+    axis::<Newmark1>(memory);
     loop {
         cortex_m::asm::wfi();
     }

@@ -1,9 +1,11 @@
-//! What hangs on this machine: arms, gears, drives. To be edited for another one.
+//! The machine: its arms, gears, drives, method and tick. Edit this file for another machine.
 
-use stillbeam::axis::{self, Policy};
-use stillbeam::motor::{Direction, Joint, Ratio};
+use stillbeam::axis::Policy;
+use stillbeam::motor::{self, Direction, Ratio};
 use stillbeam::{Damping, Error, Hub, Limits, Link, Payload, Scene};
 use stillbeam_methods::Method as _;
+
+use crate::Configuration;
 
 /// Number of axes in one tick.
 pub const AXES: usize = 2;
@@ -12,31 +14,18 @@ pub const AXES: usize = 2;
 /// board's counts and the policy's times are derived from it.
 pub const TICK: f64 = 0.010;
 
-/// The method, the same for every axis: any of the list in `methods/`. The host is told its name and
-/// runs the same one.
+/// The method, the same for every axis: any of the list in `methods/`. The firmware tells the host its
+/// name, and the host runs the same one.
 pub type Method = stillbeam_methods::Newmark1Nodal;
 
 /// The method's stepper.
 pub type Stepper = <Method as stillbeam_methods::Method>::Stepper;
 
-/// An axis with room for eight segments: one S-curve and a move more, or eight cubics.
-pub type Axis = axis::Axis<Stepper, 8>;
+/// Segments that the queue of an axis holds: one S-curve and a move more, or eight cubics.
+pub const QUEUE: usize = 8;
 
-/// One axis' constants.
-pub struct Configuration {
-    /// The arm at power-up.
-    pub scene: Scene,
-    /// Limits and patience.
-    pub policy: Policy,
-    /// Gear and motor.
-    pub joint: Joint<f64>,
-    /// Which way the motor turns.
-    pub direction: Direction,
-    /// The shaft's angle, turns, where the hub's is 0.
-    pub zero: f64,
-    /// The drive's node id.
-    pub node: u8,
-}
+/// An axis of this machine.
+pub type Joint = crate::Joint<Stepper, QUEUE>;
 
 /// The paper's member B with 30 g on a geared motor that is mounted upside down; an aluminium strip
 /// of 0.5 m with 50 g in a vertical plane on a direct drive.
@@ -47,7 +36,7 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
             ..Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 })
         },
         policy: policy(5.0, 15.0),
-        joint: Joint {
+        joint: motor::Joint {
             ratio: Ratio { motor: 6, link: 1 },
             efficiency: 0.9,
             rotor_inertia: 1e-5,
@@ -68,7 +57,7 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
             gravity: 9.81,
         },
         policy: policy(8.0, 60.0),
-        joint: Joint {
+        joint: motor::Joint {
             ratio: Ratio { motor: 1, link: 1 },
             efficiency: 1.0,
             rotor_inertia: 5e-5,
@@ -82,8 +71,10 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
     },
 ];
 
-/// Limits in rad/s and rad/s². Half a second of silence is a lost link; two missed ticks are waited
-/// for.
+/// Time without a word from the host after which an axis stops, s.
+pub const PATIENCE: f64 = 0.5;
+
+/// Policy with limits in rad/s and rad/s²; the axis waits for two missed ticks.
 const fn policy(rate: f64, acceleration: f64) -> Policy {
     let limits = Limits {
         rate: Some(rate),
@@ -92,10 +83,13 @@ const fn policy(rate: f64, acceleration: f64) -> Policy {
         torque: None,
         moment: None,
     };
-    Policy { limits, patience: 0.5, missed: 2 }
+    Policy { limits, patience: PATIENCE, missed: 2 }
 }
 
-/// The stepper of an arm. Set-up: never in the tick.
+/// Builds the stepper of an arm. This is set-up, never called in the tick.
+///
+/// # Errors
+/// The method refuses the scene or the tick.
 pub fn stepper(scene: &Scene) -> Result<Stepper, Error> {
     Method::stepper(scene, TICK)
 }

@@ -1,15 +1,18 @@
-//! An arm flown through a move in its exact kinematics.
+//! Simulates an arm through a move in its exact kinematics.
 
 use core::f64::consts::TAU;
 
-use super::effort::Oscillation;
+use super::linear::Oscillation;
 use super::{MAX_ARMS, Path};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Scalar, cast, sqrt};
-use crate::model::{Chain, Load, Rod};
+use crate::model::{Load, Rod, RodPoints};
 use crate::motion::Segment;
 use crate::stepper::{Flex, Forcing, Oscillator};
+
+/// Number of times that the distance to an equilibrium is halved.
+const HALVINGS: usize = 30;
 
 /// The modes of one arm that a move is planned for.
 #[derive(Clone, Copy, Debug)]
@@ -19,19 +22,19 @@ pub(crate) struct Arm<T, const K: usize> {
     stiffness: [T; K],
     loss: [T; K],
     coupling: [T; K],
-    /// The modes, as the linear part of a plan sees them.
+    /// The modes, as the linear model sees them.
     pub oscillation: [Oscillation<T>; K],
     alpha: T,
     /// `∂Y/∂a` of the tip over L, of each mode, and it over ω.
-    swing: [[T; 2]; K],
+    tip_per_mode: [[T; 2]; K],
     /// `ω`.
     frequency: [T; K],
 }
 
-/// Arms for flights in steps of one length.
+/// The arms that a move is planned for, discretised for simulations in steps of one length.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stride<T, const K: usize> {
-    /// The scene's own, the outer ones of a robust planner.
+pub(crate) struct Resolution<T, const K: usize> {
+    /// The scene's own arm, then the outer two of a robust planner.
     pub arms: [Arm<T, K>; MAX_ARMS],
     /// Steps in a tick.
     pub steps: u32,
@@ -39,9 +42,9 @@ pub(crate) struct Stride<T, const K: usize> {
     pub per_step: T,
 }
 
-impl<T: Scalar, const K: usize> Stride<T, K> {
-    /// The outer arms at `1 ± aside` of the frequency. A step turns the highest mode and the first by
-    /// at most `radians`.
+impl<T: Scalar, const K: usize> Resolution<T, K> {
+    /// Puts the outer arms at `1 ± aside` of the frequency. A step turns the highest mode and the
+    /// first by at most `radians`.
     pub fn new(rod: &Rod<K>, tick: f64, aside: f64, radians: [f64; 2]) -> Result<Self, Error> {
         let omega = rod.frequency();
         let turns = (omega[K - 1] * (1.0 + aside) / radians[0]).max(omega[0] / radians[1]);
@@ -58,20 +61,20 @@ impl<T: Scalar, const K: usize> Stride<T, K> {
         Ok(Self { arms, steps: steps as u32, per_step: T::from_f64(1.0 / step) })
     }
 
-    /// The path in the steps of a flight.
-    pub fn fine(&self, path: &Path) -> Path {
+    /// The path, divided into the steps of a simulation.
+    pub fn refine(&self, path: &Path) -> Path {
         let steps = self.steps;
         Path { ticks: path.ticks * steps, tick: path.tick / f64::from(steps), ..*path }
     }
 }
 
 impl<T: Scalar, const K: usize> Arm<T, K> {
-    /// For steps of `step` s.
+    /// Discretises the modes of an arm for steps of `step` s.
     pub fn new(rod: &Rod<K>, step: f64) -> Result<Self, Error> {
         let damping = rod.scene().damping;
         let omega = *rod.frequency();
         let coupling = rod.kinetics(&[0.0; K]).coupling;
-        let swing = |k: usize| rod.tip_swing()[k] / rod.scene().link.length;
+        let tip_per_mode = |k: usize| rod.tip_swing()[k] / rod.scene().link.length;
         let f = T::from_f64;
         Ok(Self {
             modes: core::array::from_fn(|k| {
@@ -88,12 +91,14 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
                     decay,
                     damped,
                     ratio: [f(decay / damped), f(w / damped)],
-                    gain: f(swing(k) * coupling[k] / w),
+                    gain: f(tip_per_mode(k) * coupling[k] / w),
                     alpha: f(damping.alpha),
                 }
             }),
             alpha: f(damping.alpha),
-            swing: core::array::from_fn(|k| [f(swing(k)), f(swing(k) / omega[k])]),
+            tip_per_mode: core::array::from_fn(|k| {
+                [f(tip_per_mode(k)), f(tip_per_mode(k) / omega[k])]
+            }),
             frequency: cast(&omega),
         })
     }
@@ -103,20 +108,20 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         TAU / self.frequency[0].to_f64()
     }
 
-    /// Deflection of the tip and its rate over ω, by mode `k`, away from `rest`; of L.
+    /// Deflection of the tip and its rate over ω by mode `k`, away from `rest`, of L.
     pub fn amplitudes(&self, k: usize, at: &Flex<T, K>, rest: &Flex<T, K>) -> [T; 2] {
         [
-            self.swing[k][0] * (at.coordinate[k] - rest.coordinate[k]),
-            self.swing[k][1] * (at.rate[k] - rest.rate[k]),
+            self.tip_per_mode[k][0] * (at.coordinate[k] - rest.coordinate[k]),
+            self.tip_per_mode[k][1] * (at.rate[k] - rest.rate[k]),
         ]
     }
 
-    /// Static equilibrium with the hub at rest as it is.
-    pub fn rest(&self, chain: &Chain<T, K>, hub: &HubState<T>) -> Flex<T, K> {
+    /// Finds the static equilibrium at the hub's angle.
+    pub fn equilibrium(&self, points: &RodPoints<T, K>, hub: &HubState<T>) -> Flex<T, K> {
         let still = HubState { rate: T::ZERO, acceleration: T::ZERO, ..*hub };
         let mut flex = Flex::STRAIGHT;
         for _ in 0..HALVINGS {
-            let excess = self.excess(chain, &flex, &still);
+            let excess = self.excess(points, &flex, &still);
             for k in 0..K {
                 let next = excess[k] / self.stiffness[k];
                 flex.coordinate[k] = T::HALF * (flex.coordinate[k] + next);
@@ -125,10 +130,11 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         flex
     }
 
-    /// The arm after `steps` steps along the curve. `watch` sees the arm at every step.
-    pub fn fly(
+    /// Returns the state of the arm after `steps` steps along the curve. `watch` is handed arm and
+    /// hub at every step.
+    pub fn simulate(
         &self,
-        chain: &Chain<T, K>,
+        points: &RodPoints<T, K>,
         per_step: T,
         curve: &Segment<T>,
         steps: u32,
@@ -137,7 +143,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     ) -> Flex<T, K> {
         let mut flex = *from;
         let mut hub = curve.hub(0);
-        let mut force = self.excess(chain, &flex, &hub);
+        let mut force = self.excess(points, &flex, &hub);
         let mut change = [T::ZERO; K];
         for k in 1..=steps {
             let after = curve.hub(k);
@@ -148,7 +154,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
                 y[k] = self.modes[k].predict(at, &drive, [T::ZERO, force[k]], [T::ZERO, change[k]]);
             }
             let guess = Flex { coordinate: y.map(|y| y[0]), rate: y.map(|y| y[1]) };
-            let next = self.excess(chain, &guess, &after);
+            let next = self.excess(points, &guess, &after);
             for k in 0..K {
                 let new = next[k] - force[k];
                 let [a, v] = self.modes[k].correct(y[k], [T::ZERO, new - change[k]]);
@@ -161,16 +167,16 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         flex
     }
 
-    /// Torque, bending moment and tip.
-    pub fn load(&self, chain: &Chain<T, K>, flex: &Flex<T, K>, hub: &HubState<T>) -> Load<T> {
+    /// Torque at the hub (N m), bending moment at the clamp (N m) and position of the tip (m).
+    pub fn load(&self, points: &RodPoints<T, K>, flex: &Flex<T, K>, hub: &HubState<T>) -> Load<T> {
         let Flex { coordinate, rate } = flex;
-        let acceleration = chain.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
-        chain.load(coordinate, rate, &acceleration, hub)
+        let acceleration = points.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
+        points.load(coordinate, rate, &acceleration, hub)
     }
 
-    /// Amplitude of the tip's deflection if the arm rings on about `rest`, all modes in step, m.
-    pub fn ringing(&self, chain: &Chain<T, K>, at: &Flex<T, K>, rest: &Flex<T, K>) -> f64 {
-        let tip = chain.tip_swing();
+    /// Amplitude of the tip's deflection about `rest`, m: an upper bound, with all modes in step.
+    pub fn ringing(&self, points: &RodPoints<T, K>, at: &Flex<T, K>, rest: &Flex<T, K>) -> f64 {
+        let tip = points.tip_swing();
         let mut sum = 0.0;
         for k in 0..K {
             let a = (at.coordinate[k] - rest.coordinate[k]).to_f64();
@@ -180,11 +186,11 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         sum
     }
 
-    /// `ä` beyond the linear oscillators'.
+    /// The part of the modal accelerations that the linear oscillators do not have.
     #[inline(always)]
-    fn excess(&self, chain: &Chain<T, K>, flex: &Flex<T, K>, hub: &HubState<T>) -> [T; K] {
+    fn excess(&self, points: &RodPoints<T, K>, flex: &Flex<T, K>, hub: &HubState<T>) -> [T; K] {
         let Flex { coordinate: a, rate: v } = flex;
-        let exact = chain.acceleration(a, v, hub, &self.stiffness, &self.loss);
+        let exact = points.acceleration(a, v, hub, &self.stiffness, &self.loss);
         let drive = hub.acceleration + self.alpha * hub.rate;
         core::array::from_fn(|k| {
             exact[k]
@@ -194,6 +200,3 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         })
     }
 }
-
-/// Halvings of the distance to an equilibrium.
-const HALVINGS: usize = 30;

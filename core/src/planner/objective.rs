@@ -1,0 +1,25 @@
+//! What a move keeps small.
+
+/// The quantity that a move keeps small, of all moves that bring the arm to rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Objective {
+    /// Peak of the hub's rate.
+    Rate,
+    /// Peak of the hub's acceleration.
+    Acceleration,
+    /// Peak of the hub's jerk.
+    Jerk,
+    /// Mean square of the hub's jerk, which excites the second mode least.
+    Smooth,
+}
+
+impl Objective {
+    /// Order of the derivative of the hub's rate that is kept small: 0 to 2.
+    pub(super) fn order(self) -> usize {
+        match self {
+            Self::Rate => 0,
+            Self::Acceleration => 1,
+            Self::Jerk | Self::Smooth => 2,
+        }
+    }
+}

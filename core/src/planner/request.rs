@@ -1,0 +1,123 @@
+//! What is asked of the planner.
+
+use super::{Objective, Prediction};
+use crate::hub::{Angle, HubState};
+use crate::motion::Limits;
+use crate::stepper::Flex;
+
+/// A move to be planned, from any state of hub and arm to rest.
+///
+/// ```
+/// use stillbeam::planner::{Planner, Request};
+/// use stillbeam::{Limits, Link, Scene};
+///
+/// let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
+/// let planner = Planner::<f32, 2>::new(&scene, 0.010)?;
+/// let limits = Limits { acceleration: Some(300.0), ..Limits::default() };
+/// let shortest = planner.plan(&Request::from_rest(0.0, 1.57).limits(limits))?;
+/// assert!(shortest.peaks.acceleration <= 300.0);
+/// let slower = Request::from_rest(0.0, 1.57).limits(limits).duration(1.5 * shortest.duration());
+/// assert!(planner.plan(&slower)?.peaks.acceleration < 200.0);
+/// # Ok::<(), stillbeam::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
+pub struct Request<T, const K: usize> {
+    /// State of the hub where the move begins.
+    pub from: HubState<f64>,
+    /// State of the arm where the move begins. `None`: static equilibrium at the hub's angle.
+    pub arm: Option<Flex<T, K>>,
+    /// Where the move ends.
+    pub target: Target,
+    /// Duration in s, rounded to whole ticks. `None`: the shortest that the planner finds.
+    pub duration: Option<f64>,
+    /// Limits of the hub's motion, of torque and of clamp moment. None by default.
+    pub limits: Limits,
+    /// Greatest deflection of the tip, of L, by simulation. 0.7 by default: beyond it the arm may
+    /// bend back on itself. `None`: the deflection is not looked at, which saves a simulation.
+    pub deflection: Option<f64>,
+    /// What the move keeps small.
+    pub objective: Objective,
+    /// Model that the move is planned by.
+    pub kinematics: Kinematics,
+}
+
+/// Where a move ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// At this hub angle, rad, −1e6 to 1e6.
+    Angle(f64),
+    /// About where the hub gets to if its rate falls evenly to zero.
+    Stop,
+}
+
+/// Model of the arm that a move is planned by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kinematics {
+    /// Geometrically exact: the move is simulated and corrected until the arm arrives at rest.
+    Exact,
+    /// Linear oscillators: no correction. A strongly bent arm rings on.
+    Linear,
+}
+
+impl<T, const K: usize> Request<T, K> {
+    /// Asks for the shortest move from rest at `from` rad to rest at `to` rad.
+    pub fn from_rest(from: f64, to: f64) -> Self {
+        Self::from_hub(HubState::at_rest(Angle::from_radians(from)), Target::Angle(to))
+    }
+
+    /// Asks for the shortest move from a state of the hub to rest at `target`, the arm in static
+    /// equilibrium.
+    pub fn from_hub(from: HubState<f64>, target: Target) -> Self {
+        Self {
+            from,
+            arm: None,
+            target,
+            duration: None,
+            limits: Limits::default(),
+            deflection: Some(Prediction::MAX_DEFLECTION),
+            objective: Objective::Acceleration,
+            kinematics: Kinematics::Exact,
+        }
+    }
+
+    /// Begins with the arm bent and moving.
+    pub fn arm(self, arm: Flex<T, K>) -> Self {
+        Self { arm: Some(arm), ..self }
+    }
+
+    /// Ends somewhere else.
+    pub fn target(self, target: Target) -> Self {
+        Self { target, ..self }
+    }
+
+    /// Takes `duration` s, rounded to whole ticks.
+    pub fn duration(self, duration: f64) -> Self {
+        Self { duration: Some(duration), ..self }
+    }
+
+    /// Keeps `limits`.
+    pub fn limits(self, limits: Limits) -> Self {
+        Self { limits, ..self }
+    }
+
+    /// Does not look at the tip's deflection: see [`Self::deflection`].
+    pub fn any_deflection(self) -> Self {
+        Self { deflection: None, ..self }
+    }
+
+    /// Keeps something else small than the acceleration.
+    pub fn objective(self, objective: Objective) -> Self {
+        Self { objective, ..self }
+    }
+
+    /// Plans by another model.
+    pub fn kinematics(self, kinematics: Kinematics) -> Self {
+        Self { kinematics, ..self }
+    }
+
+    /// True if hub and arm begin at rest.
+    pub(super) fn begins_at_rest(&self) -> bool {
+        self.from.rate == 0.0 && self.from.acceleration == 0.0 && self.arm.is_none()
+    }
+}

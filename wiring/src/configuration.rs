@@ -1,0 +1,22 @@
+//! The constants of one axis.
+
+use stillbeam::Scene;
+use stillbeam::axis::Policy;
+use stillbeam::motor::{self, Direction};
+
+/// Constants of one axis: arm, policy, gear, motor and drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Configuration {
+    /// Arm at power-up.
+    pub scene: Scene,
+    /// Limits, patience and missed ticks that the axis waits for.
+    pub policy: Policy,
+    /// Gear and motor.
+    pub joint: motor::Joint<f64>,
+    /// Sense of rotation of the motor against the hub.
+    pub direction: Direction,
+    /// Angle of the shaft where the hub's is 0, turns.
+    pub zero: f64,
+    /// Node id of the drive.
+    pub node: u8,
+}
