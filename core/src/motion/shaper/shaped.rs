@@ -17,7 +17,7 @@ use crate::motion::Segment;
 /// ```
 /// use stillbeam::model::EightElements;
 /// use stillbeam::motion::{Limits, Plan, Shaped, Shaper, ShaperKind};
-/// use stillbeam::stepper::{Modal, Stepper};
+/// use stillbeam::stepper::{AnyMotion, Modal, Stepper};
 /// use stillbeam::{HubState, Link, Move, Profile, Scene};
 ///
 /// let motion = Move::To { profile: Profile::Quintic, duration: 1.0, to: 1.57 };
