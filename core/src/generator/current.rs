@@ -67,7 +67,7 @@ impl<T: Scalar> Current<T> {
         self.k = k;
         let fast = S::FAST.linear
             && self.segment.is_cubic()
-            && self.segment.rate_bound() <= stepper.fastest_linear();
+            && stepper.is_linear_fast(self.segment.rate_bound());
         self.linear = if fast { self.segment.count() } else { 0 };
     }
 
