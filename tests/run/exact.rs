@@ -138,8 +138,8 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         self.0.feels_gravity()
     }
 
-    fn fastest_linear(&self) -> S::Scalar {
-        self.0.fastest_linear()
+    fn is_linear_fast(&self, rate: S::Scalar) -> bool {
+        self.0.is_linear_fast(rate)
     }
 
     fn admit(&self, _: &Peaks, _: f64) -> Result<(), Error> {

@@ -5,21 +5,22 @@ use crate::motion::Segment;
 use crate::stepper::Stepper;
 
 /// What the hub does, and the arm with it.
-// In this order: the hub rests from `Dwelling` on, which is one comparison.
+// In this order: to be asleep is to be zero, and the hub rests up to `Dwelling`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Phase {
-    /// No tick has been made yet; a move that is pushed now begins with the first.
-    Unstarted,
+    /// The moves have ended with the hub at rest, and the arm is at rest too, see
+    /// [`Stepper::is_settled`]: it is left as it is.
+    Asleep,
+    /// The moves have ended with the hub at rest; the arm vibrates.
+    Ringing,
+    /// A segment of a move is under way in which the hub rests; the arm vibrates.
+    Dwelling,
     /// A segment of a move is under way and the hub turns.
     Moving,
     /// The moves have ended with the hub turning, which keeps its rate.
     Cruising,
-    /// A segment of a move is under way in which the hub rests; the arm vibrates.
-    Dwelling,
-    /// The moves have ended with the hub at rest; the arm vibrates.
-    Ringing,
-    /// As `Ringing`, but the arm is at rest too, see [`Stepper::is_settled`]: it is left as it is.
-    Asleep,
+    /// No tick has been made yet; a move that is pushed now begins with the first.
+    Unstarted,
 }
 
 /// Where a segment comes from.
@@ -67,7 +68,7 @@ impl<T: Scalar> Current<T> {
         self.k = k;
         let fast = S::FAST.linear
             && self.segment.is_cubic()
-            && self.segment.rate_bound() <= stepper.fastest_linear();
+            && stepper.is_linear_fast(self.segment.rate_bound());
         self.linear = if fast { self.segment.count() } else { 0 };
     }
 
@@ -134,7 +135,7 @@ impl<T: Scalar> Current<T> {
     /// True if the hub rests until the segment ends.
     #[inline(always)]
     pub(super) fn is_at_rest(&self) -> bool {
-        self.phase >= Phase::Dwelling
+        self.phase <= Phase::Dwelling
     }
 
     /// True if the arm rests too and is left as it is.

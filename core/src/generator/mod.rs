@@ -265,16 +265,16 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     #[inline(never)]
     fn take_up_next(&mut self) {
         self.end_acceleration = self.current.segment().end_acceleration();
-        if self.queue.is_empty() && self.current.is_holding() {
-            self.renew_hold();
+        if let Some(segment) = self.queue.front() {
+            // Copied once, not by way of what `pop_front` returns.
+            self.current.take_up(segment, Part::Move, 0, &self.stepper);
+            let _ = self.queue.pop_front();
+        } else {
+            if self.current.is_holding() {
+                self.renew_hold();
+            }
+            self.current.take_up(&self.tail, Part::Hold, 0, &self.stepper);
         }
-        // Copied once, not by way of what `pop_front` returns.
-        let (next, part) = match self.queue.front() {
-            Some(segment) => (segment, Part::Move),
-            None => (&self.tail, Part::Hold),
-        };
-        self.current.take_up(next, part, 0, &self.stepper);
-        let _ = self.queue.pop_front();
         self.current.segment().begin(&mut self.hub);
         if self.stepper.feels_gravity() {
             self.hub.update_sin_cos();

@@ -174,8 +174,8 @@ impl<T: Scalar> Stepper for Auto<T> {
     }
 
     #[inline(always)]
-    fn fastest_linear(&self) -> T {
-        each!(self, s => s.fastest_linear())
+    fn is_linear_fast(&self, rate: T) -> bool {
+        each!(self, s => s.is_linear_fast(rate))
     }
 
     #[inline(always)]

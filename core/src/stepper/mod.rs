@@ -61,9 +61,9 @@ pub trait Stepper {
     /// given hold no sine and cosine, which then cost nothing.
     fn feels_gravity(&self) -> bool;
 
-    /// Largest `|θ̇|` of a segment with linear acceleration whose ticks may be advanced as [`Linear`],
-    /// rad/s; negative if none may be, as under gravity. Asked once a segment.
-    fn fastest_linear(&self) -> Self::Scalar;
+    /// True if the ticks of a segment with linear acceleration in which `|θ̇|` is at most `rate` rad/s
+    /// may be advanced as [`Linear`]; never under gravity. Asked once a segment.
+    fn is_linear_fast(&self, rate: Self::Scalar) -> bool;
 
     /// Refuses a move with these peaks, after which the hub goes on turning at `held` rad/s, if the
     /// stepper was not set up for it. Not for the tick.
@@ -95,12 +95,6 @@ pub trait Stepper {
     /// True if the arm, its hub at rest, moves by less than [`SLEEP`] of its length from where it
     /// rests: it may then be left as it is, and goes on from there.
     fn is_settled(&self, state: &Self::State) -> bool;
-}
-
-/// [`Stepper::fastest_linear`] of an arm whose linear ticks are fast at any rate, or at none.
-#[inline(always)]
-fn any_rate_if<T: Scalar>(fast: bool) -> T {
-    if fast { T::from_f64(f64::INFINITY) } else { -T::ONE }
 }
 
 /// Deflection below which an arm on a resting hub sleeps, fraction of its length: a tenth of what

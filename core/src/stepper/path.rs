@@ -17,8 +17,8 @@ pub trait HubMotion: sealed::Sealed {
 #[derive(Clone, Copy, Debug)]
 pub struct AnyMotion;
 
-/// A linear acceleration, in a segment in which `|θ̇|` is at most
-/// [`Stepper::fastest_linear`](super::Stepper::fastest_linear).
+/// A linear acceleration, in a segment for which
+/// [`Stepper::is_linear_fast`](super::Stepper::is_linear_fast) holds.
 #[derive(Clone, Copy, Debug)]
 pub struct Linear;
 

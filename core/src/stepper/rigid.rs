@@ -1,6 +1,6 @@
 //! The arm that does not bend.
 
-use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper, any_rate_if};
+use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Scalar, round};
@@ -49,8 +49,8 @@ impl<T: Scalar> Stepper for Rigid<T> {
     }
 
     #[inline(always)]
-    fn fastest_linear(&self) -> T {
-        any_rate_if(self.weight == T::ZERO && self.drag == T::ZERO)
+    fn is_linear_fast(&self, _: T) -> bool {
+        self.weight == T::ZERO && self.drag == T::ZERO
     }
 
     /// Carries any move: it has no state that could run away.

@@ -34,7 +34,7 @@ use numerical_damping::NumericalDamping;
 
 use super::kicks::Kicks;
 use super::oscillator::{check_turns, kick};
-use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper, any_rate_if};
+use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::Scalar;
@@ -236,8 +236,8 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     #[inline(always)]
-    fn fastest_linear(&self) -> T {
-        any_rate_if(self.is_bare())
+    fn is_linear_fast(&self, _: T) -> bool {
+        self.is_bare()
     }
 
     /// Refuses what would bend the link beyond the range of the expansion, with 1e-6 of it for

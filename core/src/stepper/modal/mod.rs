@@ -134,15 +134,9 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     #[inline(always)]
-    fn fastest_linear(&self) -> T {
+    fn is_linear_fast(&self, rate: T) -> bool {
         let Terms { spin, gravity, damping } = self.terms;
-        if gravity || damping {
-            -T::ONE
-        } else if spin {
-            self.fastest
-        } else {
-            T::from_f64(f64::INFINITY)
-        }
+        !gravity && !damping && (!spin || rate <= self.fastest)
     }
 
     fn admit(&self, peaks: &Peaks, _: f64) -> Result<(), Error> {

@@ -35,7 +35,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let residual = scene.rigid_inertia() - dot(&coupling, &coupling);
         let tension = between(&model.tension().scaled(gravity));
         let spin: Band<T, K, K> = between(model.spin());
-        let mut modal = Self {
+        let modal = Self {
             modes: core::array::from_fn(|k| {
                 Oscillator::new(omega[k], alpha, beta, support[k], tick)
                     .forced_by(omega[k] * omega[k])
@@ -62,18 +62,27 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             weight: cast(&onto(model.weight()).map(|f| gravity * f)),
             moment: T::from_f64(gravity * scene.first_moment()),
             awake: core::array::from_fn(|k| {
-                let floor = sleep_floor::<f64>(scene.link.length, shape[k][model.tip()]);
-                [floor, omega[k] * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
+                settled_weights(omega[k], sleep_floor(scene.link.length, shape[k][model.tip()]))
             }),
             tick,
             most: T::from_f64(
                 MOST_GRAVITY_CHANGE * scene.link.length / shape[0][model.tip()].abs(),
             ),
         };
-        modal.fastest = T::from_f64(modal.fastest_linear_rate(&omega));
-        if modal.terms.gravity {
-            modal.admit_gravity(gravity)?;
-        }
-        Ok(modal)
+        modal.bounded(&omega, gravity)
     }
+
+    /// Finds the fastest linear tick; refuses a gravity that the tick length does not allow.
+    fn bounded(mut self, omega: &[f64; K], gravity: f64) -> Result<Self, Error> {
+        self.fastest = T::from_f64(self.fastest_linear_rate(omega));
+        if self.terms.gravity {
+            self.admit_gravity(gravity)?;
+        }
+        Ok(self)
+    }
+}
+
+/// Weights of the squares of `ωa` and of `ωȧ` of a mode that is settled below the coordinate `floor`.
+fn settled_weights<T: Scalar>(omega: f64, floor: f64) -> [T; 2] {
+    [floor, omega * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
 }

@@ -28,7 +28,7 @@ mod setup;
 mod solve;
 
 use super::terms::Terms;
-use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper, any_rate_if};
+use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Band, HalfForm, Ldl, Scalar, dot};
@@ -160,8 +160,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     }
 
     #[inline(always)]
-    fn fastest_linear(&self) -> T {
-        any_rate_if(!self.terms.gravity && !self.terms.damping)
+    fn is_linear_fast(&self, _: T) -> bool {
+        !self.terms.gravity && !self.terms.damping
     }
 
     /// Refuses rates at which the arm has no stiffness left, upright where there is gravity. Lumped

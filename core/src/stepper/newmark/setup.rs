@@ -2,8 +2,9 @@
 
 use super::Newmark;
 use crate::Error;
-use crate::math::{Band, Scalar, cast, dot, principal_axes, root, round};
+use crate::math::{Band, Ldl, Scalar, cast, dot, principal_axes, root, round};
 use crate::model::Model;
+use crate::scene::Scene;
 use crate::stepper::terms::Terms;
 use crate::stepper::{MOST_GRAVITY_CHANGE, SLEEP, check_tick};
 
@@ -29,20 +30,11 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     pub(super) fn set_up<P: Scalar>(model: &Model<N, W, P>, tick: f64) -> Result<Self, Error> {
         let tick = check_tick(tick)?;
         let scene = model.scene();
-        if Self::PRINCIPAL {
-            let most = HEAVIEST / T::EPSILON.to_f64() * scene.link.mass.to_f64();
-            Error::check("payload.mass", scene.payload.mass, 0.0, most, "kg")?;
-        }
+        Self::check_payload(scene)?;
         let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
         let half = P::from_f64(0.5 * tick);
         let per_half = P::ONE / half;
-        let principal = if Self::PRINCIPAL {
-            principal_axes(model.stiffness(), model.spin())
-        } else {
-            core::array::from_fn(|i| {
-                core::array::from_fn(|j| if i == j { P::ONE } else { P::ZERO })
-            })
-        };
+        let principal = Self::axes(model);
         let band = |a: &Band<P, N, W>| if Self::PRINCIPAL { a.onto(&principal) } else { *a };
         let vector = |v: &[P; N]| onto(&principal, v);
         let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));
@@ -50,32 +42,18 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         let margin = if Self::PRINCIPAL { 0.0 } else { MARGIN * N as f64 * T::EPSILON.to_f64() };
         let stiffer = P::ONE + P::from_f64(margin);
         let effective = damping.plus(per_half * per_half, &mass).plus(stiffer, &stiffness);
-        // A tick so long that `4/h² M` is a rounding of `K` would leave a mass that is not positive, and
-        // the step would feed the arm: refused from where a pivot of the one is that of the other.
         let inertia = mass.factored();
-        let ratio = |i: usize| inertia.pivot(i) / stiffness.get(i, i);
-        let lightest = (1..N).map(ratio).fold(ratio(0), |x, y| if y < x { y } else { x });
-        let longest = P::TWO * root(lightest / P::from_f64(T::EPSILON.to_f64()));
-        Error::check("solver.tick", tick, 1e-6, longest.to_f64(), "s")?;
+        Self::check_longest(tick, &inertia, &stiffness)?;
         let tension = band(model.tension()).scaled(gravity);
         let coupling = vector(model.coupling());
         let turn = inertia.solve(&coupling);
         let residual = scene.rigid_inertia() - dot(&coupling, &turn);
         let scaled = |scale: P| cast(&coupling.map(|f| scale * f));
         let tip: [P; N] = principal.map(|axis| axis[model.tip()]);
-        // (½hω₁)², by Rayleigh's quotient of the shape that turning bends.
+        // The shape that turning bends the arm to.
         let bent = if Self::PRINCIPAL { coupling } else { stiffness.factored().solve(&coupling) };
         let stiff = half * half * dot(&bent, &coupling) / dot(&bent, &mass.times(&bent));
-        let floor = P::from_f64(SLEEP) * scene.link.length;
-        // Principal coordinates by what they move the tip together; nodes' by their deflection or, a
-        // slope, by that of a link's length.
-        let long = scene.link.length * scene.link.length;
-        let reach = match Self::PRINCIPAL {
-            true => dot(&tip, &tip),
-            false if long > P::ONE => long,
-            false => P::ONE,
-        };
-        let weight = reach / (floor * floor * stiff);
+        let awake = Self::awake(scene.link.length, &tip, stiff);
         Ok(Self {
             turn: cast(&turn.map(|b| half * b)),
             spin: band(model.spin()).map(round),
@@ -91,7 +69,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             terms: Terms::of(scene),
             numerical_damping: T::EPSILON * T::from_f64(numerical_damping::<N>()),
             tip_last: model.tip() + 1 == N,
-            awake: [weight / stiff, weight].map(round),
+            awake,
             tick,
             damping: damping.map(round),
             drag: scaled(alpha),
@@ -104,6 +82,53 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             moment: round(gravity * scene.first_moment()),
             most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length.to_f64()),
         })
+    }
+
+    /// Refuses a payload beyond [`HEAVIEST`].
+    fn check_payload<P: Scalar>(scene: &Scene<P>) -> Result<(), Error> {
+        if !Self::PRINCIPAL {
+            return Ok(());
+        }
+        let most = HEAVIEST / T::EPSILON.to_f64() * scene.link.mass.to_f64();
+        Error::check("payload.mass", scene.payload.mass, 0.0, most, "kg").map(drop)
+    }
+
+    /// The axes that `q` is taken along: the principal ones, or the nodes' own.
+    fn axes<P: Scalar>(model: &Model<N, W, P>) -> [[P; N]; N] {
+        if Self::PRINCIPAL {
+            return principal_axes(model.stiffness(), model.spin());
+        }
+        core::array::from_fn(|i| core::array::from_fn(|j| if i == j { P::ONE } else { P::ZERO }))
+    }
+
+    /// Refuses a tick so long that `4/h² M` is a rounding of `K`. The effective matrix would leave a mass
+    /// that is not positive, and the step would feed the arm: refused from where a pivot of the one
+    /// is that of the other.
+    fn check_longest<P: Scalar>(
+        tick: f64,
+        inertia: &Ldl<P, N, W>,
+        stiffness: &Band<P, N, W>,
+    ) -> Result<(), Error> {
+        let ratio = |i: usize| inertia.pivot(i) / stiffness.get(i, i);
+        let lightest = (1..N).map(ratio).fold(ratio(0), |x, y| if y < x { y } else { x });
+        let longest = P::TWO * root(lightest / P::from_f64(T::EPSILON.to_f64()));
+        Error::check("solver.tick", tick, 1e-6, longest.to_f64(), "s").map(drop)
+    }
+
+    /// Weights of [`Newmark::awake`] for a link of `length` m, `stiff` being `(½hω₁)²` by Rayleigh's
+    /// quotient.
+    fn awake<P: Scalar>(length: P, tip: &[P; N], stiff: P) -> [T; 2] {
+        let floor = P::from_f64(SLEEP) * length;
+        // Principal coordinates by what they move the tip together; nodes' by their deflection or, a
+        // slope, by that of a link's length.
+        let long = length * length;
+        let reach = match Self::PRINCIPAL {
+            true => dot(tip, tip),
+            false if long > P::ONE => long,
+            false => P::ONE,
+        };
+        let weight = reach / (floor * floor * stiff);
+        [weight / stiff, weight].map(round)
     }
 }
 

@@ -77,7 +77,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         }
         self.damp::<M>(&mut force, d, hub.rate);
         let turns = !M::AT_REST && self.terms.spin && hub.rate != T::ZERO;
-        let restoring = if self.terms.gravity {
+        let mut restoring = if self.terms.gravity {
             let mut change = self.tension.scaled(-hub.sin);
             if turns {
                 change = change.plus(hub.rate * hub.rate, &self.spin);
@@ -88,19 +88,22 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         } else {
             self.factors.solve(&force)
         };
-        if M::AT_REST { self.damped_numerically(restoring, d) } else { restoring }
+        if M::AT_REST {
+            self.damp_numerically(&mut restoring, d);
+        }
+        restoring
     }
 
     /// Takes from an arm that nothing damps what the rounding of `K q` may feed it.
     #[inline(always)]
-    fn damped_numerically(&self, mut restoring: [T; N], d: &[T; N]) -> [T; N] {
-        if !Self::PRINCIPAL && !self.terms.damping {
-            // Of the deflections: the slopes go with them.
-            for i in (0..N).step_by(2) {
-                restoring[i] += self.numerical_damping * d[i];
-            }
+    fn damp_numerically(&self, restoring: &mut [T; N], d: &[T; N]) {
+        if Self::PRINCIPAL || self.terms.damping {
+            return;
         }
-        restoring
+        // Of the deflections: the slopes go with them.
+        for i in (0..N).step_by(2) {
+            restoring[i] += self.numerical_damping * d[i];
+        }
     }
 
     /// `[E + A] c = f + A q + g cosθ f_g`, `A` being `change`.
