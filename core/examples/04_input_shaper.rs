@@ -29,7 +29,7 @@ pub fn main() -> Result<(), Error> {
     let plan = Plan::new(&motion, HubState::resting_at(0.0)?, &Limits::default(), TICK)?;
     let segments: Vec<_> = plan.segments.iter().map(|segment| segment.cast::<f32>()).collect();
 
-    println!("first mode at {frequency:.3} Hz; a move of {} ticks\n", plan.outline.ticks);
+    println!("first mode at {frequency:.3} Hz; a move of {} ticks\n", plan.summary.ticks);
     println!("shaper     ticks   left after it, mm");
     // One pulse is no shaper at all: the motion itself, for comparison.
     let none = Shaper::custom(&[stillbeam::motion::Pulse { amplitude: 1.0, delay: 0.0 }])?;

@@ -118,7 +118,7 @@ pub mod select;
 pub mod stepper;
 
 pub use error::Error;
-pub use generator::{Departure, Generator, Planned, Setpoint};
+pub use generator::{Generator, PlanContext, PlannedMove, Setpoint};
 pub use hub::{Angle, HubState};
 pub use math::Scalar;
 pub use motion::{Limits, Move, Profile, Remedy};

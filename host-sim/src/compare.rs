@@ -101,7 +101,7 @@ fn residual_along(
     scene: &SceneFile,
     trajectory: &Trajectory,
 ) -> Result<Residual, Error> {
-    let turning = trajectory.plans().last().is_none_or(|plan| plan.outline.end.rate != 0.0);
+    let turning = trajectory.plans().last().is_none_or(|plan| plan.summary.end.rate != 0.0);
     let Some(end) = trajectory.arrivals().last().filter(|_| !turning) else {
         return Ok(Residual::Turning);
     };
@@ -134,7 +134,7 @@ fn residual_of_table(rows: &[Row], scene: &SceneFile, tick: f64) -> Result<Resid
 /// Times at which the commanded acceleration jumps, the beginning of the run included.
 pub fn jumps(trajectory: &Trajectory) -> Vec<f64> {
     let largest =
-        trajectory.plans().iter().map(|plan| plan.outline.peaks.acceleration).fold(0.0, f64::max);
+        trajectory.plans().iter().map(|plan| plan.summary.peaks.acceleration).fold(0.0, f64::max);
     let jumps_at = |t: f64| {
         let (left, right) = (trajectory.at(t, Side::Left), trajectory.at(t, Side::Right));
         (left.acceleration - right.acceleration).abs() > 1e-6 * largest

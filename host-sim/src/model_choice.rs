@@ -234,7 +234,7 @@ fn elastica<T: Real, const K: usize>(
     solver: &Solver,
 ) -> Result<Elastica<T, K>, Error> {
     let trajectory = scene.trajectory(solver.tick)?;
-    let peaks = trajectory.plans().iter().map(|plan| plan.outline.peaks.acceleration);
+    let peaks = trajectory.plans().iter().map(|plan| plan.summary.peaks.acceleration);
     let rod = Rod::new(&scene.arm)?;
     let quality = match solver.quality {
         Quality::Fast => stepper::Quality::Fast,

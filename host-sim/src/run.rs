@@ -109,7 +109,7 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     let mut motions = scene.motions();
     let planned = scene.trajectory(tick)?;
     if let Some(rest) = planned.plans().get(motions.len()) {
-        motions.push(Move::Dwell { duration: f64::from(rest.outline.ticks) * tick });
+        motions.push(Move::Dwell { duration: f64::from(rest.summary.ticks) * tick });
     }
     let mut rows = Vec::new();
     each_tick_of(stepper, scene.from, &motions, |generator, k, ends| {

@@ -66,7 +66,7 @@ impl Trajectory {
             if !matches!(motion, Move::Dwell { .. }) {
                 trajectory.arrivals.push(k);
             }
-            start = plan.outline.end;
+            start = plan.summary.end;
             trajectory.plans.push(plan);
         }
         Ok(trajectory)

@@ -25,7 +25,7 @@ fn arm() -> Arm {
 
 /// As a board plans what came over its line.
 fn plan(motion: &Move) -> Result<(), Error> {
-    arm().departure().plan::<f32>(motion).map(drop)
+    arm().plan_context().plan::<f32>(motion).map(drop)
 }
 
 fn planned_still() -> Move {

@@ -54,7 +54,7 @@ pub fn to(profile: Profile, duration: f64, to: f64) -> Move {
 
 /// Plans and hands over, as the firmware's command task does.
 pub fn ask(axis: &mut Arm, motion: &Move) -> Result<u32, Error> {
-    let planned = axis.departure()?.plan(motion)?;
+    let planned = axis.plan_context()?.plan(motion)?;
     axis.take(&planned)
 }
 

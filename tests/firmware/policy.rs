@@ -83,7 +83,7 @@ fn what_is_refused_changes_nothing() {
         Move::SpinUp { duration: 0.5, rate: 60.0 },
     ];
     for motion in moves {
-        let planned = axis.departure().unwrap().plan::<f32>(&motion);
+        let planned = axis.plan_context().unwrap().plan::<f32>(&motion);
         assert!(planned.is_err(), "{motion:?}: {planned:?}");
     }
     assert_eq!(run(&mut axis, 50), run(&mut other, 50));
@@ -280,7 +280,7 @@ fn a_move_planned_before_a_stop_is_stale_after_it() {
     let mut axis = enabled(POLICY);
     ask(&mut axis, &to(Profile::Cubic, 0.6, 2.0)).unwrap();
     run(&mut axis, 20);
-    let late = axis.departure().unwrap().plan(&to(Profile::Cubic, 0.6, 1.5)).unwrap();
+    let late = axis.plan_context().unwrap().plan(&to(Profile::Cubic, 0.6, 1.5)).unwrap();
     axis.stop(Cause::Requested);
     run(&mut axis, 100);
     axis.enable(turns(0.0)).unwrap();
@@ -295,7 +295,7 @@ fn a_spin_is_changed_without_a_step_however_long_planning_takes() {
         ask(&mut axis, &Move::SpinUp { duration: 0.5, rate: 5.0 }).unwrap();
         let mut all = run(&mut axis, 70);
         let stop = Move::SpinUp { duration: 0.5, rate: 0.0 };
-        let planned = axis.departure().unwrap().plan(&stop).unwrap();
+        let planned = axis.plan_context().unwrap().plan(&stop).unwrap();
         all.extend(run(&mut axis, planning));
         axis.take(&planned).unwrap();
         all.extend(run(&mut axis, 100));

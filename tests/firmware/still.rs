@@ -17,7 +17,7 @@ fn planner() -> Planner<f32, 2> {
 }
 
 fn still(axis: &mut Arm, to: f64, duration: Option<f64>) -> Result<u32, Error> {
-    let planned = axis.departure()?.plan_still(&planner(), to, duration);
+    let planned = axis.plan_context()?.plan_still(&planner(), to, duration);
     axis.take(&planned?)
 }
 
@@ -62,7 +62,7 @@ fn what_the_planner_refuses_is_named() {
     assert!(error(slow, Some(1.0)).starts_with("limits.rate"));
     let weak = planner().with_load_limits(Some(1e-4), None).unwrap();
     for duration in [Some(1.0), None] {
-        let refused = enabled(POLICY).departure().unwrap().plan_still(&weak, 2.5, duration);
+        let refused = enabled(POLICY).plan_context().unwrap().plan_still(&weak, 2.5, duration);
         let error = refused.map(drop).unwrap_err().to_string();
         assert!(error.starts_with("limits.torque"), "{error}");
     }

@@ -47,8 +47,8 @@ fn layers_that_cannot_check_a_load_refuse_its_limit() {
         }
         // What was refused is not half in force.
         assert_eq!(
-            generator.departure(),
-            Generator::<_, 8>::new(rigid(), 0.0).unwrap().departure()
+            generator.plan_context(),
+            Generator::<_, 8>::new(rigid(), 0.0).unwrap().plan_context()
         );
         generator.limit(limits.kinematic()).expect("none of the arm");
     }
@@ -81,10 +81,10 @@ fn a_planners_own_load_limits_are_kept_by_all_its_moves() {
         let weaker = Limits { torque: Some(0.1), ..Limits::default() };
         let plan = weak.plan(&request.limits(weaker)).expect("a plan");
         assert!(weak.predict(&plan, None).torque <= 0.1);
-        // On the target the generator's departure has none: the planner keeps its own.
+        // On the target the generator's context has none: the planner keeps its own.
         let arm = Generator::<_, 8>::new(rigid(), 0.0).expect("a generator");
-        exceeded(arm.departure().plan_still(&weak, PI, Some(short)).expect_err("beyond"));
-        arm.departure().plan_still(&weak, PI, None).expect("a plan");
+        exceeded(arm.plan_context().plan_still(&weak, PI, Some(short)).expect_err("beyond"));
+        arm.plan_context().plan_still(&weak, PI, None).expect("a plan");
     }
     for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(free.clone().with_load_limits(Some(nonsense), None).is_err());

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use stillbeam::hub::Angle;
 use stillbeam::model::Rod;
 use stillbeam::planner::{Kinematics, Planner, Request, StillMove, Target};
-use stillbeam::stepper::{Elastica, Flex, Quality};
+use stillbeam::stepper::{ArmState, Elastica, Quality};
 use stillbeam::{Error, Generator, HubState, Limits, Link, Move, Profile, Scene};
 use stillbeam_sim::plan::judge::Motion;
 use stillbeam_sim::scenes;
@@ -83,7 +83,7 @@ fn the_second_mode_is_brought_to_rest_where_it_rings() {
 fn a_course_may_begin_with_a_stop() {
     let arm = member_a();
     let planner = Planner::<f32, 2>::new(&arm, TICK).expect("planner");
-    let flex = Flex { coordinate: [0.004, 0.0], rate: [0.02, 0.0] };
+    let flex = ArmState { coordinate: [0.004, 0.0], rate: [0.02, 0.0] };
     let from = HubState { rate: 0.15, ..HubState::at_rest(Angle::from_radians(0.3)) };
     let limits = Limits { rate: Some(0.4), acceleration: Some(1.5), ..Limits::default() };
     let request = Request::from_hub(from, Target::Angle(3.0)).arm(flex).limits(limits);
@@ -234,7 +234,7 @@ fn a_course_can_be_changed_at_any_tick() {
             ahead.tick();
         }
         let from = ahead.hub().precise();
-        let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
+        let flex = ahead.stepper().arm_state(ahead.state(), ahead.hub());
         let request = Request::from_hub(from, Target::Angle(-0.5)).arm(flex).duration(0.3);
         let plan = planner.plan(&request.any_deflection()).expect("plan");
         // A tick early the hub is elsewhere, if it turns.
@@ -268,10 +268,10 @@ fn a_measured_state_is_accepted() {
     let stepper = Elastica::<f64, 2>::new(&rod, TICK, Quality::Fine, 0.5).expect("stepper");
     let mut generator = Generator::<_, 8>::new(stepper, 0.3).expect("generator");
     generator.tick();
-    let flex = Flex { coordinate: [0.004, 0.0], rate: [-0.2, 0.0] };
+    let flex = ArmState { coordinate: [0.004, 0.0], rate: [-0.2, 0.0] };
     let hub = *generator.hub();
     generator.set_state(generator.stepper().state_of(&flex, &hub));
-    let back = generator.stepper().flex(generator.state(), &hub);
+    let back = generator.stepper().arm_state(generator.state(), &hub);
     for k in 0..2 {
         assert!((back.coordinate[k] - flex.coordinate[k]).abs() < 1e-12);
         assert!((back.rate[k] - flex.rate[k]).abs() < 1e-9, "{back:?}");

@@ -87,7 +87,7 @@ fn elastica(scene: &Scene, turn: &Turn) -> Vec<f64> {
     let rod = Rod::<2>::new(scene).expect("a rod");
     let stepper = Elastica::<f64, 2>::new(&rod, TICK, Quality::Fine, 1.5 * BEND);
     afterwards(stepper.expect("a stepper"), turn, |arm| {
-        let flex = arm.stepper().flex(arm.state(), arm.hub());
+        let flex = arm.stepper().arm_state(arm.state(), arm.hub());
         let moved = rod.kinetics(&flex.coordinate).mass.map(|row| dot(&row, &flex.rate));
         let bent: [f64; 2] = core::array::from_fn(|k| rod.frequency()[k] * flex.coordinate[k]);
         0.5 * (dot(&moved, &flex.rate) + dot(&bent, &bent))

@@ -33,7 +33,7 @@ impl<T: Scalar, const K: usize> Reverse for Modal<T, K> {
 
 impl<T: Scalar, const K: usize> Reverse for Elastica<T, K> {
     fn reversed(&self, state: &Self::State, hub: &HubState<T>) -> Self::State {
-        let mut flex = self.flex(state, hub);
+        let mut flex = self.arm_state(state, hub);
         flex.rate = flex.rate.map(|rate| -rate);
         self.state_of(&flex, &turned_round(hub))
     }

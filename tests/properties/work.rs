@@ -51,7 +51,7 @@ fn small<S: Stepper<Scalar = f64>, const N: usize, const W: usize>(
 fn large(rod: &Rod<2>, arm: &Generator<Elastica<f64, 2>, 16>) -> Balance {
     let (scene, omega) = (rod.scene(), arm.hub().rate);
     let (sin, cos) = arm.hub().angle.sin_cos();
-    let flex = arm.stepper().flex(arm.state(), arm.hub());
+    let flex = arm.stepper().arm_state(arm.state(), arm.hub());
     let kinetics = rod.kinetics(&flex.coordinate);
     let moved = kinetics.mass.map(|row| dot(&row, &flex.rate));
     let carried = 0.5 * dot(&moved, &flex.rate)

@@ -69,7 +69,7 @@ fn exact_balance<const K: usize>(
     torque: f64,
 ) -> Balance {
     let (hub, scene) = (arm.hub(), rod.scene());
-    let flex = arm.stepper().flex(arm.state(), hub);
+    let flex = arm.stepper().arm_state(arm.state(), hub);
     let (a, v, omega) = (flex.coordinate, flex.rate, hub.rate);
     let kinetics = rod.kinetics(&a);
     let moved = kinetics.mass.map(|row| dot(&row, &v));

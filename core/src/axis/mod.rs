@@ -32,7 +32,7 @@ use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
 use crate::motion::{Braking, Limits};
 use crate::stepper::Stepper;
-use crate::{Departure, Error, Generator, Planned, Setpoint};
+use crate::{Error, Generator, PlanContext, PlannedMove, Setpoint};
 
 /// The reason why the axis stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -252,17 +252,17 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         self.mode = if rests { Mode::Stopped } else { Mode::Stopping };
     }
 
-    /// Where a move begins that is planned now; for [`Departure::plan`] and
-    /// [`Departure::plan_still`], outside of the tick.
-    pub fn departure(&self) -> Result<Departure, Error> {
+    /// Where a move begins that is planned now; for [`PlanContext::plan`] and
+    /// [`PlanContext::plan_still`], outside of the tick.
+    pub fn plan_context(&self) -> Result<PlanContext, Error> {
         match self.mode {
-            Mode::Enabled => Ok(self.generator.departure()),
+            Mode::Enabled => Ok(self.generator.plan_context()),
             mode => Err(Error::WrongMode { mode }),
         }
     }
 
     /// Takes a planned move and returns the number of its first tick.
-    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<u32, Error> {
+    pub fn take(&mut self, planned: &PlannedMove<S::Scalar>) -> Result<u32, Error> {
         if self.mode != Mode::Enabled {
             return Err(Error::WrongMode { mode: self.mode });
         }
@@ -271,7 +271,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         }
         self.generator.take(planned)?;
         let begin = self.moves.back().map_or(self.clock, |last| last.arrival);
-        let arrival = begin.wrapping_add(planned.outline().ticks);
+        let arrival = begin.wrapping_add(planned.summary().ticks);
         // There is room: just asked.
         let end = self.generator.end();
         let _ = self.moves.push_back(Accepted { begin, arrival, end });

@@ -3,9 +3,9 @@
 use crate::hub::HubState;
 use crate::math::Scalar;
 use crate::planner::{Planner, Request, Target};
-use crate::{Departure, Error, Planned};
+use crate::{Error, PlanContext, PlannedMove};
 
-impl Departure {
+impl PlanContext {
     /// Plans a move to `to` rad after which the arm is at rest: in `duration` s, rounded to whole
     /// ticks, or if none is told in the shortest time within the limits. Torque and bending moment
     /// are kept by the planner's model where the planner has
@@ -22,7 +22,7 @@ impl Departure {
         planner: &Planner<T, K>,
         to: f64,
         duration: Option<f64>,
-    ) -> Result<Planned<T>, Error> {
+    ) -> Result<PlannedMove<T>, Error> {
         let start = self.start();
         if start.rate != 0.0 {
             return Err(Error::NotAtRest { rate: start.rate });

@@ -144,7 +144,7 @@ fn request(error: &Error, f: &mut Formatter<'_>) -> Result {
         ),
         Error::Stale => write!(
             f,
-            "move = planned before the hub's motion changed: plan it again from a new departure"
+            "move = planned before the hub's motion changed: plan it again from a new context"
         ),
         _ => Ok(()),
     }

@@ -7,48 +7,48 @@ use super::{Generator, Part};
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Limits, MAX_SEGMENTS, Move, Outline, Segment, lay};
+use crate::motion::{Limits, MAX_SEGMENTS, Move, MoveSummary, Segment, plan_segments};
 use crate::stepper::Stepper;
 
 /// Where the next move of a generator begins, and what it may do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub struct Departure {
+pub struct PlanContext {
     start: HubState<f64>,
     limits: Limits,
     tick: f64,
 }
 
-/// A move ready for the generator that its [`Departure`] came from.
+/// A move ready for the generator that its [`PlanContext`] came from.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Planned<T> {
+pub struct PlannedMove<T> {
     segments: Vec<Segment<T>, MAX_SEGMENTS>,
     start: HubState<f64>,
-    outline: Outline,
+    summary: MoveSummary,
 }
 
-impl<T> Planned<T> {
+impl<T> PlannedMove<T> {
     /// What the move comes to.
-    pub fn outline(&self) -> &Outline {
-        &self.outline
+    pub fn summary(&self) -> &MoveSummary {
+        &self.summary
     }
 }
 
-impl Departure {
+impl PlanContext {
     /// Plans `motion` from here. Runs in f64.
     ///
     /// This is the way of moves that come over a wire, so it asks more than [`Generator::push`]: a
     /// move turns by 2⁻¹⁶/ε turns at most, 128 in f32, so that its angle is right to 2⁻¹⁶ turn.
-    pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<Planned<T>, Error> {
+    pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<PlannedMove<T>, Error> {
         let mut segments = Vec::new();
-        let outline = lay(motion, self.start, &self.limits, self.tick, &mut |segment| {
+        let summary = plan_segments(motion, self.start, &self.limits, self.tick, &mut |segment| {
             // No move has more.
             let _ = segments.push(*segment);
         })?;
         if !matches!(motion, Move::Dwell { .. }) {
-            resolved::<T>(&self.start, &outline)?;
+            resolved::<T>(&self.start, &summary)?;
         }
-        Ok(Planned { segments, start: self.start, outline })
+        Ok(PlannedMove { segments, start: self.start, summary })
     }
 
     pub(crate) fn start(&self) -> &HubState<f64> {
@@ -62,24 +62,24 @@ impl Departure {
 
 /// Refuses a move of so many turns that its angle would go in steps: a segment's angle is rounded as
 /// a part of its own turn. Longer ways are a spin-up, a dwell and a spin-down, which is exact.
-fn resolved<T: Scalar>(start: &HubState<f64>, outline: &Outline) -> Result<(), Error> {
-    let turned = outline.end.angle.since(start.angle);
+fn resolved<T: Scalar>(start: &HubState<f64>, summary: &MoveSummary) -> Result<(), Error> {
+    let turned = summary.end.angle.since(start.angle);
     let most = 1.0 / 65_536.0 / T::EPSILON.to_f64();
     Error::check("move: turns", turned, -most, most, "turns").map(drop)
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Where a move that is planned now begins.
-    pub fn departure(&self) -> Departure {
-        Departure { start: self.next_start(), limits: self.limits, tick: self.stepper.tick() }
+    pub fn plan_context(&self) -> PlanContext {
+        PlanContext { start: self.next_start(), limits: self.limits, tick: self.stepper.tick() }
     }
 
     /// Puts a planned move behind the others. Either the whole move is taken or nothing changes.
     ///
     /// # Errors
-    /// [`Error::Stale`] if the hub's motion has changed since the departure was copied: plan again.
+    /// [`Error::Stale`] if the hub's motion has changed since the context was copied: plan again.
     /// [`Error::QueueFull`], or what the stepper was not set up for.
-    pub fn take(&mut self, planned: &Planned<S::Scalar>) -> Result<(), Error> {
+    pub fn take(&mut self, planned: &PlannedMove<S::Scalar>) -> Result<(), Error> {
         let start = self.next_start();
         // A hub that turns has turned on meanwhile; its moves are relative.
         let turned = start.angle.in_turns() - planned.start.angle.in_turns();
@@ -90,7 +90,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if needed > free {
             return Err(Error::QueueFull { needed, free });
         }
-        let Outline { peaks, end, .. } = &planned.outline;
+        let MoveSummary { peaks, end, .. } = &planned.summary;
         self.stepper.admit(peaks, end.rate)?;
         // Whole turns apart: a fraction of many turns would be rounded with them.
         let by = Angle::default().plus(turned).cast();
@@ -100,7 +100,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             let _ = self.queue.push_back(segment.shifted(by, first.take()));
         }
         self.current.end_hold();
-        let end = planned.outline.end;
+        let end = planned.summary.end;
         self.end = HubState::turning(end.angle.plus(turned), end.rate);
         self.tail = super::hold(self.end, self.stepper.tick());
         Ok(())

@@ -6,7 +6,7 @@ mod redirect;
 mod stop;
 
 use current::{Current, Part};
-pub use handover::{Departure, Planned};
+pub use handover::{PlanContext, PlannedMove};
 use heapless::Deque;
 pub(crate) use redirect::Branch;
 pub(crate) use stop::Arrival;
@@ -14,7 +14,7 @@ pub(crate) use stop::Arrival;
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Limits, Move, Outline, Plan, Remedy, Segment, lay};
+use crate::motion::{Limits, Move, MoveSummary, Plan, Remedy, Segment, plan_segments};
 use crate::stepper::{AnyMotion, AtRest, KinkMoments, Linear, Response, Stepper};
 
 /// What the motor controller gets every tick. SI units.
@@ -113,25 +113,25 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ///
     /// Runs in f64 and is not for the tick's interrupt. Either the whole move is taken or nothing
     /// changes.
-    pub fn push(&mut self, motion: &Move) -> Result<Outline, Error> {
+    pub fn push(&mut self, motion: &Move) -> Result<MoveSummary, Error> {
         let (start, tick) = (self.next_start(), self.stepper.tick());
         let (mut needed, free) = (0, QUEUE - self.queue.len());
-        let outline = lay(motion, start, &self.limits, tick, &mut |segment| {
+        let summary = plan_segments(motion, start, &self.limits, tick, &mut |segment| {
             needed += 1;
             // A full queue gives it back; told below.
             let _ = self.queue.push_back(*segment);
         })?;
         let fits = if needed > free { Err(Error::QueueFull { needed, free }) } else { Ok(()) };
-        if let Err(error) = fits.and(self.stepper.admit(&outline.peaks, outline.end.rate)) {
+        if let Err(error) = fits.and(self.stepper.admit(&summary.peaks, summary.end.rate)) {
             for _ in 0..needed.min(free) {
                 self.queue.pop_back();
             }
             return Err(error);
         }
         self.current.end_hold();
-        self.end = outline.end;
-        self.tail = hold(outline.end, tick);
-        Ok(outline)
+        self.end = summary.end;
+        self.tail = hold(summary.end, tick);
+        Ok(summary)
     }
 
     /// What would keep the limits, for a move that [`Self::push`] refuses now for one of them. Computed

@@ -72,12 +72,12 @@ impl<'a> Moves<'a> {
         let mut ticks = 0;
         let mut peaks = Peaks { rate: 0.0, acceleration: 0.0, jerk: 0.0 };
         for motion in moves {
-            let outline = Plan::new(motion, start, &Limits::default(), tick)?.outline;
-            peaks.rate = peaks.rate.max(outline.peaks.rate);
-            peaks.acceleration = peaks.acceleration.max(outline.peaks.acceleration);
-            peaks.jerk = peaks.jerk.max(outline.peaks.jerk);
-            ticks += u64::from(outline.ticks);
-            start = outline.end;
+            let summary = Plan::new(motion, start, &Limits::default(), tick)?.summary;
+            peaks.rate = peaks.rate.max(summary.peaks.rate);
+            peaks.acceleration = peaks.acceleration.max(summary.peaks.acceleration);
+            peaks.jerk = peaks.jerk.max(summary.peaks.jerk);
+            ticks += u64::from(summary.ticks);
+            start = summary.end;
         }
         Ok(Self { from, moves, tick, ticks, peaks })
     }
@@ -110,7 +110,7 @@ impl Commanded for Moves<'_> {
         let mut first = 0u64;
         for motion in self.moves {
             let plan = Plan::new(motion, start, &Limits::default(), self.tick)?;
-            start = plan.outline.end;
+            start = plan.summary.end;
             for (i, segment) in plan.segments.iter().enumerate() {
                 let after = plan.segments.get(i + 1).map_or(0.0, |next| next.ticks_before());
                 let zero = first as f64;

@@ -19,7 +19,7 @@ pub const MAX_SEGMENTS: usize = 7;
 
 /// Duration, end and peaks of a planned move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outline {
+pub struct MoveSummary {
     /// Where it ends: the next move's start.
     pub end: HubState<f64>,
     /// Whole ticks it takes.
@@ -37,7 +37,7 @@ pub struct Plan {
     /// The motion, first to last.
     pub segments: Vec<Segment<f64>, MAX_SEGMENTS>,
     /// Duration, end and peaks.
-    pub outline: Outline,
+    pub summary: MoveSummary,
 }
 
 impl Plan {
@@ -53,11 +53,11 @@ impl Plan {
         tick: f64,
     ) -> Result<Self, Error> {
         let mut segments = Vec::new();
-        let outline = lay(motion, start, limits, tick, &mut |segment| {
+        let summary = plan_segments(motion, start, limits, tick, &mut |segment| {
             // No move has more.
             let _ = segments.push(*segment);
         })?;
-        Ok(Self { segments, outline })
+        Ok(Self { segments, summary })
     }
 
     /// Returns what would keep the limits, for a move that [`Self::new`] refuses for one of them:
@@ -78,13 +78,13 @@ impl Plan {
 }
 
 /// Plans `motion` and hands its segments to `sink`, first to last; none if it is refused.
-pub(crate) fn lay<T: Scalar>(
+pub(crate) fn plan_segments<T: Scalar>(
     motion: &Move,
     start: HubState<f64>,
     limits: &Limits,
     tick: f64,
     sink: &mut dyn FnMut(&Segment<T>),
-) -> Result<Outline, Error> {
+) -> Result<MoveSummary, Error> {
     let ticks = motion.ticks(tick)?;
     let duration = f64::from(ticks) * tick;
     let turned = |rate: f64| rate * duration / TAU;
@@ -137,7 +137,7 @@ pub(crate) fn lay<T: Scalar>(
         }
         Shapes::Cubics(pieces, turn) => lay_cubics(pieces, turn, start.angle, ticks, tick, sink),
     }
-    Ok(Outline { end, ticks, peaks, rounded_by: duration - motion.duration() })
+    Ok(MoveSummary { end, ticks, peaks, rounded_by: duration - motion.duration() })
 }
 
 /// Turns from `start` to the angle `to`, rad, and the hub at rest there. The end is exactly that

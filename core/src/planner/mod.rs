@@ -51,7 +51,7 @@ use crate::math::Scalar;
 use crate::model::{Rod, RodPoints};
 use crate::motion::{Limits, Move};
 use crate::scene::Scene;
-use crate::stepper::Flex;
+use crate::stepper::ArmState;
 
 /// Most arms that one move is planned for.
 const MAX_ARMS: usize = 3;

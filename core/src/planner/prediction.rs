@@ -1,7 +1,7 @@
 //! Predicts the arm's answer to a still move by simulating it.
 
 use super::simulate::Resolution;
-use super::{Flex, Planner, StillMove};
+use super::{ArmState, Planner, StillMove};
 use crate::Error;
 use crate::math::Scalar;
 use crate::motion::Limits;
@@ -99,12 +99,12 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
     /// The steps are short whatever the duration: with the long ones of a search, the residual of
     /// an arm that rings hard was off by up to 0.15 % of L.
     #[must_use]
-    pub fn predict(&self, plan: &StillMove, flex: Option<&Flex<T, K>>) -> Prediction {
+    pub fn predict(&self, plan: &StillMove, flex: Option<&ArmState<T, K>>) -> Prediction {
         self.predict_in(&self.fine, plan, flex)
     }
 
     /// [`Self::predict`] in the steps of a search, which see the deflection well enough.
-    pub(super) fn glance(&self, plan: &StillMove, flex: Option<&Flex<T, K>>) -> Prediction {
+    pub(super) fn glance(&self, plan: &StillMove, flex: Option<&ArmState<T, K>>) -> Prediction {
         let resolution = if flex.is_some() { &self.fine } else { self.resolution(plan.duration()) };
         self.predict_in(resolution, plan, flex)
     }
@@ -113,7 +113,7 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
         &self,
         resolution: &Resolution<T, K>,
         plan: &StillMove,
-        flex: Option<&Flex<T, K>>,
+        flex: Option<&ArmState<T, K>>,
     ) -> Prediction {
         let path = resolution.refine(&plan.path());
         let curve = path.segment(&plan.bulge).cast::<T>();
@@ -124,7 +124,7 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
         let mut torque = Peak::new(load.torque);
         let mut moment = Peak::new(load.moment);
         let mut bend = Peak::new(load.tip[1]);
-        let watch = |flex: &Flex<T, K>, hub: &_| {
+        let watch = |flex: &ArmState<T, K>, hub: &_| {
             let load = arm.load(&self.points, flex, hub);
             torque.see(load.torque);
             moment.see(load.moment);

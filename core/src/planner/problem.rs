@@ -6,7 +6,7 @@ use core::ops::Range;
 use super::least_effort::LeastEffort;
 use super::linear::{Linear, MAX_AMPLITUDES};
 use super::simulate::{Arm, Resolution};
-use super::{Flex, MAX_ARMS, Objective, Path, Planner, Request, StillMove, second_mode, solve};
+use super::{ArmState, MAX_ARMS, Objective, Path, Planner, Request, StillMove, second_mode, solve};
 use crate::Error;
 use crate::math::{Scalar, cast, dot, sqrt};
 use crate::motion::{BULGE, Segment, curve_peaks};
@@ -62,10 +62,10 @@ pub(super) struct Problem<'a, T, const K: usize> {
     /// if the arm is straight there.
     half: bool,
     /// States of the arms at the beginning, and the equilibria there.
-    begin: [Flex<T, K>; MAX_ARMS],
-    begin_rest: [Flex<T, K>; MAX_ARMS],
+    begin: [ArmState<T, K>; MAX_ARMS],
+    begin_rest: [ArmState<T, K>; MAX_ARMS],
     /// States that the arms are to have when the simulation ends.
-    goal: [Flex<T, K>; MAX_ARMS],
+    goal: [ArmState<T, K>; MAX_ARMS],
 }
 
 /// A bulge and the amplitudes of the scene's own arm that it leaves.
@@ -98,8 +98,8 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
         let arms = planner.arms(resolution);
         let steps = path.ticks * resolution.steps;
         let curve = resolution.refine(path).segment(&[0.0; BULGE]).cast::<T>();
-        let rest = |at: u32| -> [Flex<T, K>; MAX_ARMS] {
-            let mut rest = [Flex::STRAIGHT; MAX_ARMS];
+        let rest = |at: u32| -> [ArmState<T, K>; MAX_ARMS] {
+            let mut rest = [ArmState::STRAIGHT; MAX_ARMS];
             if planner.scene.gravity != 0.0 {
                 for (n, arm) in arms.iter().enumerate() {
                     rest[n] = arm.equilibrium(&planner.points, &curve.hub(at));
@@ -123,7 +123,7 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
             half,
             begin: request.arm.map_or(begin_rest, |arm| [arm; MAX_ARMS]),
             begin_rest,
-            goal: if half { [Flex::STRAIGHT; MAX_ARMS] } else { rest(steps) },
+            goal: if half { [ArmState::STRAIGHT; MAX_ARMS] } else { rest(steps) },
             curve,
         })
     }
@@ -250,14 +250,14 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
     }
 
     /// Simulates arm `n` through the move with a bulge (turns).
-    fn simulate(&self, n: usize, bulge: &[T; BULGE]) -> Flex<T, K> {
+    fn simulate(&self, n: usize, bulge: &[T; BULGE]) -> ArmState<T, K> {
         let curve = self.curve.bulged(bulge);
         let (points, per_step) = (&self.planner.points, self.resolution.per_step);
         self.arms[n].simulate(points, per_step, &curve, self.steps, &self.begin[n], |_, _| ())
     }
 
     /// Amplitudes that mode `k` of arm `n` is left with.
-    fn left(&self, n: usize, k: usize, end: &Flex<T, K>) -> [T; 2] {
+    fn left(&self, n: usize, k: usize, end: &ArmState<T, K>) -> [T; 2] {
         self.arms[n].amplitudes(k, end, &self.goal[n])
     }
 

@@ -32,7 +32,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// for _ in 0..5 {
     ///     ahead.tick();
     /// }
-    /// let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
+    /// let flex = ahead.stepper().arm_state(ahead.state(), ahead.hub());
     /// let request = Request::from_hub(ahead.hub().precise(), Target::Angle(0.5))
     ///     .arm(flex)
     ///     .duration(0.25);

@@ -3,7 +3,7 @@
 use super::{Objective, Prediction};
 use crate::hub::{Angle, HubState};
 use crate::motion::Limits;
-use crate::stepper::Flex;
+use crate::stepper::ArmState;
 
 /// A move to be planned, from any state of hub and arm to rest.
 ///
@@ -26,7 +26,7 @@ pub struct Request<T, const K: usize> {
     /// State of the hub where the move begins.
     pub from: HubState<f64>,
     /// State of the arm where the move begins. `None`: static equilibrium at the hub's angle.
-    pub arm: Option<Flex<T, K>>,
+    pub arm: Option<ArmState<T, K>>,
     /// Where the move ends.
     pub target: Target,
     /// Duration in s, rounded to whole ticks. `None`: the shortest that the planner finds.
@@ -82,7 +82,7 @@ impl<T, const K: usize> Request<T, K> {
     }
 
     /// Begins with the arm bent and moving.
-    pub fn arm(self, arm: Flex<T, K>) -> Self {
+    pub fn arm(self, arm: ArmState<T, K>) -> Self {
         Self { arm: Some(arm), ..self }
     }
 

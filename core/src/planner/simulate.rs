@@ -9,7 +9,7 @@ use crate::hub::HubState;
 use crate::math::{Scalar, cast, sqrt};
 use crate::model::{Load, Rod, RodPoints};
 use crate::motion::Segment;
-use crate::stepper::{Flex, Forcing, Oscillator};
+use crate::stepper::{ArmState, Forcing, Oscillator};
 
 /// Number of times that the distance to an equilibrium is halved.
 const HALVINGS: usize = 30;
@@ -109,7 +109,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     }
 
     /// Deflection of the tip and its rate over ω by mode `k`, away from `rest`, of L.
-    pub fn amplitudes(&self, k: usize, at: &Flex<T, K>, rest: &Flex<T, K>) -> [T; 2] {
+    pub fn amplitudes(&self, k: usize, at: &ArmState<T, K>, rest: &ArmState<T, K>) -> [T; 2] {
         [
             self.tip_per_mode[k][0] * (at.coordinate[k] - rest.coordinate[k]),
             self.tip_per_mode[k][1] * (at.rate[k] - rest.rate[k]),
@@ -117,9 +117,9 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     }
 
     /// Finds the static equilibrium at the hub's angle.
-    pub fn equilibrium(&self, points: &RodPoints<T, K>, hub: &HubState<T>) -> Flex<T, K> {
+    pub fn equilibrium(&self, points: &RodPoints<T, K>, hub: &HubState<T>) -> ArmState<T, K> {
         let still = HubState { rate: T::ZERO, acceleration: T::ZERO, ..*hub };
-        let mut flex = Flex::STRAIGHT;
+        let mut flex = ArmState::STRAIGHT;
         for _ in 0..HALVINGS {
             let excess = self.excess(points, &flex, &still);
             for k in 0..K {
@@ -138,9 +138,9 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         per_step: T,
         curve: &Segment<T>,
         steps: u32,
-        from: &Flex<T, K>,
-        mut watch: impl FnMut(&Flex<T, K>, &HubState<T>),
-    ) -> Flex<T, K> {
+        from: &ArmState<T, K>,
+        mut watch: impl FnMut(&ArmState<T, K>, &HubState<T>),
+    ) -> ArmState<T, K> {
         let mut flex = *from;
         let mut hub = curve.hub(0);
         let mut force = self.excess(points, &flex, &hub);
@@ -153,7 +153,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
                 let at = [flex.coordinate[k], flex.rate[k]];
                 y[k] = self.modes[k].predict(at, &drive, [T::ZERO, force[k]], [T::ZERO, change[k]]);
             }
-            let guess = Flex { coordinate: y.map(|y| y[0]), rate: y.map(|y| y[1]) };
+            let guess = ArmState { coordinate: y.map(|y| y[0]), rate: y.map(|y| y[1]) };
             let next = self.excess(points, &guess, &after);
             for k in 0..K {
                 let new = next[k] - force[k];
@@ -168,14 +168,24 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     }
 
     /// Torque at the hub (N m), bending moment at the clamp (N m) and position of the tip (m).
-    pub fn load(&self, points: &RodPoints<T, K>, flex: &Flex<T, K>, hub: &HubState<T>) -> Load<T> {
-        let Flex { coordinate, rate } = flex;
+    pub fn load(
+        &self,
+        points: &RodPoints<T, K>,
+        flex: &ArmState<T, K>,
+        hub: &HubState<T>,
+    ) -> Load<T> {
+        let ArmState { coordinate, rate } = flex;
         let acceleration = points.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
         points.load(coordinate, rate, &acceleration, hub)
     }
 
     /// Amplitude of the tip's deflection about `rest`, m: an upper bound, with all modes in step.
-    pub fn ringing(&self, points: &RodPoints<T, K>, at: &Flex<T, K>, rest: &Flex<T, K>) -> f64 {
+    pub fn ringing(
+        &self,
+        points: &RodPoints<T, K>,
+        at: &ArmState<T, K>,
+        rest: &ArmState<T, K>,
+    ) -> f64 {
         let tip = points.tip_swing();
         let mut sum = 0.0;
         for k in 0..K {
@@ -188,8 +198,8 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
 
     /// The part of the modal accelerations that the linear oscillators do not have.
     #[inline(always)]
-    fn excess(&self, points: &RodPoints<T, K>, flex: &Flex<T, K>, hub: &HubState<T>) -> [T; K] {
-        let Flex { coordinate: a, rate: v } = flex;
+    fn excess(&self, points: &RodPoints<T, K>, flex: &ArmState<T, K>, hub: &HubState<T>) -> [T; K] {
+        let ArmState { coordinate: a, rate: v } = flex;
         let exact = points.acceleration(a, v, hub, &self.stiffness, &self.loss);
         let drive = hub.acceleration + self.alpha * hub.rate;
         core::array::from_fn(|k| {

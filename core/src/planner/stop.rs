@@ -1,6 +1,6 @@
 //! Stops, and moves by way of a stop.
 
-use super::{Flex, Planner, Prediction, Request, StillMove, Target};
+use super::{ArmState, Planner, Prediction, Request, StillMove, Target};
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
@@ -34,7 +34,7 @@ impl StopThenMove {
     pub fn predict<T: Scalar, const K: usize>(
         &self,
         planner: &Planner<T, K>,
-        arm: Option<&Flex<T, K>>,
+        arm: Option<&ArmState<T, K>>,
     ) -> Prediction {
         let before = planner.predict(&self.first, arm);
         let Some(then) = &self.then else { return before };

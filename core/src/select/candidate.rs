@@ -80,8 +80,8 @@ impl<S: Stepper> Candidate<S> {
                     && let Some(next) = motion.moves().and_then(|moves| moves.get(*pushed))
                 {
                     match arm.push(next) {
-                        Ok(outline) => {
-                            (*begin, *end) = (*end, *end + u64::from(outline.ticks));
+                        Ok(summary) => {
+                            (*begin, *end) = (*end, *end + u64::from(summary.ticks));
                             *pushed += 1;
                         }
                         Err(error) => {

@@ -57,7 +57,7 @@ fn assert_exact<T: Scalar>(profile: Profile, ticks: u32, from: f64, to: [f64; 2]
     for to in to {
         let motion = Move::To { profile, duration, to };
         if beside {
-            let planned = arm.departure().plan::<T>(&motion).expect("a plan");
+            let planned = arm.plan_context().plan::<T>(&motion).expect("a plan");
             arm.take(&planned).expect("room");
         } else {
             arm.push(&motion).expect("a move");
@@ -103,7 +103,7 @@ fn assert_spin_ups<T: Scalar>(ticks: u32, rates: [f64; 2], idle: u32) {
     for rate in rates.into_iter().chain([0.0]) {
         // Planned, then taken some ticks later: the hub has turned on.
         let planned = arm
-            .departure()
+            .plan_context()
             .plan::<T>(&Move::SpinUp { duration: TICK * f64::from(ticks), rate })
             .expect("a plan");
         for _ in 0..idle {

@@ -68,7 +68,7 @@ fn start(turning: f64) -> HubState<f64> {
 
 fn assert_plan_true(motion: &Move, start: HubState<f64>, tick: f64) {
     let plan = Plan::new(motion, start, &Limits::default(), tick).expect("a plan");
-    assert_true(&plan.outline.peaks, &dense(&plan, tick), &format!("{motion:?}"));
+    assert_true(&plan.summary.peaks, &dense(&plan, tick), &format!("{motion:?}"));
 }
 
 /// Durations of any number of ticks, so that borders of thirds and sevenths lie between them.
@@ -164,7 +164,7 @@ proptest! {
         prop_assume!(plan.is_ok());
         let plan = plan.expect("a plan");
         let found = dense(&plan, 0.01);
-        assert_true(&plan.outline.peaks, &found, "f64");
+        assert_true(&plan.summary.peaks, &found, "f64");
         let mut arm = Generator::<_, 8>::new(rigid(), 0.3).expect("a generator");
         assert_true(&arm.push(&motion).expect("a move").peaks, &found, "f32");
     }

@@ -68,7 +68,7 @@ fn every_profile_is_its_textbook_form_at_every_tick() {
             assert_near(profile.name(), hub.rate, 2.0 * rate, 1e-6);
         }
         assert_eq!(hubs::<f64>(&plan).len(), 100, "{profile:?}");
-        assert_near("end", plan.outline.end.angle.radians(), 2.0, 1e-15);
+        assert_near("end", plan.summary.end.angle.radians(), 2.0, 1e-15);
     }
 }
 
@@ -98,9 +98,9 @@ fn stated_peaks_are_reached_and_not_exceeded() {
         let plan = plan(profile, 1.0, 2.0, 0.0001);
         let most = |of: fn(&HubState<f64>) -> f64| hubs(&plan).iter().map(of).fold(0.0, f64::max);
         let rate = most(|hub| hub.rate.abs());
-        assert_near(profile.name(), rate, plan.outline.peaks.rate, 1e-3 * plan.outline.peaks.rate);
+        assert_near(profile.name(), rate, plan.summary.peaks.rate, 1e-3 * plan.summary.peaks.rate);
         let acceleration = most(|hub| hub.acceleration.abs());
-        let expected = plan.outline.peaks.acceleration;
+        let expected = plan.summary.peaks.acceleration;
         assert_near(profile.name(), acceleration, expected, 1e-3 * expected);
     }
 }
@@ -115,8 +115,8 @@ fn spin_up_is_simo_and_vu_quocs() {
             6.0 / 15.0 * (t * t / 2.0 + (15.0 / TAU).powi(2) * ((TAU * t / 15.0).cos() - 1.0));
         assert_near("angle", hub.angle.radians(), angle, 1e-12);
     }
-    assert_near("end", plan.outline.end.angle.radians(), 45.0, 1e-12);
-    assert_eq!(plan.outline.end.rate, 6.0);
+    assert_near("end", plan.summary.end.angle.radians(), 45.0, 1e-12);
+    assert_eq!(plan.summary.end.rate, 6.0);
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn many_turns_keep_their_fraction_in_f32() {
         assert_near("angle", a.angle.in_turns(), b.angle.in_turns(), 3e-5);
         assert!(a.angle.part.abs() <= 0.5);
     }
-    assert_eq!((plan.outline.end.angle.turns, plan.outline.end.angle.part), (250, 0.25));
+    assert_eq!((plan.summary.end.angle.turns, plan.summary.end.angle.part), (250, 0.25));
 }
 
 /// Days at constant rate lose nothing: the step is summed in integers.
@@ -163,9 +163,9 @@ fn a_cruise_of_a_billion_ticks_is_exact() {
 #[test]
 fn durations_are_rounded_to_the_nearest_tick_and_say_so() {
     let rounded = plan(Profile::Cubic, 0.1234, 0.01, 0.01);
-    assert_eq!(rounded.outline.ticks, 12);
-    assert_near("rounded by", rounded.outline.rounded_by, -0.0034, 1e-12);
-    assert_eq!(plan(Profile::Cubic, 0.006, 0.001, 0.01).outline.ticks, 1);
+    assert_eq!(rounded.summary.ticks, 12);
+    assert_near("rounded by", rounded.summary.rounded_by, -0.0034, 1e-12);
+    assert_eq!(plan(Profile::Cubic, 0.006, 0.001, 0.01).summary.ticks, 1);
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn moves_shorter_than_their_segments_still_arrive() {
             let plan = plan(profile, f64::from(ticks) * 0.01, 0.02, 0.01);
             let total: u32 = plan.segments.iter().map(Segment::count).sum();
             assert_eq!(total, ticks, "{profile:?}");
-            assert_near("end", plan.outline.end.angle.radians(), 0.02, 1e-15);
+            assert_near("end", plan.summary.end.angle.radians(), 0.02, 1e-15);
         }
     }
 }
@@ -189,7 +189,7 @@ fn borders_inside_a_tick_have_their_moment() {
     for profile in [Profile::Trapezoid, Profile::SCurve] {
         for ticks in (2..30).chain([100, 1001]) {
             let plan = plan(profile, f64::from(ticks) * tick, 2e-3 * f64::from(ticks), tick);
-            let peak = plan.outline.peaks.acceleration;
+            let peak = plan.summary.peaks.acceleration;
             assert_eq!(plan.segments[0].kink_moment(), 0.0);
             for (before, segment) in plan.segments.iter().zip(&plan.segments[1..]) {
                 let from = before.hub_at(f64::from(before.count()) - 1.0);

@@ -112,7 +112,7 @@ fn kinks_have_the_moments_of_the_motion() {
     for motion in Profile::ALL.map(to) {
         let start = HubState::resting_at(0.0).expect("start");
         let plan = Plan::new(&motion, start, &Limits::default(), tick).expect("plan");
-        let peak = plan.outline.peaks.acceleration;
+        let peak = plan.summary.peaks.acceleration;
         for kind in ShaperKind::ALL {
             let shaper = Shaper::new(kind, 31.7, 0.01).expect("a table");
             let shaped = Shaped::new(&plan.segments, &shaper, tick);

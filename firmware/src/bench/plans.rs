@@ -4,7 +4,7 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use stillbeam::planner::{Request, StillMove, Target};
-use stillbeam::stepper::Flex;
+use stillbeam::stepper::ArmState;
 use stillbeam::{Angle, Damping, Error, Hub, HubState, Link, Payload, Scene};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 
@@ -48,7 +48,7 @@ const PLANS: [(&str, &Scene, f64, Plan); 6] = [
             acceleration: 90.0,
             ..HubState::turning(Angle { turns: 0, part: 0.1 }, 8.0)
         };
-        let flex = Flex { coordinate: [-0.003, 0.0], rate: [0.1, 0.0] };
+        let flex = ArmState { coordinate: [-0.003, 0.0], rate: [0.1, 0.0] };
         let request = Request::from_hub(from, Target::Angle(1.0)).arm(flex).duration(0.2);
         planner.plan(&request.any_deflection())
     }),

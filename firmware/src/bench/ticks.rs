@@ -181,7 +181,7 @@ impl Run {
                 run.ends[run.segments] = run.ticks;
                 run.segments += 1;
             }
-            start = plan.outline.end;
+            start = plan.summary.end;
         }
         run
     }

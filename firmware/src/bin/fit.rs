@@ -106,8 +106,8 @@ fn run(watch: &Stopwatch<Counter>, mode: Mode, heard: bool) -> u32 {
 fn take(motion: &Move) {
     with(|joints| {
         for axis in joints.iter_mut() {
-            let departure = axis.departure().expect("the axes are enabled");
-            let planned = departure.plan(motion).expect("within the limits");
+            let context = axis.plan_context().expect("the axes are enabled");
+            let planned = context.plan(motion).expect("within the limits");
             axis.take(&planned).expect("there is room");
         }
     });

@@ -49,7 +49,7 @@ impl<'a> Case<'a> {
     pub fn trajectory(&self) -> Result<Trajectory, Error> {
         let mut motions: Vec<Move> = self.steps.iter().flat_map(Step::motions).collect();
         let mut trajectory = self.plan(&motions)?;
-        let end = trajectory.plans().last().map_or(0.0, |plan| plan.outline.end.rate);
+        let end = trajectory.plans().last().map_or(0.0, |plan| plan.summary.end.rate);
         let rest = self.missing_rest(&trajectory)?;
         if rest > 0 {
             motions.push(Move::Dwell { duration: rest as f64 * self.tick });
@@ -66,7 +66,7 @@ impl<'a> Case<'a> {
 
     /// Ticks of rest that the scene's own moves lack after the last arrival.
     fn missing_rest(&self, trajectory: &Trajectory) -> Result<u64, Error> {
-        let turning = trajectory.plans().last().is_none_or(|plan| plan.outline.end.rate != 0.0);
+        let turning = trajectory.plans().last().is_none_or(|plan| plan.summary.end.rate != 0.0);
         let Some(arrival) = trajectory.arrivals().last().filter(|_| !turning) else {
             return Ok(0);
         };
@@ -112,7 +112,7 @@ impl<'a> Case<'a> {
                 windows.push(Window { index, begin, end: trajectory.duration() });
             }
             for plan in plans.by_ref().take(step.motions().count()) {
-                ticks += u64::from(plan.outline.ticks);
+                ticks += u64::from(plan.summary.ticks);
             }
         }
         windows

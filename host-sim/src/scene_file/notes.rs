@@ -19,8 +19,8 @@ impl SceneFile {
             for (key, asked) in [("duration", step.motion.duration())].into_iter().chain(settle) {
                 let Some(plan) = plans.next() else { break };
                 // Not worth a word: what a decimal fraction of a second lacks in binary.
-                if plan.outline.rounded_by.abs() > 1e-9 * asked {
-                    let whole = f64::from(plan.outline.ticks) * tick;
+                if plan.summary.rounded_by.abs() > 1e-9 * asked {
+                    let whole = f64::from(plan.summary.ticks) * tick;
                     let whole = (whole * 1e9).round() / 1e9;
                     rounded.add(
                         index,
@@ -48,7 +48,7 @@ impl SceneFile {
             "the run goes on at rest for {} s after the last arrival, {} s longer than the moves say: \
              over a first period its residual vibration shows",
             (rest * 1e9).round() / 1e9,
-            (f64::from(added.outline.ticks) * trajectory.tick() * 1e9).round() / 1e9
+            (f64::from(added.summary.ticks) * trajectory.tick() * 1e9).round() / 1e9
         ))
     }
 }

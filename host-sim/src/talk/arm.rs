@@ -2,7 +2,7 @@
 
 use stillbeam::axis::{Cause, Mode, Tick};
 use stillbeam::motor::Drivetrain;
-use stillbeam::{Angle, Departure, Error as CoreError, Payload, Planned, Scene};
+use stillbeam::{Angle, Error as CoreError, Payload, PlanContext, PlannedMove, Scene};
 use stillbeam_methods::{Method, Visitor, visit_all};
 use stillbeam_protocol::{Command, Refusal};
 use stillbeam_wiring::{Configuration, Joint};
@@ -17,8 +17,8 @@ pub(super) trait Arm {
     /// Carries out a command that needs no plan, the shaft being at `shaft`.
     fn carry_out(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Refusal<'static>>;
     fn stop(&mut self, cause: Cause);
-    fn departure(&self) -> Result<Departure, CoreError>;
-    fn take(&mut self, planned: &Planned<f32>) -> Result<u32, CoreError>;
+    fn plan_context(&self) -> Result<PlanContext, CoreError>;
+    fn take(&mut self, planned: &PlannedMove<f32>) -> Result<u32, CoreError>;
     /// Sets the arm with another payload up and puts it in the place of the old one.
     fn reload(&mut self, payload: Payload, tick: f64) -> Result<(), Error>;
     fn heard(&mut self);
@@ -104,11 +104,11 @@ impl<M: Method> Arm for Of<M> {
         self.0.axis.stop(cause);
     }
 
-    fn departure(&self) -> Result<Departure, CoreError> {
-        self.0.axis.departure()
+    fn plan_context(&self) -> Result<PlanContext, CoreError> {
+        self.0.axis.plan_context()
     }
 
-    fn take(&mut self, planned: &Planned<f32>) -> Result<u32, CoreError> {
+    fn take(&mut self, planned: &PlannedMove<f32>) -> Result<u32, CoreError> {
         self.0.axis.take(planned)
     }
 

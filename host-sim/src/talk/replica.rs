@@ -56,17 +56,17 @@ impl Replica {
     }
 
     fn follow(&mut self, motion: &Move) -> Result<(), Error> {
-        let planned = self.axis.departure().map_err(apart)?.plan(motion)?;
+        let planned = self.axis.plan_context().map_err(apart)?.plan(motion)?;
         self.axis.take(&planned).map(drop).map_err(apart)
     }
 
     fn follow_still(&mut self, to: f64, duration: Option<f64>) -> Result<(), Error> {
-        let departure = self.axis.departure().map_err(apart)?;
+        let context = self.axis.plan_context().map_err(apart)?;
         let planner = match self.planner.take() {
             Some(planner) => planner,
             None => Planner::new(self.axis.scene(), self.tick)?,
         };
-        let planned = departure.plan_still(&planner, to, duration);
+        let planned = context.plan_still(&planner, to, duration);
         self.planner = Some(planner);
         self.axis.take(&planned?).map(drop).map_err(apart)
     }

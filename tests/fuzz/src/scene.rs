@@ -20,7 +20,7 @@ pub fn scene(bytes: &[u8]) {
     };
     let ticks = match scene.trajectory(solver.tick) {
         Ok(trajectory) => {
-            trajectory.plans().iter().map(|plan| u64::from(plan.outline.ticks)).sum::<u64>()
+            trajectory.plans().iter().map(|plan| u64::from(plan.summary.ticks)).sum::<u64>()
         }
         Err(error) => return is_a_line(&error.to_string()),
     };

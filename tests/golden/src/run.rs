@@ -125,7 +125,7 @@ fn one_still(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Result<()
     tick(&mut arm, 7);
     let mut ahead = arm.clone();
     ahead.tick();
-    let flex = ahead.stepper().flex(ahead.state(), ahead.hub());
+    let flex = ahead.stepper().arm_state(ahead.state(), ahead.hub());
     let request = Request::from_hub(ahead.hub().precise(), Target::Angle(back)).arm(flex);
     let plan = planner.plan(&request.duration(2.0 * duration).any_deflection())?;
     arm.redirect(0, &plan)?;

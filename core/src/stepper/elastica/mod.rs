@@ -15,7 +15,7 @@
 //! straight link's: the tick rarely resolves that mode, and then a frequency that varies would
 //! make an explicit step unstable; what drives it, and how it bends, is complete to second order.
 
-mod flex;
+mod arm_state;
 mod mode;
 mod nonlinear;
 mod numerical_damping;
@@ -24,7 +24,7 @@ mod reach;
 mod stability_check;
 mod steps;
 
-pub use flex::Flex;
+pub use arm_state::ArmState;
 
 use core::fmt;
 

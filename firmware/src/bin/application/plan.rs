@@ -3,7 +3,7 @@
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
-use stillbeam::{Departure, Error, Payload, Planned, Scene};
+use stillbeam::{Error, Payload, PlanContext, PlannedMove, Scene};
 use stillbeam_protocol::Refusal;
 use stillbeam_wiring::Work;
 use stillbeam_wiring::axes::{self, AXES};
@@ -38,7 +38,7 @@ pub async fn run() {
     loop {
         let Job { sequence, axis, work } = JOBS.receive().await;
         let outcome = match work {
-            Work::Move(motion) => follow(axis, |departure| departure.plan(&motion)),
+            Work::Move(motion) => follow(axis, |context| context.plan(&motion)),
             Work::Still { to, duration } => planners
                 .of(axis)
                 .and_then(|planner| follow(axis, |d| planner.plan(d, to, duration))),
@@ -53,14 +53,17 @@ pub async fn run() {
 
 /// Plans with the tick running and hands the plan over. Where the axis' motion has changed meanwhile
 /// it is planned once more.
-fn follow(axis: usize, plan: impl Fn(&Departure) -> Result<Planned<f32>, Error>) -> Outcome<u32> {
+fn follow(
+    axis: usize,
+    plan: impl Fn(&PlanContext) -> Result<PlannedMove<f32>, Error>,
+) -> Outcome<u32> {
     let mut last = Error::Stale;
     for _ in 0..2 {
-        let departure = shared::with(|s| {
+        let context = shared::with(|s| {
             let joint = s.joints.get(axis).ok_or(Refusal::Axis(AXES as u8))?;
-            joint.axis.departure().map_err(Refusal::from)
+            joint.axis.plan_context().map_err(Refusal::from)
         })?;
-        let planned = plan(&departure)?;
+        let planned = plan(&context)?;
         let taken = shared::with(|s| match s.joints.get_mut(axis) {
             Some(joint) => joint.axis.take(&planned).map(|_| joint.axis.clock()),
             None => Err(last),

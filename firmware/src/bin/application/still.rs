@@ -4,7 +4,7 @@
 
 #[cfg(feature = "still")]
 mod planner {
-    use stillbeam::{Departure, Error, Planned};
+    use stillbeam::{Error, PlanContext, PlannedMove};
     use stillbeam_wiring::axes::{AXES, TICK};
 
     use crate::shared::{Outcome, scene};
@@ -15,11 +15,11 @@ mod planner {
     impl Planner {
         pub fn plan(
             &self,
-            departure: &Departure,
+            context: &PlanContext,
             to: f64,
             duration: Option<f64>,
-        ) -> Result<Planned<f32>, Error> {
-            departure.plan_still(&self.0, to, duration)
+        ) -> Result<PlannedMove<f32>, Error> {
+            context.plan_still(&self.0, to, duration)
         }
     }
 
@@ -48,7 +48,7 @@ mod planner {
 
 #[cfg(not(feature = "still"))]
 mod planner {
-    use stillbeam::{Departure, Error, Planned};
+    use stillbeam::{Error, PlanContext, PlannedMove};
     use stillbeam_protocol::Refusal;
 
     use crate::shared::Outcome;
@@ -57,7 +57,12 @@ mod planner {
     pub enum Planner {}
 
     impl Planner {
-        pub fn plan(&self, _: &Departure, _: f64, _: Option<f64>) -> Result<Planned<f32>, Error> {
+        pub fn plan(
+            &self,
+            _: &PlanContext,
+            _: f64,
+            _: Option<f64>,
+        ) -> Result<PlannedMove<f32>, Error> {
             match *self {}
         }
     }

@@ -105,7 +105,7 @@ impl Case {
 
     /// Tip angle to expect, rad.
     fn bend(&self, trajectory: &Trajectory) -> Result<f64, Error> {
-        let peaks = trajectory.plans().iter().map(|plan| plan.outline.peaks.acceleration);
+        let peaks = trajectory.plans().iter().map(|plan| plan.summary.peaks.acceleration);
         Ok(Rod::<1>::new(&self.arm)?.bend(peaks.fold(0.0, f64::max)))
     }
 

@@ -7,7 +7,7 @@ use stillbeam::axis::{Axis, Mode, Pace, Tick};
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::Demand;
-use stillbeam::{Error as CoreError, Move, Payload, Planned, Scene};
+use stillbeam::{Error as CoreError, Move, Payload, PlannedMove, Scene};
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Request};
 use stillbeam_wiring::axes::{Joint, QUEUE, Stepper, stepper};
@@ -59,7 +59,7 @@ enum Ready {
     /// `again`: where the axis' motion has changed meanwhile it is planned once more.
     Plan {
         motion: Move,
-        planned: Planned<f32>,
+        planned: PlannedMove<f32>,
         again: bool,
     },
     Arm {
@@ -195,7 +195,7 @@ impl Board {
     }
 
     fn plan(&self, motion: Move, again: bool) -> Result<Ready, Refusal<'static>> {
-        let planned = self.joint.axis.departure()?.plan(&motion)?;
+        let planned = self.joint.axis.plan_context()?.plan(&motion)?;
         Ok(Ready::Plan { motion, planned, again })
     }
 

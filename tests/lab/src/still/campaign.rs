@@ -6,7 +6,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::model::Rod;
 use stillbeam::planner::{Kinematics, Planner, Request, StillMove, Target};
-use stillbeam::stepper::{Elastica, Flex, Quality};
+use stillbeam::stepper::{ArmState, Elastica, Quality};
 use stillbeam::{
     Damping, Error as CoreError, Generator, Hub, Limits, Link, Move, Payload, Profile, Scene,
 };
@@ -189,11 +189,11 @@ impl Case {
         let stepper = Elastica::<f32, 2>::new(&self.rod, self.tick, Quality::Fine, bend)?;
         let mut generator = Generator::<_, 8>::new(stepper, 0.0)?;
         // A first move that the stepper itself refuses is nothing to interrupt.
-        let Ok(outline) = generator.push(&Move::To { profile, duration, to }) else {
+        let Ok(summary) = generator.push(&Move::To { profile, duration, to }) else {
             return Ok(Interruption { outcome: Err("first move bends too far") });
         };
         // Before its end, or shortly after it with the arm still ringing.
-        let when = rng.random_range(1..outline.ticks + outline.ticks / 4);
+        let when = rng.random_range(1..summary.ticks + summary.ticks / 4);
         for _ in 0..=when {
             generator.tick();
         }
@@ -203,7 +203,7 @@ impl Case {
             ahead.tick();
         }
         let hub = *ahead.hub();
-        let flex = ahead.stepper().flex(ahead.state(), &hub);
+        let flex = ahead.stepper().arm_state(ahead.state(), &hub);
         let (planner, target) = match rng.random_range(0..3) {
             0 => (0, Some(rng.random_range(-3.0..3.0))),
             // A stop, wherever that is.
@@ -238,7 +238,7 @@ impl Case {
             excess = excess.max(over(hub.rate, rate)).max(over(hub.acceleration, acceleration));
         }
         let wide =
-            Flex { coordinate: flex.coordinate.map(f64::from), rate: flex.rate.map(f64::from) };
+            ArmState { coordinate: flex.coordinate.map(f64::from), rate: flex.rate.map(f64::from) };
         let length = self.arm.link.length;
         // What the first of two moves leaves goes on through the second.
         let left = |plan: StillMove, flex| {

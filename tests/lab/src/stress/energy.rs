@@ -133,7 +133,7 @@ fn elastica<T: Real, const K: usize>(
     // Room for what the vibration adds.
     let stepper = Elastica::<T, K>::new(&rod, arm.tick, quality, (2.0 * arm.bend).max(0.05))?;
     ring_on(stepper, arm, ticks, |stepper, state, hub| {
-        let flex = stepper.flex(state, hub);
+        let flex = stepper.arm_state(state, hub);
         let (a, v) = (flex.coordinate.map(T::to_f64), flex.rate.map(T::to_f64));
         let mass = rod.kinetics(&a).mass;
         let mut energy = 0.0;

@@ -159,7 +159,7 @@ fn same_durations(a: &Trajectory, b: &Trajectory) -> bool {
         trajectory
             .plans()
             .iter()
-            .map(|plan| (seconds(plan.outline.ticks) * 1e9).round() as i64)
+            .map(|plan| (seconds(plan.summary.ticks) * 1e9).round() as i64)
             .collect()
     };
     nanoseconds(a) == nanoseconds(b)

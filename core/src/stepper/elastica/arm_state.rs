@@ -7,14 +7,14 @@ use crate::math::Scalar;
 /// Modal coordinates of a [`Rod`](crate::model::Rod) and their rates: what a measurement of the arm gives, and what a still
 /// move is planned from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flex<T, const K: usize> {
+pub struct ArmState<T, const K: usize> {
     /// `a`, m √kg.
     pub coordinate: [T; K],
     /// `ȧ`, m √kg/s.
     pub rate: [T; K],
 }
 
-impl<T: Scalar, const K: usize> Flex<T, K> {
+impl<T: Scalar, const K: usize> ArmState<T, K> {
     /// A straight arm that does not vibrate.
     pub const STRAIGHT: Self = Self { coordinate: [T::ZERO; K], rate: [T::ZERO; K] };
 }
@@ -24,9 +24,9 @@ const ROUNDS: usize = 16;
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// How the arm of a state bends and moves, the hub as it was at that instant.
-    pub fn flex(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> Flex<T, K> {
+    pub fn arm_state(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> ArmState<T, K> {
         let value = self.nonlinear.evaluate::<true, true>(&state.y, hub);
-        Flex {
+        ArmState {
             coordinate: core::array::from_fn(|k| state.y[k][0] / self.nonlinear.omega(k)),
             rate: core::array::from_fn(|k| state.y[k][1] + value.offset[k][1]),
         }
@@ -34,7 +34,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
 
     /// The state of an arm that bends and moves so, e.g. as measured, on a hub that is as given.
     /// Set-up only.
-    pub fn state_of(&self, flex: &Flex<T, K>, hub: &HubState<T>) -> ElasticaState<T, K> {
+    pub fn state_of(&self, flex: &ArmState<T, K>, hub: &HubState<T>) -> ElasticaState<T, K> {
         let mut y: [[T; 2]; K] =
             core::array::from_fn(|k| [self.nonlinear.omega(k) * flex.coordinate[k], flex.rate[k]]);
         let mut value = self.nonlinear.evaluate::<true, true>(&y, hub);
