@@ -1,5 +1,6 @@
 #![no_std]
 #![forbid(unsafe_code)]
+#![warn(clippy::too_many_lines)]
 #![warn(missing_debug_implementations)]
 //! Feed-forward setpoints for a flexible robot link, in real time.
 //!

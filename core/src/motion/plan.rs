@@ -126,6 +126,27 @@ pub(crate) fn plan_segments<T: Scalar>(
         }
     };
     let peaks = demand.admit(&limits, ticks, tick)?;
+    emit(shapes, &start, ticks, tick, sink);
+    Ok(MoveSummary { end, ticks, peaks, rounded_by: duration - motion.duration() })
+}
+
+/// Turns from `start` to the angle `to`, rad, and the hub at rest there. The end is exactly that
+/// angle, whatever the turns round to.
+#[inline(always)]
+fn turn_to(to: f64, start: &HubState<f64>) -> (f64, HubState<f64>) {
+    let end = HubState::at_rest(Angle::from_radians(to));
+    (end.angle.since(start.angle), end)
+}
+
+/// Hands the segments of a move from `start` to `sink`, first to last.
+#[inline(always)]
+fn emit<T: Scalar>(
+    shapes: Shapes<T>,
+    start: &HubState<f64>,
+    ticks: u32,
+    tick: f64,
+    sink: &mut dyn FnMut(&Segment<T>),
+) {
     match shapes {
         Shapes::Hold => sink(&Segment::cruise(start.angle, start.rate, ticks, tick)),
         Shapes::One(shape) => {
@@ -137,13 +158,4 @@ pub(crate) fn plan_segments<T: Scalar>(
         }
         Shapes::Cubics(pieces, turn) => lay_cubics(pieces, turn, start.angle, ticks, tick, sink),
     }
-    Ok(MoveSummary { end, ticks, peaks, rounded_by: duration - motion.duration() })
-}
-
-/// Turns from `start` to the angle `to`, rad, and the hub at rest there. The end is exactly that
-/// angle, whatever the turns round to.
-#[inline(always)]
-fn turn_to(to: f64, start: &HubState<f64>) -> (f64, HubState<f64>) {
-    let end = HubState::at_rest(Angle::from_radians(to));
-    (end.angle.since(start.angle), end)
 }
