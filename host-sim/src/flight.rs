@@ -6,10 +6,8 @@ use stillbeam::Move;
 use stillbeam::hub::HubState;
 use stillbeam::motion::{Commanded, Kink, Peaks, Segment, Shaped, Shaper, Stretch};
 
+use crate::limits::kinematic;
 use crate::trajectory::{Side, Trajectory};
-
-/// Looks at a stretch in search of its peaks: of polynomials of a degree up to 11 they miss 1e-3.
-const LOOKS: u32 = 64;
 
 /// A motion that no generator commands: a stepper is given the hub itself.
 pub struct Flight<'a> {
@@ -30,22 +28,15 @@ impl<'a> Flight<'a> {
         let inner = trajectory.breaks().into_iter().map(|t| t / tick);
         let ends = [0.0, trajectory.ticks() as f64];
         let borders = ends[..1].iter().copied().chain(inner).chain(ends[1..].iter().copied());
-        let peaks = Peaks { rate: 0.0, acceleration: 0.0, jerk: f64::INFINITY };
+        let found = kinematic::peaks(trajectory, 0.0, trajectory.ticks() as f64 * tick);
+        let peaks = Peaks {
+            rate: found.rate.value,
+            acceleration: found.acceleration.value,
+            jerk: found.jerk.value,
+        };
         let plans = trajectory.plans().iter();
         let segments = plans.flat_map(|plan| plan.segments.iter().map(Segment::cast)).collect();
-        let mut flight =
-            Self { trajectory, segments, shaper, from, borders: borders.collect(), peaks };
-        let (mut rate, mut acceleration) = (0.0f64, 0.0f64);
-        for pair in flight.borders.windows(2) {
-            for look in 0..=LOOKS {
-                let part = f64::from(look) / f64::from(LOOKS);
-                let hub = flight.within([pair[0], pair[1]], pair[0] + part * (pair[1] - pair[0]));
-                rate = rate.max(hub.rate.abs());
-                acceleration = acceleration.max(hub.acceleration.abs());
-            }
-        }
-        flight.peaks = Peaks { rate, acceleration, ..peaks };
-        flight
+        Self { trajectory, segments, shaper, from, borders: borders.collect(), peaks }
     }
 
     /// The hub so many ticks from the beginning, within one stretch.

@@ -2,7 +2,7 @@
 //! The desktop side of stillbeam: the same core on scene files, and what judges it.
 //!
 //! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
-//! motion ([`trajectory`]), the core's run ([`run`], [`model_choice`]), its table ([`table`],
+//! motion ([`trajectory`]), the core's run ([`run`], [`dispatch`]), its table ([`table`],
 //! [`output`]), and how far two tables are apart ([`compare`]). What a motion may ask of the drive is
 //! held against its [`limits`]; what it leaves behind is its [`residual`] vibration.
 //!
@@ -18,11 +18,11 @@
 
 pub mod compare;
 pub mod console;
+pub mod dispatch;
 pub mod document;
 pub mod error;
 mod flight;
 pub mod limits;
-pub mod model_choice;
 pub mod output;
 pub mod plan;
 pub mod plot;
@@ -34,6 +34,7 @@ pub mod run;
 pub mod scene_file;
 pub mod scenes;
 pub mod solver;
+pub mod step;
 pub mod study;
 pub mod table;
 #[cfg(feature = "talk")]

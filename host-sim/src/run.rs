@@ -8,11 +8,12 @@ use stillbeam::select::Choice;
 use stillbeam::stepper::{AnyMotion, Response, Stepper};
 use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
+use crate::dispatch::{StepperVisitor, with_chosen, with_stepper};
 use crate::error::Error;
 use crate::limits::{self, Excess, Peak, Quantity, Refusal, Way, remedy};
-use crate::model_choice::{StepperVisitor, with_chosen, with_stepper};
-use crate::scene_file::{SceneFile, Step};
+use crate::scene_file::SceneFile;
 use crate::solver::Solver;
+use crate::step::Step;
 use crate::table::Row;
 
 /// Segments that can wait in the desktop's generator: two of the longest moves.

@@ -20,6 +20,7 @@ use crate::document::Document;
 use crate::error::Error;
 use crate::limits::{self, Case, remedy};
 use crate::solver::SolverKeys;
+use crate::step::Step;
 use crate::trajectory::Trajectory;
 
 /// A scene as read: the arm, what it shall do, and what the file says of the solver.
@@ -41,23 +42,6 @@ pub struct SceneFile {
     pub solver: SolverKeys,
     /// Remarks on values that are probably in another unit, a line each.
     pub remarks: Vec<String>,
-}
-
-/// One move and the rest after it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
-    /// The move.
-    pub motion: Move,
-    /// Time after it, s; 0 for none.
-    pub settle: f64,
-}
-
-impl Step {
-    /// The move and the dwell after it, if there is one.
-    pub fn motions(&self) -> impl Iterator<Item = Move> + use<> {
-        let dwell = (self.settle > 0.0).then_some(Move::Dwell { duration: self.settle });
-        std::iter::once(self.motion).chain(dwell)
-    }
 }
 
 #[derive(Deserialize)]

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-use stillbeam_sim::plan::contest::{Entry, ROBUST};
+use stillbeam_sim::plan::comparison::{Entry, ROBUST};
 use stillbeam_sim::report;
 use stillbeam_sim::study::{REPORT, Study};
 

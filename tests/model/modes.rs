@@ -1,5 +1,5 @@
 use stillbeam::model::{EightElements, Modes};
-use stillbeam_sim::model_choice::first_period;
+use stillbeam_sim::dispatch::first_period;
 use stillbeam_sim::scenes;
 use stillbeam_sim::solver::Mass;
 use stillbeam_tests::assert_near;

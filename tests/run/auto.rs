@@ -7,7 +7,7 @@ use stillbeam::stepper::{Quality, Rigid};
 use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 use stillbeam_lab::choice::{Case, Summary, campaign};
 use stillbeam_sim::compare::compare;
-use stillbeam_sim::model_choice;
+use stillbeam_sim::dispatch;
 use stillbeam_sim::run::run;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
@@ -101,7 +101,7 @@ const BAR: &str = "[link]\nlength = 0.3\nmaterial = \"steel\"\nwidth = 0.025\nth
     [payload]\nmass = 0.2\n[move]\nprofile = \"cubic\"\nduration = 0.25\nto = 1.0\nsettle = 0.3\n";
 
 fn chosen(scene: &SceneFile, solver: &Solver) -> Choice {
-    model_choice::choose(scene, solver).expect("moves").expect("choice")
+    dispatch::choose(scene, solver).expect("moves").expect("choice")
 }
 
 /// The reference rod at those intervals.
@@ -141,7 +141,7 @@ fn a_shaped_motion_is_judged_as_it_is_commanded() {
         frequency = 32.0\ndamping = 0.0\n";
     let scene = SceneFile::parse("shaped", text).expect("scene");
     let solver = Solver::PAPER;
-    let expected = model_choice::assess(&scene, &solver).expect("assessment");
+    let expected = dispatch::assess(&scene, &solver).expect("assessment");
     let rows = run(&scene, &solver).expect("run");
     let truth = compare(&rows, &reference(&scene, 0.01), &scene).expect("comparison");
     for (expected, truth) in [(expected.tip, truth.tip_max), (expected.torque, truth.torque)] {
@@ -149,9 +149,9 @@ fn a_shaped_motion_is_judged_as_it_is_commanded() {
     }
     // The shaper keeps the arm from ringing: rigid is nearer than it is without.
     let rigid = Solver { method: Method::Rigid, ..solver };
-    let shaped = model_choice::assess(&scene, &rigid).expect("assessment").tip;
+    let shaped = dispatch::assess(&scene, &rigid).expect("assessment").tip;
     let plain = SceneFile { shaper: None, ..scene };
-    let ringing = model_choice::assess(&plain, &rigid).expect("assessment").tip;
+    let ringing = dispatch::assess(&plain, &rigid).expect("assessment").tip;
     assert!(shaped < 0.9 * ringing, "{shaped} behind the shaper, {ringing} without");
 }
 

@@ -9,7 +9,7 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{model_choice, println, progress, run, table};
+use stillbeam_sim::{dispatch, println, progress, run, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -92,7 +92,7 @@ fn chosen(
     keys: &SolverKeys,
     notes: &mut Vec<String>,
 ) -> Result<Choice, Error> {
-    let none = match model_choice::choose(scene, solver)? {
+    let none = match dispatch::choose(scene, solver)? {
         Ok(choice) => return Ok(choice),
         Err(none) => none,
     };
@@ -116,13 +116,13 @@ const REMARKABLE: Tolerance = Tolerance { tip: 0.01, torque: 0.05 };
 /// Says in one line if the method is expected to err by more than [`REMARKABLE`], and which would not.
 fn remark(scene: &SceneFile, solver: &Solver) -> Option<String> {
     // A method that cannot be judged here has run all the same.
-    let expected = model_choice::assess(scene, solver).ok()?;
+    let expected = dispatch::assess(scene, solver).ok()?;
     if expected.excess(&REMARKABLE) <= 1.0 {
         return None;
     }
     let (tolerance, torque_tolerance) = (Solver::PAPER.tolerance, Solver::PAPER.torque_tolerance);
     let auto = Solver { method: Method::Auto, tolerance, torque_tolerance, ..*solver };
-    let better = match model_choice::choose(scene, &auto) {
+    let better = match dispatch::choose(scene, &auto) {
         Ok(Ok(choice)) => Some(choice),
         Ok(Err(none)) => none.nearest,
         Err(_) => None,

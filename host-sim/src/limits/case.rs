@@ -5,7 +5,7 @@ use stillbeam::{Limits, Move, Scene};
 
 use crate::error::Error;
 use crate::residual;
-use crate::scene_file::Step;
+use crate::step::Step;
 use crate::trajectory::Trajectory;
 
 /// Moves of an arm with what they pass, to be held against limits.

@@ -8,7 +8,7 @@ use super::refusal::seconds;
 use super::{Case, Excess, Quantity, Refusal, Way, holding, kinematic, load};
 use crate::error::Error;
 use crate::reference::rod::{self, Options, Resume};
-use crate::scene_file::Step;
+use crate::step::Step;
 use crate::trajectory::{Side, Trajectory};
 
 /// Longest duration that is tried: ticks.

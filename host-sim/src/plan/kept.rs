@@ -12,7 +12,7 @@ use stillbeam::{Error as CoreError, Limits, Remedy};
 use crate::error::Error;
 use crate::limits::{Case, Excess, Peak, Quantity, Refusal, Way, kinematic, load, remedy};
 use crate::reference::rod::Resume;
-use crate::scene_file::Step;
+use crate::step::Step;
 
 /// Fraction of the torque limit that a shortest move is planned for: a method's own setpoints, good
 /// to a hundredth of the peak, then keep the limit too.

@@ -1,7 +1,7 @@
 //! Still moves on the desk: planned, judged by the reference rod, drawn, and held against other
 //! motions.
 
-pub mod contest;
+pub mod comparison;
 pub mod judge;
 pub mod kept;
 pub mod page;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use stillbeam::Scene;
 
-use super::contest::{self, Entry};
+use super::comparison::{self, Entry};
 use super::judge;
 use crate::error::Error;
 use crate::plot::{Axis, Chart, Colour, Dash, Series};
@@ -39,7 +39,7 @@ const STYLES: [Style; 6] = [
     },
     Style { motion: "still", label: "still", colour: Colour::Blue, dash: Dash::Solid },
     Style {
-        motion: contest::ROBUST,
+        motion: comparison::ROBUST,
         label: "still, robust to \u{b1}20 %",
         colour: Colour::Vermilion,
         dash: Dash::Solid,
@@ -77,7 +77,7 @@ pub fn curves(
     tick: f64,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Curve>, Error> {
-    contest::motions(arm, to, duration, tick)?
+    comparison::motions(arm, to, duration, tick)?
         .into_par_iter()
         .filter(|(name, _)| Style::of(name).is_some())
         .map(|(name, motion)| {

@@ -8,7 +8,7 @@ use super::judge::{Judgement, Motion};
 use super::kept::{Asked, Kept};
 use crate::error::Error;
 use crate::limits::{Case, Window, load};
-use crate::scene_file::Step;
+use crate::step::Step;
 
 /// Frequency errors of a sensitivity curve.
 pub const ERRORS: [f64; 17] = [

@@ -5,7 +5,7 @@ use maud::html;
 use super::Section;
 use super::parts::{Table, figure, fixed};
 use crate::error::Error;
-use crate::plan::contest::{self, Entry};
+use crate::plan::comparison::{self, Entry};
 use crate::plan::picture;
 use crate::study::Study;
 use crate::study::stillness::PERIODS;
@@ -32,7 +32,7 @@ pub(super) fn section(study: &Study) -> Result<Section, Error> {
                   quarter of a first period for the motion are left out. Rate in \u{3c0}/T, \
                   acceleration in \u{3c0}/T\u{b2}, torque in mN\u{a0}m, frequency right"
             .into(),
-        header: contest::HEADER.to_vec(),
+        header: comparison::HEADER.to_vec(),
         rows: found.entries.iter().map(row).collect(),
         key: found.entries.iter().position(|entry| entry.name == "still"),
     };

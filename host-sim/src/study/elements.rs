@@ -1,8 +1,8 @@
 //! Fig. 2: how many elements, and where their mass is put.
 
 use super::{Run, tip_path};
+use crate::dispatch::first_period;
 use crate::error::Error;
-use crate::model_choice::first_period;
 use crate::solver::{Mass, Scalar, SolverKeys};
 
 /// Runs and periods of member D over the number of elements.

@@ -2,8 +2,8 @@
 
 use stillbeam::Link;
 
+use crate::dispatch::first_period;
 use crate::error::Error;
-use crate::model_choice::first_period;
 use crate::solver::{Mass, SolverKeys};
 
 /// Periods of the readings of the paper's numbers.

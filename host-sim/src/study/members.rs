@@ -3,8 +3,8 @@
 use stillbeam::Damping;
 
 use super::Run;
+use crate::dispatch::first_period;
 use crate::error::Error;
-use crate::model_choice::first_period;
 use crate::scene_file::SceneFile;
 use crate::solver::{Mass, SolverKeys};
 

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use stillbeam::Profile;
 
 use super::{Run, reshaped};
+use crate::dispatch::first_period;
 use crate::error::Error;
-use crate::model_choice::first_period;
 use crate::solver::{Mass, Scalar, Solver, SolverKeys};
 
 /// Residual vibration of member B with 30 g, undamped, after π by each profile.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use stillbeam::Scene;
 
 use crate::error::Error;
-use crate::plan::contest::{self, Entry};
+use crate::plan::comparison::{self, Entry};
 use crate::plan::picture::{self, Curve};
 use crate::reference::rod;
 use crate::scenes;
@@ -37,7 +37,7 @@ impl Stillness {
         let arm = scenes::open("a-tip30")?.arm;
         let period = rod::first_period(&arm)?;
         let duration = (PERIODS * period / TICK).round() * TICK;
-        let entries = contest::entries(&arm, PI, duration, TICK, done)?;
+        let entries = comparison::entries(&arm, PI, duration, TICK, done)?;
         let curves = picture::curves(&arm, PI, duration, TICK, done)?;
         Ok(Self { arm, period, duration, entries, curves })
     }

@@ -193,3 +193,28 @@ fn a_page_that_is_no_longer_true_is_found() {
     assert!(line.contains("lab:accuracy"), "{line}");
     bench.refuse(&["docs", "docs/styl.md"]);
 }
+
+/// A spec that cannot be read is refused with file, line and column.
+#[test]
+fn a_spec_is_refused_where_it_is_wrong() {
+    let bench = Bench::new();
+    for (spec, words) in [
+        (
+            "scenes = [\"d-fast\"]\n[[grid]]\nmethod = [\"modl\"]\n",
+            "spec.toml:3:11: grid[0].method[0] = \"modl\": must be one of ",
+        ),
+        ("scenes = [\"d-fast\"]\n[grid]\ntick = [0.01]\n", "spec.toml:2:1: grid: must be [[grid]]"),
+        (
+            "scenes = [\"d-fast\"]\n[[grid]]\nticks = [0.01]\n",
+            "spec.toml:3:1: grid[0].ticks: unknown key",
+        ),
+        (
+            "scenes = []\n[[grid]]\ntick = [0.01]\n",
+            "spec.toml:1:10: scenes = []: must be one or more",
+        ),
+    ] {
+        fs::write(bench.path("spec.toml"), spec).unwrap();
+        let text = bench.refuse(&["sweep", "spec.toml", "--csv", "out.csv"]);
+        assert!(text.contains(words), "{words} is not in: {text}");
+    }
+}

@@ -5,8 +5,8 @@ use stillbeam::Scene;
 use stillbeam::model::Model;
 
 use super::probe;
+use stillbeam_sim::dispatch::{Visitor, with_model};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::model_choice::{Visitor, with_model};
 use stillbeam_sim::solver::Mass;
 
 /// Of one number of elements at one tick.

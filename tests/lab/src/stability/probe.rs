@@ -5,11 +5,12 @@ use stillbeam::stepper::Stepper;
 use stillbeam::{Hub, Limits, Link, Move, Payload, Profile, Scalar as Real, Scene};
 
 use crate::stress::growth::grows;
+use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::model_choice::{StepperVisitor, with_stepper};
 use stillbeam_sim::run::each_tick;
-use stillbeam_sim::scene_file::{SceneFile, Step};
+use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Quality, Scalar, Solver, SolverKeys};
+use stillbeam_sim::step::Step;
 
 /// What became of it, from good to bad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -12,7 +12,7 @@ use crate::markers::Block;
 use crate::table::aligned;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::output::Files;
-use stillbeam_sim::plan::contest::{self, ERRORS, Entry, percent};
+use stillbeam_sim::plan::comparison::{self, ERRORS, Entry, percent};
 use stillbeam_sim::plan::judge::Motion;
 use stillbeam_sim::plan::picture;
 use stillbeam_sim::reference::rod;
@@ -43,7 +43,7 @@ pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<Block>, Error> {
     let period = rod::first_period(&arm)?;
     for ratio in CONTEST {
         let duration = (ratio * period / TICK).round() * TICK;
-        let entries = contest::entries(&arm, PI, duration, TICK, done)?;
+        let entries = comparison::entries(&arm, PI, duration, TICK, done)?;
         blocks.push(Block::new(format!("contest-{ratio}"), contest_table(&entries, duration)));
     }
     blocks.push(Block::new("robust", robust_table(done)?));
@@ -100,7 +100,7 @@ fn residuals(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
 }
 
 fn contest_table(entries: &[Entry], duration: f64) -> String {
-    let header = contest::HEADER.map(str::to_owned).to_vec();
+    let header = comparison::HEADER.map(str::to_owned).to_vec();
     let rows = entries.iter().map(|entry| entry.cells(duration));
     aligned(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
 }
@@ -113,7 +113,7 @@ fn half_turn(duration: f64) -> Request<f32, 2> {
 /// Robust moves for bands of other widths, with damping and gravity too.
 fn robust_table(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
     let mut header = ["arm", "planned for", "duration"].map(str::to_owned).to_vec();
-    header.extend(contest::HEADER[1..=ERRORS.len()].iter().map(|&error| error.to_owned()));
+    header.extend(comparison::HEADER[1..=ERRORS.len()].iter().map(|&error| error.to_owned()));
     header.push("acceleration".to_owned());
     let shown = [0, 5, 6];
     let arms: Vec<_> = arms()?.into_iter().enumerate().filter(|(k, _)| shown.contains(k)).collect();
@@ -188,7 +188,7 @@ pub fn pictures(
     let period = rod::first_period(&arm)?;
     let duration = (2.0 * period / TICK).round() * TICK;
     let curves = picture::curves(&arm, PI, duration, TICK, done)?;
-    let entries = contest::entries(&arm, PI, duration, TICK, done)?;
+    let entries = comparison::entries(&arm, PI, duration, TICK, done)?;
     let swing = picture::swing(&entries, duration, arm.link.length);
     let stem = text.file_stem().unwrap_or_default().to_string_lossy();
     let paths = [text.with_extension("svg"), text.with_file_name(format!("{stem}-swing.svg"))];

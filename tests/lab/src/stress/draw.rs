@@ -6,8 +6,9 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Profile, Scene};
 
-use stillbeam_sim::scene_file::{SceneFile, Step};
+use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Mass, Method, Quality, Scalar, Solver, SolverKeys};
+use stillbeam_sim::step::Step;
 
 /// What is drawn, for a page: quantity and range.
 pub const RANGES: [(&str, &str); 10] = [

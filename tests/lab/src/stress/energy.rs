@@ -8,7 +8,7 @@ use stillbeam::{Damping, Generator, Move, Scalar as Real, Scene};
 
 use super::draw::draw;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::scene_file::Step;
+use stillbeam_sim::step::Step;
 
 /// How long a campaign's arms ring on.
 pub const TICKS: u64 = 1_000_000;

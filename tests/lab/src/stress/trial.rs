@@ -7,8 +7,8 @@ use stillbeam::{Move, Scalar as Real, Setpoint};
 
 use super::draw::Drawn;
 use super::growth::grows;
+use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::model_choice::{StepperVisitor, with_stepper};
 use stillbeam_sim::run::each_tick;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Scalar, Solver};

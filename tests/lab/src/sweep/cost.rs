@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use stillbeam::stepper::Stepper;
 
 use super::row::Cost;
+use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::model_choice::{StepperVisitor, with_stepper};
 use stillbeam_sim::run::each_tick;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::SolverKeys;

@@ -6,7 +6,7 @@
 //! questions ([`answers`]), a page with pictures ([`picture`], [`page`]) and README's tables
 //! ([`tables`]).
 //!
-//! A new method comes in with `solver` (its name, which keys it reads) and `model_choice` (its
+//! A new method comes in with `solver` (its name, which keys it reads) and `dispatch` (its
 //! stepper); a new key with `solver`, which also names its column, and the list in [`spec::Grid`].
 
 pub mod answers;
