@@ -40,6 +40,8 @@ pub(super) struct Current<T> {
     k: u32,
     /// Ticks with an index below this have a linear acceleration that the stepper has a fast path for.
     linear: u32,
+    /// Ticks with an index below this have a hub at rest that the stepper has a fast path for.
+    at_rest: u32,
     phase: Phase,
     segment: Segment<T>,
 }
@@ -49,7 +51,7 @@ impl<T: Scalar> Current<T> {
     pub(super) fn unstarted(hold: &Segment<T>) -> Self {
         let mut segment = *hold;
         segment.cut(0);
-        Self { k: u32::MAX, linear: 0, phase: Phase::Unstarted, segment }
+        Self { k: u32::MAX, linear: 0, at_rest: 0, phase: Phase::Unstarted, segment }
     }
 
     /// Takes up `segment`, in which `k` is the index of the latest tick.
@@ -70,21 +72,29 @@ impl<T: Scalar> Current<T> {
             && self.segment.is_cubic()
             && stepper.is_linear_fast(self.segment.rate_bound());
         self.linear = if fast { self.segment.count() } else { 0 };
+        let fast = S::FAST.at_rest && self.rests();
+        self.at_rest = if fast { self.segment.count() } else { 0 };
     }
 
     /// Ends the segment `count` ticks after its beginning, be it a hold or a move.
     pub(super) fn break_off(&mut self, count: u32) {
         self.segment = self.segment.broken_off(count);
-        self.linear = self.linear.min(count);
+        self.shorten_fast_paths(count);
     }
 
     /// Ends a hold with the latest tick, so that the next one takes up what is in the queue.
     ///
-    /// None of its ticks is linear, and it stays in its phase until then.
+    /// It stays in its phase until then.
     pub(super) fn end_hold(&mut self) {
         if self.is_holding() {
             self.segment.cut(self.next_k());
+            self.shorten_fast_paths(self.next_k());
         }
+    }
+
+    fn shorten_fast_paths(&mut self, count: u32) {
+        self.linear = self.linear.min(count);
+        self.at_rest = self.at_rest.min(count);
     }
 
     /// Notes that tick `k` is made.
@@ -132,9 +142,15 @@ impl<T: Scalar> Current<T> {
         k < self.linear
     }
 
+    /// True if tick `k` of the segment may take the stepper's path for a hub at rest.
+    #[inline(always)]
+    pub(super) fn is_at_rest(&self, k: u32) -> bool {
+        k < self.at_rest
+    }
+
     /// True if the hub rests until the segment ends.
     #[inline(always)]
-    pub(super) fn is_at_rest(&self) -> bool {
+    pub(super) fn rests(&self) -> bool {
         self.phase <= Phase::Dwelling
     }
 

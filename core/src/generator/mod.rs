@@ -150,7 +150,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.current.segment().drive_cubic(&mut self.hub, k);
             self.stepper.step::<Linear>(&mut self.state, &before, &self.hub);
             respond(&self.hub, self.stepper.response::<Linear>(&self.state, &self.hub))
-        } else if S::FAST.at_rest && self.current.is_at_rest() {
+        } else if S::FAST.at_rest && self.current.is_at_rest(k) {
             self.tick_at_rest(k)
         } else {
             self.tick_any(k)
@@ -162,7 +162,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     #[inline(never)]
     fn tick_any(&mut self, k: u32) -> Setpoint<S::Scalar> {
         let before = self.hub;
-        let rests = self.current.is_at_rest();
+        let rests = self.current.rests();
         let mut end_acceleration = None;
         self.current.advance_to(k);
         if k >= self.current.segment().count() {
@@ -194,9 +194,6 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Makes a tick of a hub that rests: the arm vibrates, or sleeps.
     #[inline(never)]
     fn tick_at_rest(&mut self, k: u32) -> Setpoint<S::Scalar> {
-        if k >= self.current.segment().count() {
-            return self.tick_any(k);
-        }
         self.current.advance_to(k);
         if !self.current.is_asleep() {
             self.stepper.step::<AtRest>(&mut self.state, &self.hub, &self.hub);

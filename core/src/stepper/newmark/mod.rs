@@ -203,8 +203,12 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
         before: &HubState<T>,
         after: &HubState<T>,
     ) {
-        let (q, d) = self.predict::<M>(state, after.rate - before.rate);
-        let restoring = self.solve::<M>(&q, &d, after);
+        let (mut q, mut d) = (state.deflection, state.gain);
+        self.predict::<M>(&mut q, &mut d, &state.restoring, after.rate - before.rate);
+        let mut restoring = self.solve::<M>(&q, &d, after);
+        if M::AT_REST {
+            self.damp_numerically(&mut restoring, &d);
+        }
         *state = Self::correct(q, d, restoring);
     }
 

@@ -18,23 +18,25 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         if Self::PRINCIPAL { self.spin.diagonal_times(q) } else { self.spin.times(q) }
     }
 
-    /// `q*` and `d*`, the hub having gained that much rate.
+    /// Turns `q` and `d` into `q*` and `d*`, the hub having gained that much rate. In place, as no copy
+    /// of an array is free.
     #[inline(always)]
     pub(super) fn predict<M: HubMotion>(
         &self,
-        state: &NewmarkState<T, N>,
+        q: &mut [T; N],
+        d: &mut [T; N],
+        restoring: &[T; N],
         gained: T,
-    ) -> ([T; N], [T; N]) {
-        let (mut q, mut d) = (state.deflection, state.gain);
+    ) {
         for i in 0..N {
             let d0 = d[i];
-            d[i] = d0 - state.restoring[i];
+            let mut next = d0 - restoring[i];
             if !M::AT_REST {
-                d[i] -= self.turn[i] * gained;
+                next -= self.turn[i] * gained;
             }
-            q[i] += d0 + d[i];
+            d[i] = next;
+            q[i] += d0 + next;
         }
-        (q, d)
     }
 
     /// The state from `q*` and `d*` and what restores them.
@@ -77,26 +79,23 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         }
         self.damp::<M>(&mut force, d, hub.rate);
         let turns = !M::AT_REST && self.terms.spin && hub.rate != T::ZERO;
-        let mut restoring = if self.terms.gravity {
-            let mut change = self.tension.scaled(-hub.sin);
-            if turns {
-                change = change.plus(hub.rate * hub.rate, &self.spin);
-            }
-            self.solve_hanging(force, q, change, hub.cos)
-        } else if turns {
-            self.solve_turning(force, q, hub.rate)
-        } else {
-            self.factors.solve(&force)
-        };
-        if M::AT_REST {
-            self.damp_numerically(&mut restoring, d);
+        if !self.terms.gravity {
+            return if turns {
+                self.solve_turning(force, q, hub.rate)
+            } else {
+                self.factors.solve(&force)
+            };
         }
-        restoring
+        let mut change = self.tension.scaled(-hub.sin);
+        if turns {
+            change = change.plus(hub.rate * hub.rate, &self.spin);
+        }
+        self.solve_hanging(force, q, change, hub.cos)
     }
 
     /// Takes from an arm that nothing damps what the rounding of `K q` may feed it.
     #[inline(always)]
-    fn damp_numerically(&self, restoring: &mut [T; N], d: &[T; N]) {
+    pub(super) fn damp_numerically(&self, restoring: &mut [T; N], d: &[T; N]) {
         if Self::PRINCIPAL || self.terms.damping {
             return;
         }
