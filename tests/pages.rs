@@ -144,7 +144,8 @@ fn the_wire_page_knows_the_longest_frame() {
     says(&page("docs/firmware.md"), &format!("At most {} bytes", frame::MAX));
 }
 
-/// The map and the recipes name files: each is there, below the root or the folder that it is told of.
+/// The map and the recipes name files: each is there, below the root or the folder that it is told
+/// of.
 #[test]
 fn the_map_names_files_that_exist() {
     let folders = ["", "core/src", "host-sim/src"].map(|folder| root().join(folder));

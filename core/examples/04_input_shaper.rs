@@ -1,7 +1,8 @@
 //! Moves behind an input shaper.
 //!
-//! A shaper adds up delayed copies of a motion so that a vibration of one frequency cancels. It needs
-//! the frequency and no plan, takes part of a period longer, and assumes that the arm bends little.
+//! A shaper adds up delayed copies of a motion so that a vibration of one frequency cancels. It
+//! needs the frequency and no plan, takes part of a period longer, and assumes that the arm bends
+//! little.
 //!
 //! `cargo run -p stillbeam --example 04_input_shaper`
 

@@ -1,7 +1,7 @@
 //! From a setpoint of the hub to the bytes that a drive receives.
 //!
-//! A drivetrain knows gear, friction and rotor, and turns hub angle and torque into what the motor's
-//! shaft has to do. A drive's protocol then packs that demand into a payload.
+//! A drivetrain knows gear, friction and rotor, and turns hub angle and torque into what the
+//! motor's shaft has to do. A drive's protocol then packs that demand into a payload.
 //!
 //! `cargo run -p stillbeam --example 05_motor_and_drive`
 

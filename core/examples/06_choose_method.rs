@@ -1,7 +1,7 @@
 //! The cheapest method that is good enough for an arm and its moves.
 //!
-//! The ladder orders methods by what their tick costs on the target. `Auto::choose` tries them on the
-//! motion itself, beside an exact rod, and takes the cheapest that keeps both tolerances.
+//! The ladder orders methods by what their tick costs on the target. `Auto::choose` tries them on
+//! the motion itself, beside an exact rod, and takes the cheapest that keeps both tolerances.
 //!
 //! `cargo run -p stillbeam --example 06_choose_method`
 

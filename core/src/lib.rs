@@ -5,8 +5,8 @@
 //! Feed-forward setpoints for a flexible robot link, in real time.
 //!
 //! A link (a strip clamped to a motor hub, with a payload) and a move go in. Every tick, 10 ms for
-//! example, a [`Setpoint`] comes out: angle, rate, acceleration and torque of the hub, and where the tip
-//! will be. A tick does not allocate, does not panic and does not fail.
+//! example, a [`Setpoint`] comes out: angle, rate, acceleration and torque of the hub, and where
+//! the tip will be. A tick does not allocate, does not panic and does not fail.
 //!
 //! ```
 //! use stillbeam::model::Rod;
@@ -36,9 +36,11 @@
 //! 1. [`Scene`]: the arm in SI units, validated ([`scene`], [`material`]).
 //! 2. [`model`]: its matrices, its modes, the exact rod; f64, once.
 //! 3. [`motion`]: moves of the hub, planned into segments; limits and input shapers.
-//! 4. [`stepper`]: methods that advance the arm by one tick, built from the model for one tick length.
+//! 4. [`stepper`]: methods that advance the arm by one tick, built from the model for one tick
+//!    length.
 //! 5. [`Generator`]: stepper and motion; [`Generator::tick`] gives the next [`Setpoint`].
-//! 6. [`planner`]: moves after which the arm is at rest; [`select`]: the cheapest stepper that will do.
+//! 6. [`planner`]: moves after which the arm is at rest; [`select`]: the cheapest stepper that will
+//!    do.
 //! 7. [`axis`]: a generator under a policy: enable, stop, a late tick, a lost link.
 //! 8. [`motor`]: the setpoint's demand on the motor's shaft, behind gear and friction.
 //! 9. [`drive`]: that demand as the bytes of a drive's protocol.
@@ -68,8 +70,8 @@
 //!
 //! # Errors
 //!
-//! Whatever is refused is refused by an [`Error`], which names the field, its value, what it must be and
-//! what would do. Nothing has changed then. Kinds may be added: a `match` needs a last arm.
+//! Whatever is refused is refused by an [`Error`], which names the field, its value, what it must
+//! be and what would do. Nothing has changed then. Kinds may be added: a `match` needs a last arm.
 //!
 //! ```
 //! use stillbeam::model::OneElement;

@@ -88,8 +88,8 @@ impl Residual {
     }
 }
 
-/// Residual vibration: the largest deflection of the tip from its rest, the static equilibrium at the
-/// final angle, over a first period after the last arrival. See [`crate::residual`].
+/// Residual vibration: the largest deflection of the tip from its rest, the static equilibrium at
+/// the final angle, over a first period after the last arrival. See [`crate::residual`].
 ///
 /// `rows` at intervals of `tick` s, the setpoint interval of the run.
 pub fn residual(rows: &[Row], scene: &SceneFile, tick: f64) -> Result<Residual, Error> {

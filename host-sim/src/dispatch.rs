@@ -179,8 +179,8 @@ fn modal<T: Real, const K: usize, const N: usize, const W: usize>(
     Ok(if solver.spin { stepper } else { stepper.without_spin() })
 }
 
-/// The cheapest stepper that is good enough for the motion that the scene commands, behind its shaper
-/// if it has one; or which one comes nearest. Shows its progress after a second.
+/// The cheapest stepper that is good enough for the motion that the scene commands, behind its
+/// shaper if it has one; or which one comes nearest. Shows its progress after a second.
 ///
 /// # Errors
 /// The scene's moves are refused, whatever the method.
@@ -192,7 +192,8 @@ pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoCho
     })
 }
 
-/// The errors to expect of a method that is named by hand, along the motion that the scene commands.
+/// The errors to expect of a method that is named by hand, along the motion that the scene
+/// commands.
 pub fn assess(scene: &SceneFile, solver: &Solver) -> Result<Assessment, Error> {
     with_stepper(scene, solver, Assess { scene })
 }

@@ -3,12 +3,13 @@
 //!
 //! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
 //! motion ([`trajectory`]), the core's run ([`run`], [`dispatch`]), its table ([`table`],
-//! [`output`]), and how far two tables are apart ([`compare`]). What a motion may ask of the drive is
-//! held against its [`limits`]; what it leaves behind is its [`residual`] vibration.
+//! [`output`]), and how far two tables are apart ([`compare`]). What a motion may ask of the drive
+//! is held against its [`limits`]; what it leaves behind is its [`residual`] vibration.
 //!
-//! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core in [`sweep`], run time
-//! against error; its run time is compared with that of [`textbook`]. The paper's figures are
-//! computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show both.
+//! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core in [`sweep`], run
+//! time against error; its run time is compared with that of [`textbook`]. The paper's figures are
+//! computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show
+//! both.
 //!
 //! [`stress`] runs random scenes by the million and long runs, [`stability`] maps where the methods
 //! are stable.

@@ -32,9 +32,9 @@ pub fn ticks(arm: &Scene, tick: f64) -> Result<Option<u64>, Error> {
 /// `begin + span`; zero without samples there.
 ///
 /// Between samples a vibration passes higher than at them. The sinusoid through a largest sample y₀
-/// and its neighbours y₋, y₊ has `cos ωh = (y₊ + y₋)/2y₀` and the peak
-/// `√(y₀² + (y₊ − y₋)²/4(1 − cos² ωh))`: exact for one mode from three samples a period on, within 2 % at
-/// fewer, and the peak of the parabola for many. Samples before `begin`, where the hub still moves, take no part.
+/// and its neighbours y₋, y₊ has `cos ωh = (y₊ + y₋)/2y₀` and the peak `√(y₀² + (y₊ − y₋)²/4(1 −
+/// cos² ωh))`: exact for one mode from three samples a period on, within 2 % at fewer, and the peak
+/// of the parabola for many. Samples before `begin`, where the hub still moves, take no part.
 pub fn largest(samples: &[(f64, f64)], begin: f64, span: f64) -> f64 {
     let eps = 1e-9 * (1.0 + begin.abs());
     let first = samples.partition_point(|sample| sample.0 < begin - eps);

@@ -21,14 +21,14 @@ pub const QUEUE: usize = 14;
 
 /// Runs a scene from its beginning to the end of the last rest: a row every tick, from t = 0.
 ///
-/// The scene's limits are kept by what is commanded, whatever the method: see [`limits`]. At the end
-/// of a move the row holds the left-hand acceleration and torque.
+/// The scene's limits are kept by what is commanded, whatever the method: see [`limits`]. At the
+/// end of a move the row holds the left-hand acceleration and torque.
 pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
     run_with(scene, solver, None, &|_| ())
 }
 
-/// [`run`] where it is known what `auto` has chosen, if that is the method. `progress` is called with
-/// the fraction of the limits' check that is done, 0 to 1.
+/// [`run`] where it is known what `auto` has chosen, if that is the method. `progress` is called
+/// with the fraction of the limits' check that is done, 0 to 1.
 pub fn run_with(
     scene: &SceneFile,
     solver: &Solver,

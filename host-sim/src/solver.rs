@@ -236,8 +236,8 @@ impl SolverKeys {
         }
     }
 
-    /// What is given here although `method` does not read it: each in a line that says which methods
-    /// do.
+    /// What is given here although `method` does not read it: each in a line that says which
+    /// methods do.
     pub fn unread(self, method: Method) -> Vec<String> {
         let reads = |method: Method| {
             let typed = Self { method: Some(method), ..Self::default() };

@@ -8,8 +8,8 @@
 //!
 //! The firmware answers every request with one report that carries the request's sequence number.
 //! Moves and payloads are answered once they are planned, in the order in which they came; every
-//! other request is at once, even while a move is being planned. In between the firmware sends, for every tick and axis, the setpoint
-//! ([`Report::Tick`]).
+//! other request is at once, even while a move is being planned. In between the firmware sends, for
+//! every tick and axis, the setpoint ([`Report::Tick`]).
 //!
 //! [`slcan`] is the text form of CAN frames, for a bus that is captured.
 

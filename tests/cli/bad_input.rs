@@ -172,7 +172,8 @@ fn words_on_the_command_line() {
 
 #[test]
 fn words_that_the_method_does_not_read() {
-    // The scene's own `elements` is for the method that it would be run with; what is typed is meant.
+    // The scene's own `elements` is for the method that it would be run with; what is typed is
+    // meant.
     let cases: [(&[&str], &str); 8] = [
         (&["--method", "elastica", "--no-spin"], "solver.spin = false: elastica"),
         (&["--method", "elastica", "--elements", "4"], "solver.elements = 4: elastica"),

@@ -1,5 +1,5 @@
-//! What cannot be parsed is refused in one line with file, line, column and key; and no text, however
-//! mangled, ends in anything else.
+//! What cannot be parsed is refused in one line with file, line, column and key; and no text,
+//! however mangled, ends in anything else.
 
 use std::fs;
 

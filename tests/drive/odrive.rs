@@ -125,8 +125,8 @@ fn a_node_beyond_six_bits_is_refused() {
     assert_eq!(error, "drive.node = 64: must be 0 to 63");
 }
 
-/// Half a turn below 2²¹ the nearest whole number has a bit more than an f32's split gives back: a drive
-/// that stood there was taken to stand as far on the other side. Found by fuzzing.
+/// Half a turn below 2²¹ the nearest whole number has a bit more than an f32's split gives back: a
+/// drive that stood there was taken to stand as far on the other side. Found by fuzzing.
 #[test]
 fn a_position_past_the_last_turn_is_none() {
     let estimates = |position| EncoderEstimates { position, velocity: 0.0 };

@@ -41,7 +41,8 @@ fn a_still_move_as_planned_is_taken() {
 }
 
 /// A still move's peaks were taken on trust: any bulge passed the limits, and one that is no number
-/// went out as setpoints. Between the ticks too: of a move of one tick all that is violent lies there.
+/// went out as setpoints. Between the ticks too: of a move of one tick all that is violent lies
+/// there.
 #[test]
 fn a_still_move_is_judged_by_its_own_curve() {
     let Move::Still { duration, to, bulge } = planned_still() else { unreachable!() };
@@ -67,8 +68,8 @@ fn a_move_of_more_turns_than_a_float_resolves_is_refused() {
     assert_eq!(error.to_string(), "move: turns = 15915.494309189535: must be -128 to 128 turns");
 }
 
-/// Of a payload that turns hard and weighs little, an f32 along principal axes kept a mass matrix with a
-/// negative direction: from the first tick on nothing was finite.
+/// Of a payload that turns hard and weighs little, an f32 along principal axes kept a mass matrix
+/// with a negative direction: from the first tick on nothing was finite.
 #[test]
 fn a_payload_that_hides_the_arm_from_a_float_is_refused() {
     for configuration in &CONFIGURATIONS {
@@ -91,8 +92,8 @@ fn a_payload_that_hides_the_arm_from_a_float_is_refused() {
     }
 }
 
-/// Where a stop ends no shorter than the move does, the move is finished; one of less than an angle's
-/// resolution was, whatever it lasted.
+/// Where a stop ends no shorter than the move does, the move is finished; one of less than an
+/// angle's resolution was, whatever it lasted.
 #[test]
 fn a_stop_does_not_wait_for_a_move_that_goes_nowhere() {
     for to in [1e-12, 1e-9, 1e-7, 1e-5] {

@@ -36,7 +36,8 @@ fn on_time_late_and_missed() {
     assert_eq!(after(9_950), due(0, 0), "no catching up");
 }
 
-/// Half a period is the bound of early ticks alone: late ones are not rounded to the nearest period.
+/// Half a period is the bound of early ticks alone: late ones are not rounded to the nearest
+/// period.
 #[test]
 fn a_tick_late_by_more_than_half_a_period_is_late_not_missed() {
     let mut after = clock();
@@ -107,7 +108,8 @@ fn a_long_freeze_is_told_from_an_early_tick() {
     assert_eq!(after(freeze), due(freeze % PERIOD, freeze / PERIOD - 1));
 }
 
-/// Periods outside of the range are brought to its ends, and every reading of the counter is judged.
+/// Periods outside of the range are brought to its ends, and every reading of the counter is
+/// judged.
 #[test]
 fn any_period_and_any_reading_is_judged() {
     let periods = prop_oneof![Just(0), Just(1), Just(2), Just(u32::MAX), any::<u32>()];

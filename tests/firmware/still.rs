@@ -46,7 +46,8 @@ fn a_still_move_waits_for_the_moves_before_it() {
     assert_near("angle", radians(all.last().unwrap()), 1.0, 1e-6);
 }
 
-/// Every limit of the axis is one of the plan's, and so are the planner's own, of what the arm does.
+/// Every limit of the axis is one of the plan's, and so are the planner's own, of what the arm
+/// does.
 #[test]
 fn what_the_planner_refuses_is_named() {
     let error = |limits: Limits, duration| {

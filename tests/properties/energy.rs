@@ -128,8 +128,8 @@ proptest! {
         let turn = turn.gentle(&scene);
         never_grows(&newmark(&scene, &turn), 1e-9)?;
         never_grows(&modal(&scene, &turn), 1e-9)?;
-        // Its energy as the exact kinematics count it swings with the error of the expansion, and of
-        // a step that the second mode may turn far in.
+        // Its energy as the exact kinematics count it swings with the error of the expansion, and
+        // of a step that the second mode may turn far in.
         never_grows(&elastica(&scene, &turn), 5e-2)?;
     }
 }

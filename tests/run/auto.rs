@@ -1,5 +1,5 @@
-//! What `auto` chooses: the bounded part of the campaign behind `docs/auto.md`, and the order of the
-//! ladder.
+//! What `auto` chooses: the bounded part of the campaign behind `docs/auto.md`, and the order of
+//! the ladder.
 
 use stillbeam::motion::Moves;
 use stillbeam::select::{Choice, Rung, Tolerance, assess, choose};
@@ -31,8 +31,8 @@ fn choices_keep_the_tolerance_and_are_cheap() {
     assert_eq!(summary.needless, 0, "{summary:?}");
 }
 
-/// A trapezoid's four jumps make the modes ring that the trial does not follow, by twice as much as the
-/// largest one alone: the choice was beyond its torque tolerance by 7 %.
+/// A trapezoid's four jumps make the modes ring that the trial does not follow, by twice as much as
+/// the largest one alone: the choice was beyond its torque tolerance by 7 %.
 #[test]
 fn the_ringing_of_all_jumps_is_expected() {
     let verdict = Case::random(11, 81).and_then(|case| case.judge(81)).expect("verdict");
@@ -51,8 +51,8 @@ fn worst(rows: &str, rung: Rung, skip: &str) -> Option<u32> {
     instructions::ticks(rows).expect("the table").get(&key).copied()
 }
 
-/// The same; three modes, fast, have no row of their own as long as the bench does not count them: the
-/// part of a fine tick that two modes' is.
+/// The same; three modes, fast, have no row of their own as long as the bench does not count them:
+/// the part of a fine tick that two modes' is.
 fn cost(rows: &str, rung: Rung, skip: &str) -> u32 {
     let counted = |rung| worst(rows, rung, skip);
     counted(rung).unwrap_or_else(|| {

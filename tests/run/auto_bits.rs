@@ -41,7 +41,8 @@ fn moves() -> Vec<Move> {
     moves
 }
 
-/// Setpoints, before and after, of the moves, a rest behind them and a change of course in one more.
+/// Setpoints, before and after, of the moves, a rest behind them and a change of course in one
+/// more.
 fn bits<S: Stepper>(stepper: S, course: &StillMove) -> Vec<[f64; 7]> {
     let mut arm = Generator::<_, 64>::new(stepper, 0.0).expect("generator");
     let mut rows = Vec::new();
@@ -151,8 +152,8 @@ fn ringing<S: Stepper>(stepper: S, ticks: usize) -> [f64; 2] {
     [first, most(100)]
 }
 
-/// An undamped arm whose first mode turns by 0.96 a tick: stepped off the path for rests, it gained two
-/// thirds of its energy in 1e5 ticks.
+/// An undamped arm whose first mode turns by 0.96 a tick: stepped off the path for rests, it gained
+/// two thirds of its energy in 1e5 ticks.
 #[test]
 fn an_undamped_arm_at_rest_gains_no_energy() {
     let mut scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.05 });

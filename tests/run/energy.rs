@@ -140,7 +140,8 @@ fn imbalance<S: Stepper>(
     balance.abs() / sum(|b| b.work.abs())
 }
 
-/// Every truth scene's imbalance with a stepper that is set up for its scene, in the order of the list.
+/// Every truth scene's imbalance with a stepper that is set up for its scene, in the order of the
+/// list.
 fn all(mut of: impl FnMut(&SceneFile) -> f64) -> Vec<(&'static str, f64)> {
     TRUTH_SCENES
         .map(|name| {

@@ -20,7 +20,8 @@ fn against_truth(name: &str, solver: &Solver) -> Comparison {
 
 #[test]
 fn tip_errors_at_ten_milliseconds_in_f32() {
-    // Modal 2 modes, elastica 2 modes fast and fine, 3 modes fine: fraction of L; measured beside it.
+    // Modal 2 modes, elastica 2 modes fast and fine, 3 modes fine: fraction of L; measured beside
+    // it.
     let bounds = [
         ("d-fast", [0.009, 3e-4, 2e-4, 4e-4]), // 0.0074, 2.3e-4, 1.0e-4, 9.9e-5
         ("a-tip30", [0.009, 1e-4, 4e-5, 2e-5]), // 0.0082, 3.0e-5, 3.1e-5, 1.8e-5

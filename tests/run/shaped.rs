@@ -48,8 +48,9 @@ fn worst(profile: &str, shaper: &str, method: Method, truth: &[Row], tick: f64) 
     (result.tip_max, result.torque)
 }
 
-/// Measured: tip 2e-7 to 6e-7 L; torque 0.01 % for what does not jump, 0.1 to 0.5 % for cubics, 0.2 to
-/// 1.0 % for trapezoids, which is that of the modes left out. Without the kinks: up to 2e-4 L and 17 %.
+/// Measured: tip 2e-7 to 6e-7 L; torque 0.01 % for what does not jump, 0.1 to 0.5 % for cubics, 0.2
+/// to 1.0 % for trapezoids, which is that of the modes left out. Without the kinks: up to 2e-4 L
+/// and 17 %.
 #[test]
 fn jumps_inside_a_tick_reach_modal_and_elastica() {
     for profile in PROFILES {

@@ -17,8 +17,8 @@ pub const SOFT_TARGET: &str = "thumbv7m-none-eabi";
 /// An image, or what cargo said.
 type Built = Result<PathBuf, String>;
 
-/// The images that this process has built, by the name that each is kept under. Images are built one
-/// after the other: cargo gives variants of a program the same file name.
+/// The images that this process has built, by the name that each is kept under. Images are built
+/// one after the other: cargo gives variants of a program the same file name.
 static IMAGES: Mutex<BTreeMap<String, Built>> = Mutex::new(BTreeMap::new());
 
 /// Builds the image `name` unless this process has built it before.
@@ -64,7 +64,8 @@ pub fn application(features: &str) -> Built {
     once(application_name(features), |name| as_application("application", features, None, name))
 }
 
-/// Builds two axes with one method, by its name in the list of methods, as the application is built.
+/// Builds two axes with one method, by its name in the list of methods, as the application is
+/// built.
 ///
 /// # Errors
 /// As [`build`].

@@ -1,5 +1,5 @@
-//! The numbers in `docs/firmware.md` and the transcript in `README.md`: written by a command, checked
-//! by a test.
+//! The numbers in `docs/firmware.md` and the transcript in `README.md`: written by a command,
+//! checked by a test.
 
 use std::fmt::Write;
 
@@ -12,12 +12,13 @@ use stillbeam_sim::talk::{
 use crate::emulator::{self, Clock, LIMIT};
 use crate::{firmware, image};
 
-/// Instructions of 10 ms on the emulated board at 64 ns each, and the half of them that the tick may
-/// have.
+/// Instructions of 10 ms on the emulated board at 64 ns each, and the half of them that the tick
+/// may have.
 const INSTRUCTIONS: u32 = 156_250;
 const SHARE: u32 = INSTRUCTIONS / 2;
 
-/// The methods in the table of axes: how the page names them, and their names in the list of methods.
+/// The methods in the table of axes: how the page names them, and their names in the list of
+/// methods.
 pub const FITTED: [(&str, &str); 17] = [
     ("rigid", "RigidArm"),
     ("newmark 1 consistent", "Newmark1"),

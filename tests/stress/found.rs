@@ -10,8 +10,8 @@ fn outcome(seed: u64, index: u64, wanted: impl Fn(&Solver) -> bool) -> Verdict {
     trial(&drawn, solver)
 }
 
-/// The effective matrix, rounded to f32, was `K` alone and less: what it held beside it was no mass,
-/// and the step fed the arm until its setpoints were no numbers.
+/// The effective matrix, rounded to f32, was `K` alone and less: what it held beside it was no
+/// mass, and the step fed the arm until its setpoints were no numbers.
 #[test]
 fn newmark_refuses_a_tick_that_leaves_its_matrix_no_inertia() {
     let eight = |solver: &Solver| {
@@ -24,8 +24,8 @@ fn newmark_refuses_a_tick_that_leaves_its_matrix_no_inertia() {
     }
 }
 
-/// Gravity feeds an undamped arm whose hub turns at twice its frequency, by physics, until f32 has no
-/// number for it: now it stays finite.
+/// Gravity feeds an undamped arm whose hub turns at twice its frequency, by physics, until f32 has
+/// no number for it: now it stays finite.
 #[test]
 fn newmark_stays_finite_under_parametric_resonance() {
     let lumped = |solver: &Solver| {
@@ -47,8 +47,8 @@ fn modal_stays_finite_under_parametric_resonance() {
     }
 }
 
-/// A gravity that takes nearly all of the first mode's stiffness, at 1.6 rad a tick: the step fed the
-/// arm until it was no number.
+/// A gravity that takes nearly all of the first mode's stiffness, at 1.6 rad a tick: the step fed
+/// the arm until it was no number.
 #[test]
 fn modal_refuses_a_gravity_that_feeds_it() {
     let outcome = outcome(5, 20_310, |solver| solver.method == Method::Modal);

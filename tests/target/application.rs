@@ -116,8 +116,8 @@ fn still_moves_are_planned_on_the_target_while_ticks_and_drives_go_on() {
     assert_eq!([status.missed, status.overruns, status.dropped], [0; 3], "{status:?}");
 }
 
-/// A plan takes seconds on this board; a stop that comes meanwhile acts at once, and the plan that it
-/// makes stale is refused.
+/// A plan takes seconds on this board; a stop that comes meanwhile acts at once, and the plan that
+/// it makes stale is refused.
 #[test]
 fn a_stop_does_not_wait_for_a_plan() {
     let mut session = begin_with("mps2,still");
@@ -298,8 +298,8 @@ fn the_pages_are_what_the_firmware_does() {
     }
 }
 
-/// The table of axes holds every method, its arithmetic is right, and a method of each end is counted
-/// again: to 2 %, as the instruction table is.
+/// The table of axes holds every method, its arithmetic is right, and a method of each end is
+/// counted again: to 2 %, as the instruction table is.
 #[test]
 fn as_many_axes_fit_as_the_page_says() {
     let page = std::fs::read_to_string(root().join("docs/firmware.md")).expect("docs/firmware.md");
@@ -335,8 +335,9 @@ fn the_image_that_counts_axes_stands_for_the_application() {
     assert!(own.abs_diff(fit.moving) * 20 <= own, "application {own}, {fit:?}");
 }
 
-/// Lines that hold counts of instructions or bytes, with every number as `#`. How long a plan takes, by a
-/// tick or two, is such a count too, and all that is said after a plan is said that much later.
+/// Lines that hold counts of instructions or bytes, with every number as `#`. How long a plan
+/// takes, by a tick or two, is such a count too, and all that is said after a plan is said that
+/// much later.
 fn without_counts(page: &str) -> Vec<String> {
     let mut planned = false;
     let mut kept = Vec::new();
@@ -381,7 +382,8 @@ fn another_method_is_one_line_in_axes() {
 }
 
 /// The tick stands in `axes.rs` and nowhere else: at another one a missed tick is found, and half a
-/// second of silence is half a second. In 2 ms the emulated board does not get its first setpoints out.
+/// second of silence is half a second. In 2 ms the emulated board does not get its first setpoints
+/// out.
 #[test]
 fn another_tick_is_one_line_in_axes() {
     let tick = 0.005;

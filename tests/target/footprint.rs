@@ -10,8 +10,8 @@ fn one_element() -> Minimal {
     minimal
 }
 
-/// 17 KiB of flash, 2 KiB of RAM without stack, 4 KiB of stack. Until moves ended exactly and curves were
-/// judged by themselves it was 16 KiB.
+/// 17 KiB of flash, 2 KiB of RAM without stack, 4 KiB of stack. Until moves ended exactly and
+/// curves were judged by themselves it was 16 KiB.
 #[test]
 fn one_element_is_small() {
     let minimal = one_element();

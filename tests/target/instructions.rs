@@ -104,8 +104,8 @@ fn payload_and_radius_change_no_operation() {
     }
 }
 
-/// Every skip is there, and each that is said to save saves: a quarter of the tick at rest, half of it
-/// asleep, and something without damping, gravity or spin.
+/// Every skip is there, and each that is said to save saves: a quarter of the tick at rest, half of
+/// it asleep, and something without damping, gravity or spin.
 #[test]
 fn skips_save() {
     let counts = &bench().counts;
@@ -138,8 +138,8 @@ fn skips_save() {
     }
 }
 
-/// Without an FPU a tick's cost depends on its numbers: the page says so, with the figures of a run,
-/// to 2 %.
+/// Without an FPU a tick's cost depends on its numbers: the page says so, with the figures of a
+/// run, to 2 %.
 #[test]
 fn the_page_is_right_about_processors_without_an_fpu() {
     let page = std::fs::read_to_string(root().join("docs/instructions.md")).unwrap();

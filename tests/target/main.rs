@@ -1,5 +1,5 @@
-//! What is built for the target, and run in QEMU where there is a board for it. One program, so that
-//! an image that several tests need is built once.
+//! What is built for the target, and run in QEMU where there is a board for it. One program, so
+//! that an image that several tests need is built once.
 
 mod application;
 mod boards;

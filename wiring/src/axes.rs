@@ -14,8 +14,8 @@ pub const AXES: usize = 2;
 /// board's counts and the policy's times are derived from it.
 pub const TICK: f64 = 0.010;
 
-/// The method, the same for every axis: any of the list in `methods/`. The firmware tells the host its
-/// name, and the host runs the same one.
+/// The method, the same for every axis: any of the list in `methods/`. The firmware tells the host
+/// its name, and the host runs the same one.
 pub type Method = stillbeam_methods::Newmark1Nodal;
 
 /// The method's stepper.

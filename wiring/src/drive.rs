@@ -19,8 +19,8 @@ pub fn demand(train: &Drivetrain<f32>, tick: &Tick<f32>) -> Option<Demand<f32>> 
     is_on(tick.mode).then(|| train.demand(&tick.setpoint))
 }
 
-/// The state that a drive was last told. At the first tick it is told in any case: it may still be on
-/// when the board begins anew.
+/// The state that a drive was last told. At the first tick it is told in any case: it may still be
+/// on when the board begins anew.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Switch(Option<bool>);
 

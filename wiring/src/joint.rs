@@ -55,8 +55,8 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
         }
     }
 
-    /// Carries out a command that needs no plan. Those that do ([`crate::Work`]), and those that only
-    /// ask, change nothing.
+    /// Carries out a command that needs no plan. Those that do ([`crate::Work`]), and those that
+    /// only ask, change nothing.
     ///
     /// # Errors
     /// The axis is in another mode, its drive has not reported an angle, or the angle of
@@ -116,7 +116,8 @@ mod tests {
     fn an_axis_is_enabled_where_its_drive_has_reported_that_it_stands() {
         let mut joint = joint();
         assert_eq!(joint.carry_out(&Command::Enable), Err(Refusal::NotMeasured));
-        // A gear of 6 that turns the other way: a quarter of a turn at the shaft is -1/24 at the hub.
+        // A gear of 6 that turns the other way: a quarter of a turn at the shaft is -1/24 at the
+        // hub.
         joint.measured = Some(Angle { turns: 0, part: 0.125 + 0.25 });
         assert_eq!(joint.carry_out(&Command::Enable), Ok(()));
         let angle = joint.axis.generator().hub().angle.in_turns();

@@ -1,12 +1,13 @@
 #![no_std]
 #![forbid(unsafe_code)]
-//! How an axis is wired, in one place for everyone who runs one: the firmware in its tasks, the host
-//! beside the firmware, and the campaign of faults.
+//! How an axis is wired, in one place for everyone who runs one: the firmware in its tasks, the
+//! host beside the firmware, and the campaign of faults.
 //!
 //! [`axes`] says what hangs on this machine, and is the file to edit for another one.
-//! [`Configuration`] is one axis of it. [`Joint`] is an axis at work: arm, policy, gear and encoder.
-//! [`Work`] tells the requests that need a plan from those that are carried out at once, and
-//! [`drive`] says what a drive is told at a tick. Nothing here owns a task, a clock or a device.
+//! [`Configuration`] is one axis of it. [`Joint`] is an axis at work: arm, policy, gear and
+//! encoder. [`Work`] tells the requests that need a plan from those that are carried out at once,
+//! and [`drive`] says what a drive is told at a tick. Nothing here owns a task, a clock or a
+//! device.
 
 #[cfg_attr(feature = "_other-axes", path = "../../target/firmware/axes.rs")]
 pub mod axes;

@@ -69,8 +69,8 @@ pub struct Policy {
     /// at least. 0 waits for ever.
     pub patience: f64,
     /// Ticks in a row that may be missed before the axis stops; the path waits for them. This is a
-    /// number, not a time: each is a setpoint that the drive has to do without, and what a drive can
-    /// bridge it counts in setpoints, whatever their interval.
+    /// number, not a time: each is a setpoint that the drive has to do without, and what a drive
+    /// can bridge it counts in setpoints, whatever their interval.
     pub missed: u32,
 }
 

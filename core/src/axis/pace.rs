@@ -5,7 +5,8 @@
 /// The tick that is due next may come from half a period before its time to a period after it. What
 /// comes earlier is an extra tick, such as those of a burst after a freeze: it is not due, and no
 /// setpoint may be made for it. What comes later has missed its time, and stands for a later tick.
-/// However ticks come, no more than `n + 1` of those within `n` periods (`n` to the nearest) are due.
+/// However ticks come, no more than `n + 1` of those within `n` periods (`n` to the nearest) are
+/// due.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
     period: u32,
@@ -82,7 +83,8 @@ mod tests {
         assert_eq!(Pace::period(f64::NAN, 1_000), None);
     }
 
-    /// Ticks at 0, 103, 350 and 400 of a period of 100: one late, one and a half missed, one in time.
+    /// Ticks at 0, 103, 350 and 400 of a period of 100: one late, one and a half missed, one in
+    /// time.
     #[test]
     fn lateness_does_not_shift_later_ticks() {
         let mut pace = Pace::new(100);

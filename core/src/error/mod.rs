@@ -9,9 +9,9 @@ use crate::math::Scalar;
 
 /// The reason why a scene, a move or a request is refused. Whatever refused it is unchanged.
 ///
-/// A variant is a kind of fault. It carries the parameter's full name as it stands in a scene file, the
-/// value that was given and what it must be. [`Display`](core::fmt::Display) prints them in one line,
-/// with what would do instead.
+/// A variant is a kind of fault. It carries the parameter's full name as it stands in a scene file,
+/// the value that was given and what it must be. [`Display`](core::fmt::Display) prints them in one
+/// line, with what would do instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -140,8 +140,8 @@ pub enum Error {
 pub(crate) const MAX_TICKS: u32 = 1 << 24;
 
 impl Error {
-    /// Returns `value` if it lies in `min..=max`, compared in its own precision, else the error that
-    /// names `parameter`.
+    /// Returns `value` if it lies in `min..=max`, compared in its own precision, else the error
+    /// that names `parameter`.
     pub(crate) fn check<T: Scalar>(
         parameter: &'static str,
         value: T,

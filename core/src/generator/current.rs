@@ -38,7 +38,8 @@ pub(super) enum Part {
 pub(super) struct Current<T> {
     /// Index in the segment of the latest tick; `u32::MAX` if the first one is still to come.
     k: u32,
-    /// Ticks with an index below this have a linear acceleration that the stepper has a fast path for.
+    /// Ticks with an index below this have a linear acceleration that the stepper has a fast path
+    /// for.
     linear: u32,
     /// Ticks with an index below this have a hub at rest that the stepper has a fast path for.
     at_rest: u32,

@@ -60,8 +60,8 @@ impl PlanContext {
     }
 }
 
-/// Refuses a move of so many turns that its angle would go in steps: a segment's angle is rounded as
-/// a part of its own turn. Longer ways are a spin-up, a dwell and a spin-down, which is exact.
+/// Refuses a move of so many turns that its angle would go in steps: a segment's angle is rounded
+/// as a part of its own turn. Longer ways are a spin-up, a dwell and a spin-down, which is exact.
 fn resolved<T: Scalar>(start: &HubState<f64>, summary: &MoveSummary) -> Result<(), Error> {
     let turned = summary.end.angle.since(start.angle);
     let most = 1.0 / 65_536.0 / T::EPSILON.to_f64();

@@ -134,8 +134,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         Ok(summary)
     }
 
-    /// What would keep the limits, for a move that [`Self::push`] refuses now for one of them. Computed
-    /// apart from the refusal: a target that does not ask does not link it.
+    /// What would keep the limits, for a move that [`Self::push`] refuses now for one of them.
+    /// Computed apart from the refusal: a target that does not ask does not link it.
     pub fn remedy(&self, motion: &Move) -> Remedy {
         Plan::remedy(motion, self.next_start(), &self.limits, self.stepper.tick())
     }
@@ -215,8 +215,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         respond(&hub, self.stepper.response::<AnyMotion>(&self.state, &hub))
     }
 
-    /// The hub rests and the arm with it, within [`SLEEP`](crate::stepper::SLEEP): it is left as it is
-    /// until the next move.
+    /// The hub rests and the arm with it, within [`SLEEP`](crate::stepper::SLEEP): it is left as it
+    /// is until the next move.
     pub fn is_asleep(&self) -> bool {
         self.current.is_asleep()
     }
@@ -257,8 +257,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
     }
 
-    /// Takes up the next segment of the queue, or the hold behind it, and moves the hub to its first
-    /// tick. A function of its own, for the registers that it takes.
+    /// Takes up the next segment of the queue, or the hold behind it, and moves the hub to its
+    /// first tick. A function of its own, for the registers that it takes.
     #[inline(never)]
     fn take_up_next(&mut self) {
         self.end_acceleration = self.current.segment().end_acceleration();

@@ -6,9 +6,9 @@ use crate::math::Scalar;
 use crate::motion::{Braking, Segment};
 use crate::stepper::Stepper;
 
-/// So many times what a stop takes, a move under way may take to its end and still be finished: a tail
-/// that ends more smoothly than a stop does takes up to twice as long. A move of less than an angle's
-/// resolution is at its end all the time, and may last for days.
+/// So many times what a stop takes, a move under way may take to its end and still be finished: a
+/// tail that ends more smoothly than a stop does takes up to twice as long. A move of less than an
+/// angle's resolution is at its end all the time, and may last for days.
 const PATIENCE: u32 = 4;
 
 /// Where the move under way comes to rest.

@@ -9,10 +9,10 @@ use crate::Error;
 ///
 /// Torque and moment limit what the arm answers with, which depends on its vibration. Only a layer
 /// that flies the arm through the move knows them: the planner of still moves
-/// ([`Planner`](crate::planner::Planner)) and the desktop's `run`. The others ([`Generator::limit`],
-/// [`Axis::new`], [`Plan::new`](super::Plan::new), [`Braking::new`](super::Braking::new)) see a
-/// tick of one method at a time, whose peak may lie between the ticks, and refuse these two limits
-/// rather than ignore them.
+/// ([`Planner`](crate::planner::Planner)) and the desktop's `run`. The others
+/// ([`Generator::limit`], [`Axis::new`], [`Plan::new`](super::Plan::new),
+/// [`Braking::new`](super::Braking::new)) see a tick of one method at a time, whose peak may lie
+/// between the ticks, and refuse these two limits rather than ignore them.
 ///
 /// [`Generator::limit`]: crate::Generator::limit
 /// [`Axis::new`]: crate::axis::Axis::new

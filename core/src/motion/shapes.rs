@@ -79,8 +79,8 @@ const fn integrate<const N: usize>(stretches: [(f64, f64); N]) -> [Piece; N] {
     pieces
 }
 
-/// Formula of a spin-up that would turn by `v` turns at the old rate and turns by half of `dv` more:
-/// `Δ = v s + dv [s²/2 + (cos 2πs − 1)/4π²]`, about `s = ½`.
+/// Formula of a spin-up that would turn by `v` turns at the old rate and turns by half of `dv`
+/// more: `Δ = v s + dv [s²/2 + (cos 2πs − 1)/4π²]`, about `s = ½`.
 pub(super) fn spin_up<T: Scalar>(v: T, dv: T) -> Shape<T> {
     let c2 = T::from_f64(0.125) * dv;
     let b = T::from_f64(-1.0 / (TAU * TAU)) * dv;

@@ -66,8 +66,8 @@ struct Flight<'t, 'a, 'c, S: Stepper> {
     deflection: f64,
     /// Largest torque at a tick, N m.
     at_ticks: f64,
-    /// Sum of the squares of the acceleration's jumps, rad²/s⁴. What they make ring adds up: without
-    /// damping, at phases that have nothing to do with each other.
+    /// Sum of the squares of the acceleration's jumps, rad²/s⁴. What they make ring adds up:
+    /// without damping, at phases that have nothing to do with each other.
     jumps: f64,
     torque: Peak,
     moment: Peak,

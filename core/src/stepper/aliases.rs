@@ -5,7 +5,8 @@
 
 use super::{Elastica, Modal, Newmark};
 
-/// One consistent element, for [`OneElement`](crate::model::OneElement): the cheapest stepper that bends.
+/// One consistent element, for [`OneElement`](crate::model::OneElement): the cheapest stepper that
+/// bends.
 pub type Newmark1<T> = Newmark<T, 2, 2>;
 
 /// Two consistent elements, for [`TwoElements`](crate::model::TwoElements).

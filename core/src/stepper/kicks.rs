@@ -7,18 +7,18 @@ use crate::motion::{Kink, ORDERS};
 /// Changes of a mode's state before a tick, one for each moment of a [`Kink`].
 ///
 /// With `J` the part of θ̈ that jumps and its moments `mₖ`, a mode ends the tick as if it had been
-/// driven by `J` itself, but for moments beyond the eighth. Nothing for modes that turn by more than
-/// [`LARGEST_NORM`] in a tick or that the tick damps out.
+/// driven by `J` itself, but for moments beyond the eighth. Nothing for modes that turn by more
+/// than [`LARGEST_NORM`] in a tick or that the tick damps out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kicks<T>([[T; 2]; ORDERS]);
 
-/// Largest norm of `hA` for which a jump's answer is told. A mode beyond turns ten times in a tick, and
-/// answers to a jump by less than a sixtieth of what a mode at rest does.
+/// Largest norm of `hA` for which a jump's answer is told. A mode beyond turns ten times in a tick,
+/// and answers to a jump by less than a sixtieth of what a mode at rest does.
 const LARGEST_NORM: f64 = 60.0;
 
 impl<T: Scalar> Kicks<T> {
-    /// Of the mode `ẏ = A y − (0, b θ̈)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`, over steps of `h` s. The
-    /// state is `(ωa, ȧ)`.
+    /// Of the mode `ẏ = A y − (0, b θ̈)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`, over steps of `h` s.
+    /// The state is `(ωa, ȧ)`.
     pub(super) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
         let z = [[0.0, omega * h], [-omega * h, -(alpha + beta * omega * omega) * h]];
         let [whole, ..] = phi_functions(&z);

@@ -39,8 +39,9 @@ pub struct Response<T> {
 
 /// Advances an arm whose hub follows a commanded motion.
 ///
-/// A stepper says once how it steps and once how it answers, for whatever is known of the hub's motion
-/// ([`HubMotion`]). A wrapper passes the motion on and has thereby every path of the stepper inside it.
+/// A stepper says once how it steps and once how it answers, for whatever is known of the hub's
+/// motion ([`HubMotion`]). A wrapper passes the motion on and has thereby every path of the stepper
+/// inside it.
 ///
 /// The methods marked `inline(always)` in the implementations are the tick path: no allocation, no
 /// panic, no `Result`, a fixed number of operations for a given stepper.
@@ -57,12 +58,12 @@ pub trait Stepper {
     /// Tick length h, s.
     fn tick(&self) -> f64;
 
-    /// True if gravity acts on the arm. If not, the hubs that [`Self::step`] and [`Self::response`] are
-    /// given hold no sine and cosine, which then cost nothing.
+    /// True if gravity acts on the arm. If not, the hubs that [`Self::step`] and [`Self::response`]
+    /// are given hold no sine and cosine, which then cost nothing.
     fn feels_gravity(&self) -> bool;
 
-    /// True if the ticks of a segment with linear acceleration in which `|θ̇|` is at most `rate` rad/s
-    /// may be advanced as [`Linear`]; never under gravity. Asked once a segment.
+    /// True if the ticks of a segment with linear acceleration in which `|θ̇|` is at most `rate`
+    /// rad/s may be advanced as [`Linear`]; never under gravity. Asked once a segment.
     fn is_linear_fast(&self, rate: Self::Scalar) -> bool;
 
     /// Refuses a move with these peaks, after which the hub goes on turning at `held` rad/s, if the
@@ -80,16 +81,16 @@ pub trait Stepper {
         after: &HubState<Self::Scalar>,
     );
 
-    /// Hub torque and tip for a state and the hub at the same instant, `M` being the motion that led
-    /// there. Motions differ by rounding only.
+    /// Hub torque and tip for a state and the hub at the same instant, `M` being the motion that
+    /// led there. Motions differ by rounding only.
     fn response<M: HubMotion>(
         &self,
         state: &Self::State,
         hub: &HubState<Self::Scalar>,
     ) -> Response<Self::Scalar>;
 
-    /// Prepares the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks. To be
-    /// called before that step. Steppers that take the rates only do nothing here.
+    /// Prepares the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks. To
+    /// be called before that step. Steppers that take the rates only do nothing here.
     fn kink(&self, state: &mut Self::State, moments: KinkMoments<'_, Self::Scalar>);
 
     /// True if the arm, its hub at rest, moves by less than [`SLEEP`] of its length from where it

@@ -105,10 +105,10 @@ impl<T: Scalar> Oscillator<T> {
         self
     }
 
-    /// Undamped, over a step in which `u` is a straight line, with the force at its beginning and at
-    /// its end as a function of the predicted `a`. `rest` is `−a` of a mode that rests under `u = 1`;
-    /// the force is in units of stiffness, [`Self::forced_by`] `ω²`: about where the mode would rest under
-    /// the load at the beginning, the rotation is all there is.
+    /// Undamped, over a step in which `u` is a straight line, with the force at its beginning and
+    /// at its end as a function of the predicted `a`. `rest` is `−a` of a mode that rests under `u
+    /// = 1`; the force is in units of stiffness, [`Self::forced_by`] `ω²`: about where the mode
+    /// would rest under the load at the beginning, the rotation is all there is.
     #[inline(always)]
     pub(super) fn rotate(&self, [a, v]: [T; 2], rest: T, begin: T, force: T) -> [T; 2] {
         let [[versine, sin], [back, _]] = self.gain;
@@ -216,8 +216,8 @@ pub(super) fn kick<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64)
     pulled_back(&e, end).map(T::from_f64)
 }
 
-/// The state before a step that ends with `end` by itself, `e` being the step. Zero for modes that the
-/// step damps out.
+/// The state before a step that ends with `end` by itself, `e` being the step. Zero for modes that
+/// the step damps out.
 pub(super) fn pulled_back(e: &[[f64; 2]; 2], end: [f64; 2]) -> [f64; 2] {
     let determinant = e[0][0] * e[1][1] - e[0][1] * e[1][0];
     if determinant < 1e-3 {
@@ -232,11 +232,11 @@ pub(super) fn pulled_back(e: &[[f64; 2]; 2], end: [f64; 2]) -> [f64; 2] {
 /// Where the determinant falls short of 1 by more than this it is not held down.
 const DAMPED: f64 = 1e-3;
 
-/// Rounds `F = exp(hA) − I` so that the determinant of `I + F` does not exceed the true one. Rounded
-/// to nearest it may, and a mode would then grow.
+/// Rounds `F = exp(hA) − I` so that the determinant of `I + F` does not exceed the true one.
+/// Rounded to nearest it may, and a mode would then grow.
 ///
-/// `F` rather than the exponential: a frequency is `√(2 − tr exp(hA))`, of which an f32 near 1 leaves
-/// `ε/(ωh)²`, and what rounding down takes from the energy is as much smaller.
+/// `F` rather than the exponential: a frequency is `√(2 − tr exp(hA))`, of which an f32 near 1
+/// leaves `ε/(ωh)²`, and what rounding down takes from the energy is as much smaller.
 pub(super) fn contracting<T: Scalar>(exact: [[f64; 2]; 2]) -> [[T; 2]; 2] {
     // det(I + F) − 1.
     let excess = |f: &[[f64; 2]; 2]| (f[0][0] + f[1][1]) + (f[0][0] * f[1][1] - f[0][1] * f[1][0]);

@@ -64,12 +64,12 @@ impl FastPaths {
     pub const BOTH: Self = Self { linear: true, at_rest: true };
 }
 
-/// By how much the commanded acceleration departs, within a tick, from the parabola with the mean and
-/// the ends that a step is given: its moments, rad/s².
+/// By how much the commanded acceleration departs, within a tick, from the parabola with the mean
+/// and the ends that a step is given: its moments, rad/s².
 #[derive(Clone, Copy, Debug)]
 pub enum KinkMoments<'a, T: Scalar> {
-    /// By how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola, `s` the fraction of the tick: what
-    /// two segments of a move have that meet inside a tick.
+    /// By how much `∫₀¹(1 − s)θ̈ ds` exceeds that of the parabola, `s` the fraction of the tick:
+    /// what two segments of a move have that meet inside a tick.
     First(T),
     /// All that matter, of the jumps that a shaper's delays put inside a tick.
     All(&'a Kink<T>),

@@ -180,8 +180,8 @@ fn moves_shorter_than_their_segments_still_arrive() {
     }
 }
 
-/// The moment of a border inside a tick, from angles and rates: `m = (Δθ − hθ̇₀)/h²`, of the parabola
-/// `ū/2 + (u₀ − u₁)/12`. In short moves whole segments lie inside a tick.
+/// The moment of a border inside a tick, from angles and rates: `m = (Δθ − hθ̇₀)/h²`, of the
+/// parabola `ū/2 + (u₀ − u₁)/12`. In short moves whole segments lie inside a tick.
 #[test]
 fn borders_inside_a_tick_have_their_moment() {
     let tick = 0.01;

@@ -147,8 +147,8 @@ fn tick<S: Stepper<Scalar = f32>>(arm: &mut Generator<S, 16>) -> Setpoint<f32> {
 }
 
 /// Words for the paths of a tick: inside a move; taking up the next segment of a move, the hub
-/// turning or `still`; taking up the hold after the last, likewise; holding a rate; at rest, the arm
-/// ringing; at rest and asleep.
+/// turning or `still`; taking up the hold after the last, likewise; holding a rate; at rest, the
+/// arm ringing; at rest and asleep.
 const PATHS: [&str; 8] = [
     "",
     "next-segment",

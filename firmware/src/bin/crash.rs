@@ -1,5 +1,5 @@
-//! Crashes in the way that the environment variable `STILLBEAM_FAULT` names when this is built, to test
-//! how the harness reports it.
+//! Crashes in the way that the environment variable `STILLBEAM_FAULT` names when this is built, to
+//! test how the harness reports it.
 #![no_std]
 #![no_main]
 

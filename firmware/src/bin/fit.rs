@@ -1,9 +1,10 @@
-//! Counts what a tick of two axes costs in an image like the application: same profile, same hand-over
-//! of setpoints, one method. Prints the worst tick of a move and the worst of all, a line of two numbers.
+//! Counts what a tick of two axes costs in an image like the application: same profile, same
+//! hand-over of setpoints, one method. Prints the worst tick of a move and the worst of all, a line
+//! of two numbers.
 //!
-//! The method is chosen when this is built, by the environment variable `STILLBEAM_METHOD` (a name in
-//! the list of methods). What the compiler inlines depends on how many steppers an image holds, so that
-//! an image of several methods would count something else.
+//! The method is chosen when this is built, by the environment variable `STILLBEAM_METHOD` (a name
+//! in the list of methods). What the compiler inlines depends on how many steppers an image holds,
+//! so that an image of several methods would count something else.
 #![no_std]
 #![no_main]
 

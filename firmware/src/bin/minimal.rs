@@ -2,7 +2,8 @@
 //! RAM of the tables; it prints the worst stack as four bytes.
 //!
 //! Which method is linked is chosen when this is built, by the environment variable
-//! `STILLBEAM_METHOD` (a name in the list of methods, or `Still2`: elastica with a planner of still moves).
+//! `STILLBEAM_METHOD` (a name in the list of methods, or `Still2`: elastica with a planner of still
+//! moves).
 #![no_std]
 #![no_main]
 

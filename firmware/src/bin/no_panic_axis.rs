@@ -1,5 +1,5 @@
-//! An axis' tick, with the stop that may come out of it, and nothing else: links only if no panic is
-//! reachable from them. As `no_panic_tick`, not for running; built with the environment variable
+//! An axis' tick, with the stop that may come out of it, and nothing else: links only if no panic
+//! is reachable from them. As `no_panic_tick`, not for running; built with the environment variable
 //! `STILLBEAM_FAULT`, it has a panic and must not link.
 //!
 //! With the cheapest and the smallest bending stepper: `no_panic_tick` proves the others.

@@ -37,7 +37,8 @@ pub struct PlanArgs {
     /// Bending moment at the clamp, N m
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     max_moment: Option<f64>,
-    /// Fraction to which the arm's frequency is known, 0.01 to 0.3: a move that stays still across it
+    /// Fraction to which the arm's frequency is known, 0.01 to 0.3: a move that stays still across
+    /// it
     #[arg(long, value_name = "FRACTION", allow_negative_numbers = true)]
     robust: Option<f64>,
     /// Folder for the page, its pictures and the run

@@ -30,7 +30,8 @@ impl RunArgs {
         let scene = super::open(&self.scene)?;
         let typed = SolverKeys { spin: self.no_spin.then_some(false), ..self.solver };
         let solver = typed.or(scene.solver).resolve()?;
-        // What is typed is meant. A file may hold keys for another method than the one that is typed.
+        // What is typed is meant. A file may hold keys for another method than the one that is
+        // typed.
         if let Some(line) = typed.unread(solver.method).into_iter().next() {
             return Err(Error::new(line));
         }
@@ -83,9 +84,9 @@ impl RunArgs {
     }
 }
 
-/// What `auto` chooses. Tolerances that nobody asked for are no reason not to run: then the rung that
-/// comes nearest to them is taken, and that is said. A tip that errs by more than is [`REMARKABLE`] is no
-/// run.
+/// What `auto` chooses. Tolerances that nobody asked for are no reason not to run: then the rung
+/// that comes nearest to them is taken, and that is said. A tip that errs by more than is
+/// [`REMARKABLE`] is no run.
 fn chosen(
     scene: &SceneFile,
     solver: &Solver,
@@ -113,7 +114,8 @@ fn chosen(
 /// Errors above which a method that is named by hand is remarked on.
 const REMARKABLE: Tolerance = Tolerance { tip: 0.01, torque: 0.05 };
 
-/// Says in one line if the method is expected to err by more than [`REMARKABLE`], and which would not.
+/// Says in one line if the method is expected to err by more than [`REMARKABLE`], and which would
+/// not.
 fn remark(scene: &SceneFile, solver: &Solver) -> Option<String> {
     // A method that cannot be judged here has run all the same.
     let expected = dispatch::assess(scene, solver).ok()?;

@@ -134,8 +134,8 @@ fn choice(given: &str, known: &[&str]) -> String {
     }
 }
 
-/// The path that an error of a scene begins with, `moves[3]: move.duration = 0: …` that of the move's
-/// own key.
+/// The path that an error of a scene begins with, `moves[3]: move.duration = 0: …` that of the
+/// move's own key.
 pub(super) fn path_of(error: &str) -> Option<Vec<String>> {
     let name = |text: &str| -> String {
         text.chars().take_while(|c| c.is_ascii_alphanumeric() || "_.[]".contains(*c)).collect()

@@ -44,8 +44,8 @@ impl<'a> Case<'a> {
         Case { steps, ..*self }
     }
 
-    /// The commanded motion, held against no limit. It goes on for a first period at least after the
-    /// last arrival if it ends at rest there, so that a run shows its residual vibration.
+    /// The commanded motion, held against no limit. It goes on for a first period at least after
+    /// the last arrival if it ends at rest there, so that a run shows its residual vibration.
     pub fn trajectory(&self) -> Result<Trajectory, Error> {
         let mut motions: Vec<Move> = self.steps.iter().flat_map(Step::motions).collect();
         let mut trajectory = self.plan(&motions)?;
@@ -102,7 +102,8 @@ impl<'a> Case<'a> {
         let mut ticks = 0;
         let mut plans = trajectory.plans().iter();
         for (index, step) in self.steps.iter().enumerate() {
-            // A dwell commands nothing: what still happens during it is the work of the move before.
+            // A dwell commands nothing: what still happens during it is the work of the move
+            // before.
             let dwells = matches!(step.motion, Move::Dwell { .. });
             if windows.is_empty() || !dwells {
                 let begin = ticks as f64 * self.tick;

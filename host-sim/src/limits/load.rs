@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::reference::rod::{self, Load, Options, Resume};
 use crate::trajectory::Trajectory;
 
-/// Fineness of a flight. With two polynomials more, or a thousandth of the tolerance, peak loads of the
-/// embedded scenes and of stiff bars change by less than 4e-4.
+/// Fineness of a flight. With two polynomials more, or a thousandth of the tolerance, peak loads of
+/// the embedded scenes and of stiff bars change by less than 4e-4.
 pub const FINE: Options = Options { order: 6, tolerance: 1e-6, integrator: None };
 
 /// Fineness of a first look and of a search, in a quarter of the time; error below 3e-3.
@@ -56,7 +56,8 @@ pub struct Found {
     pub excess: Excess,
     /// The window.
     pub window: Window,
-    /// The arm at the window's beginning, in a [`FINE`] flight and in a [`QUICK`] one; none at rest.
+    /// The arm at the window's beginning, in a [`FINE`] flight and in a [`QUICK`] one; none at
+    /// rest.
     pub states: [Option<Resume>; 2],
 }
 

@@ -18,15 +18,16 @@ const MOST_TICKS: u32 = 1 << 24;
 const TRIALS: u32 = 400;
 const FLIGHTS: u32 = 60;
 
-/// First periods that a search flies in all: up to ten seconds. A limit a thousand times too low takes
-/// moves so long that a search would not end; the refusal then says only that it takes a longer one.
+/// First periods that a search flies in all: up to ten seconds. A limit a thousand times too low
+/// takes moves so long that a search would not end; the refusal then says only that it takes a
+/// longer one.
 const BUDGET: f64 = 1000.0;
 
 /// Durations that are tried above the one that a quick search has found.
 const CLOSER: u32 = 24;
 
-/// Share of the aimed duration that a search may leap to: there a load would be twice its limit, and
-/// the most that a vibration does to a load is to double it or to cancel half of it.
+/// Share of the aimed duration that a search may leap to: there a load would be twice its limit,
+/// and the most that a vibration does to a load is to double it or to cancel half of it.
 const LEAP: f64 = 0.7;
 
 /// The refusal of a motion whose trajectory exceeds a kinematic limit.
@@ -216,9 +217,9 @@ fn searched(
 
 /// The shortest duration beyond `failing`, whole ticks, that keeps the limits.
 ///
-/// `keeps` says how many times as long a duration would have to be, none if it does. The durations go
-/// up to `LEAP` of that at once, then by no more than `careful` ticks or a twentieth, then are halved back to
-/// the last that failed. The error is the longest that was tried.
+/// `keeps` says how many times as long a duration would have to be, none if it does. The durations
+/// go up to `LEAP` of that at once, then by no more than `careful` ticks or a twentieth, then are
+/// halved back to the last that failed. The error is the longest that was tried.
 pub fn shortest(
     failing: u32,
     first: f64,

@@ -5,8 +5,8 @@ use stillbeam::{Angle, Scene};
 use crate::error::Error;
 use crate::reference::rod;
 
-/// Greatest step of the hub between two equilibria, rad: a holding torque's peak, flat as a cosine's,
-/// is then right to 1e-4.
+/// Greatest step of the hub between two equilibria, rad: a holding torque's peak, flat as a
+/// cosine's, is then right to 1e-4.
 const STEP: f64 = 0.03;
 
 /// Most equilibria: beyond two turns the torques repeat.

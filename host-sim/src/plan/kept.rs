@@ -1,8 +1,8 @@
 //! Still moves that keep their limits in truth.
 //!
-//! The planner knows the arm in two modes and from rest. What it plans is held against the limits as
-//! every motion is, torque and clamp moment by the reference rod, which still rings from the move
-//! before. Where that shows more than the planner saw, it plans again within tighter limits.
+//! The planner knows the arm in two modes and from rest. What it plans is held against the limits
+//! as every motion is, torque and clamp moment by the reference rod, which still rings from the
+//! move before. Where that shows more than the planner saw, it plans again within tighter limits.
 
 use std::cell::OnceCell;
 
@@ -25,7 +25,8 @@ const ROUNDS: u32 = 8;
 const LONGER: u32 = 40;
 const GROWTH: f64 = 1.03;
 
-/// Fraction of a duration below which no shorter one is looked for, and how often the rest is halved.
+/// Fraction of a duration below which no shorter one is looked for, and how often the rest is
+/// halved.
 const SHORTER: f64 = 0.8;
 const HALVINGS: u32 = 5;
 
@@ -144,8 +145,8 @@ impl Search<'_> {
     fn attempt(&self, duration: f64, limits: &Limits) -> Result<Result<StillMove, Failure>, Error> {
         let within =
             |limits: &Limits| self.planner.plan(&self.request().limits(*limits).duration(duration));
-        // The planner's own idea of the peaks is not asked first: the truth counts, behind the shaper and
-        // by the rod.
+        // The planner's own idea of the peaks is not asked first: the truth counts, behind the
+        // shaper and by the rod.
         let free = match within(&Limits::default()) {
             Ok(found) => found,
             Err(error) => return Ok(Err(Failure::Core(error))),
@@ -186,8 +187,8 @@ impl Search<'_> {
         Err(self.refusal(excess, Way::None(ticks * self.asked.before.tick)))
     }
 
-    /// Halves a duration back that tightened load limits made too long: they take the weight's share
-    /// of a load for the motion's.
+    /// Halves a duration back that tightened load limits made too long: they take the weight's
+    /// share of a load for the motion's.
     fn shortened(&self, found: StillMove, goal: &Limits) -> Result<StillMove, Error> {
         let mut found = found;
         if !load::limited(goal) {
@@ -207,8 +208,8 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// Plans, looks at the truth, and plans again within limits that are tighter by what it exceeds.
-    /// The failure comes with the ticks of the last plan.
+    /// Plans, looks at the truth, and plans again within limits that are tighter by what it
+    /// exceeds. The failure comes with the ticks of the last plan.
     fn tightened(
         &self,
         goal: &Limits,

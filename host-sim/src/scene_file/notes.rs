@@ -8,8 +8,8 @@ use crate::trajectory::Trajectory;
 const MOST: usize = 4;
 
 impl SceneFile {
-    /// What rounding to whole ticks changed, and what a shaper adds. Moves that are rounded alike share
-    /// a line.
+    /// What rounding to whole ticks changed, and what a shaper adds. Moves that are rounded alike
+    /// share a line.
     pub fn roundings(&self, tick: f64) -> Result<Vec<String>, Error> {
         let trajectory = self.trajectory(tick)?;
         let mut plans = trajectory.plans().iter();

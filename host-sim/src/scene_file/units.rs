@@ -1,8 +1,8 @@
 //! Remarks on values that are probably in another unit. None is refused: whoever means it gets it.
 //!
-//! A value is judged by the arm it belongs to: a link is longer than thick, a section of any solid has
-//! a stiffness that fits its mass, damping leaves a vibration. Thresholds lie a hundred times beyond
-//! what arms have, a thousand being what a wrong prefix makes.
+//! A value is judged by the arm it belongs to: a link is longer than thick, a section of any solid
+//! has a stiffness that fits its mass, damping leaves a vibration. Thresholds lie a hundred times
+//! beyond what arms have, a thousand being what a wrong prefix makes.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -18,8 +18,8 @@ const LONGEST: f64 = 30.0;
 /// Softest solid, Pa.
 const SOFTEST: f64 = 1e6;
 
-/// `EI/μ²` of a section, m⁵/(kg s²): `E/12ρ²` times the square's ratio of sides. Steel 270, aluminium
-/// 800, carbon 3,000; a hundredth of that for a tape, fifty times for a tube.
+/// `EI/μ²` of a section, m⁵/(kg s²): `E/12ρ²` times the square's ratio of sides. Steel 270,
+/// aluminium 800, carbon 3,000; a hundredth of that for a tape, fifty times for a tube.
 const SECTION: (f64, f64) = (0.02, 5e5);
 
 /// Heaviest payload, link masses.

@@ -9,7 +9,8 @@ use stillbeam_wiring::{Configuration, Joint};
 
 use crate::error::Error;
 
-/// Segments of the queue: more than any firmware has, so that what it accepted is never refused here.
+/// Segments of the queue: more than any firmware has, so that what it accepted is never refused
+/// here.
 const QUEUE: usize = 64;
 
 /// The firmware's wiring of an axis, for any method.

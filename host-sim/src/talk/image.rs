@@ -17,9 +17,9 @@ pub(super) const BUILD: &str = "cargo build -p stillbeam-firmware --bin applicat
 /// The image below cargo's target folder.
 const PLACE: &str = "thumbv7em-none-eabihf/application/application";
 
-/// Where `cargo build` puts the image for whoever calls this: in the target folder that cargo names,
-/// so that `CARGO_TARGET_DIR` and cargo's configuration hold, or in `target` where it names none. A
-/// `--target-dir` of the build's own cannot be known.
+/// Where `cargo build` puts the image for whoever calls this: in the target folder that cargo
+/// names, so that `CARGO_TARGET_DIR` and cargo's configuration hold, or in `target` where it names
+/// none. A `--target-dir` of the build's own cannot be known.
 pub fn default_image() -> PathBuf {
     target_folder().unwrap_or_else(|| "target".into()).join(PLACE)
 }
@@ -36,8 +36,8 @@ fn target_folder() -> Option<PathBuf> {
     Some(metadata.target_directory)
 }
 
-/// Checks that an image is for the emulated board. The firmware's build names the board by a symbol,
-/// `_board_mps2`.
+/// Checks that an image is for the emulated board. The firmware's build names the board by a
+/// symbol, `_board_mps2`.
 ///
 /// # Errors
 /// It is for another board, or names none.

@@ -12,8 +12,8 @@ use stillbeam_wiring::{Configuration, Work};
 use super::arm::{self, Arm, apart};
 use crate::error::Error;
 
-/// The same axis with the same code and method, on this machine. Its queue is longer, so that what the
-/// firmware accepted is never refused here.
+/// The same axis with the same code and method, on this machine. Its queue is longer, so that what
+/// the firmware accepted is never refused here.
 pub struct Replica {
     axis: Box<dyn Arm>,
     tick: f64,
@@ -24,8 +24,8 @@ pub struct Replica {
 }
 
 impl Replica {
-    /// The axis as described. `patient`: the host does not know when the firmware hears it, and takes
-    /// its word for a lost link.
+    /// The axis as described. `patient`: the host does not know when the firmware hears it, and
+    /// takes its word for a lost link.
     ///
     /// # Errors
     /// The firmware runs a method that is not in the list, or says what no axis can be.

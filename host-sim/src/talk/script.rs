@@ -24,8 +24,8 @@ pub enum Step {
     Rest,
 }
 
-/// Every part of the policy once: both axes move, one is stopped on its way, one takes up a payload,
-/// one is asked too much, the link is lost, the drives are switched off.
+/// Every part of the policy once: both axes move, one is stopped on its way, one takes up a
+/// payload, one is asked too much, the link is lost, the drives are switched off.
 pub const DEMONSTRATION: [&str; 20] = [
     "enable 0",
     "enable 1",
@@ -152,7 +152,8 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
     })
 }
 
-/// Any number; what it may be is the firmware's to say. Times of our own are checked when they pass.
+/// Any number; what it may be is the firmware's to say. Times of our own are checked when they
+/// pass.
 fn number(word: Option<&str>) -> Option<f64> {
     word?.parse().ok()
 }

@@ -4,8 +4,8 @@ use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
 use stillbeam_protocol::{Report, Request, slcan};
 
 /// Whatever comes over a line is cut into frames; one that is read is written as something that is
-/// read as the same. The first byte says whether the frames come with their checksum or get it here:
-/// without, hardly any would be read.
+/// read as the same. The first byte says whether the frames come with their checksum or get it
+/// here: without, hardly any would be read.
 pub fn frames(bytes: &[u8]) {
     let Some((&kind, rest)) = bytes.split_first() else { return };
     if kind.is_multiple_of(2) {

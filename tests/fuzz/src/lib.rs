@@ -1,5 +1,6 @@
 //! What every input must come through, whatever it is: no panic, nothing that is not finite, no
-//! reading that its own writing contradicts. A body takes bytes and panics where a promise is broken.
+//! reading that its own writing contradicts. A body takes bytes and panics where a promise is
+//! broken.
 //!
 //! The fuzz targets (`targets`) call them with what libFuzzer makes up, and the test of this
 //! crate with the inputs that are kept (`corpus`), on the stable toolchain.

@@ -34,7 +34,8 @@ pub struct Case {
 /// A method that does not carry the rate of a scene has no setpoints of it.
 ///
 /// # Errors
-/// The first scene or move that the core refuses for any other reason; none of the embedded ones is.
+/// The first scene or move that the core refuses for any other reason; none of the embedded ones
+/// is.
 pub fn run<F>(sink: &mut F) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>),

@@ -1,6 +1,6 @@
 //! The embedded scenes: those of `host-sim/scenes/*.toml`, as constants, because the target cannot
-//! read TOML. `cargo run -p stillbeam-tests --bin scenes` writes `embedded.in` from the scene files,
-//! and a test of `stillbeam-tests` fails where the two differ.
+//! read TOML. `cargo run -p stillbeam-tests --bin scenes` writes `embedded.in` from the scene
+//! files, and a test of `stillbeam-tests` fails where the two differ.
 
 use stillbeam::{Move, Scene};
 

@@ -17,7 +17,8 @@ pub const CHUNK: u64 = 10_000;
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// Runs the cases of those numbers on all cores and returns what they give, in the order of the
-/// numbers. `one` must depend on its number alone, so that the results do not depend on the threads.
+/// numbers. `one` must depend on its number alone, so that the results do not depend on the
+/// threads.
 ///
 /// A case that hangs cannot be interrupted: it ends the program in one line that names it, `what`
 /// and its number. `done` is called after each case.

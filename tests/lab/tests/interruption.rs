@@ -71,7 +71,8 @@ fn a_path_that_cannot_be_written_is_one_line_and_changes_nothing() {
     }
 }
 
-/// SIGKILL: no handler, no destructor, no flush. Under its name a file is there whole or not at all.
+/// SIGKILL: no handler, no destructor, no flush. Under its name a file is there whole or not at
+/// all.
 #[test]
 fn a_killed_sweep_leaves_no_half_table() {
     let bench = bench();

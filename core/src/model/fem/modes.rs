@@ -37,7 +37,8 @@ mod tests {
     use crate::model::EightElements;
     use crate::{Link, Scene};
 
-    /// Roots of `cos λ cosh λ = −1`: `ω = λ² √(EI/ρA)/L²`, which eight cubic elements meet from above.
+    /// Roots of `cos λ cosh λ = −1`: `ω = λ² √(EI/ρA)/L²`, which eight cubic elements meet from
+    /// above.
     #[test]
     fn frequencies_are_those_of_the_cantilever() {
         let link = Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 };

@@ -46,12 +46,12 @@ impl<T: Scalar> Braking<T> {
     /// The segment from `hub`, which is turning, to rest, the angle it ends at and the acceleration
     /// it begins with. Its first tick is the one after `hub`'s.
     ///
-    /// `θ̇(s) = (1 − s)²[v + s(2v + aT)]`, `s = t/T`: from rate `v` and acceleration `a` to rest with
-    /// no acceleration, never turning back. With `β = 6v/T` its peak is `(2a + β)²/4(3a + β)`, so
-    /// `T = 1.5 v/A` while slowing down and at most 2.12 v/A while speeding up stays within the limit
-    /// `A`; the jerk limit stretches it. Where a hub that speeds up would pass the limit of rate on
-    /// its way, its acceleration drops to zero at once, as it jumps at the ends of a cubic. Order of
-    /// precedence: angle and rate without a step, acceleration, rate, jerk.
+    /// `θ̇(s) = (1 − s)²[v + s(2v + aT)]`, `s = t/T`: from rate `v` and acceleration `a` to rest
+    /// with no acceleration, never turning back. With `β = 6v/T` its peak is `(2a + β)²/4(3a + β)`,
+    /// so `T = 1.5 v/A` while slowing down and at most 2.12 v/A while speeding up stays within the
+    /// limit `A`; the jerk limit stretches it. Where a hub that speeds up would pass the limit of
+    /// rate on its way, its acceleration drops to zero at once, as it jumps at the ends of a cubic.
+    /// Order of precedence: angle and rate without a step, acceleration, rate, jerk.
     pub(crate) fn stop(&self, hub: &HubState<T>) -> (Segment<T>, Angle<T>, T) {
         let sign = if hub.rate < T::ZERO { -T::ONE } else { T::ONE };
         let (v, mut a) = (sign * hub.rate, sign * hub.acceleration);

@@ -12,8 +12,8 @@ impl<T: Scalar> Segment<T> {
         (hub.angle, hub.rate, hub.acceleration) = (angle, rate, acceleration);
     }
 
-    /// The same segment with rate (rad/s) and acceleration (rad/s²) at its tick 0 as they are known,
-    /// in place of what the formula rounds to.
+    /// The same segment with rate (rad/s) and acceleration (rad/s²) at its tick 0 as they are
+    /// known, in place of what the formula rounds to.
     pub(crate) fn beginning(mut self, rate: T, acceleration: T) -> Self {
         (self.begin.rate, self.begin.acceleration) = (rate, acceleration);
         self

@@ -196,8 +196,8 @@ impl<T: Scalar> Segment<T> {
     }
 
     /// The moment of the border within the tick before, rad/s²: by how much `∫₀¹(1 − s)θ̈ ds` over
-    /// that tick exceeds that of the parabola with its mean and its ends, the later one the left-hand
-    /// value at the border. Zero where the border is a tick. The stepper takes it in by
+    /// that tick exceeds that of the parabola with its mean and its ends, the later one the
+    /// left-hand value at the border. Zero where the border is a tick. The stepper takes it in by
     /// [`Stepper::kink`](crate::Stepper::kink).
     pub fn kink_moment(&self) -> T {
         self.kink_moment

@@ -20,8 +20,8 @@ pub(crate) enum Shape<T> {
     Bulged { c: [T; 5], d: [T; BULGE] },
 }
 
-/// A bound of `|c₁ + 2c₂u + 3c₃u²|`: without its middle term it lies between its values at the middle and
-/// at the ends.
+/// A bound of `|c₁ + 2c₂u + 3c₃u²|`: without its middle term it lies between its values at the
+/// middle and at the ends.
 fn steepest<T: Scalar>([c1, c2, c3]: [T; 3]) -> T {
     let abs = |x: T| if x < T::ZERO { -x } else { x };
     let (middle, end) = (abs(c1), abs(c1 + (T::TWO + T::ONE) * c3));

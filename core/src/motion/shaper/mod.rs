@@ -126,8 +126,8 @@ impl Shaper {
         Ok(Self::normalised(pulses))
     }
 
-    /// Takes any table of one to five pulses: delays from 0 s on, rising; amplitudes with a positive sum,
-    /// which is made 1.
+    /// Takes any table of one to five pulses: delays from 0 s on, rising; amplitudes with a
+    /// positive sum, which is made 1.
     pub fn custom(pulses: &[Pulse]) -> Result<Self, Error> {
         Error::check("shaper.pulses", pulses.len() as f64, 1.0, MAX_PULSES as f64, "pulses")?;
         let mut before = 0.0;

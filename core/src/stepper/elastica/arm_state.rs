@@ -4,8 +4,8 @@ use super::{Elastica, ElasticaState};
 use crate::hub::HubState;
 use crate::math::Scalar;
 
-/// Modal coordinates of a [`Rod`](crate::model::Rod) and their rates: what a measurement of the arm gives, and what a still
-/// move is planned from.
+/// Modal coordinates of a [`Rod`](crate::model::Rod) and their rates: what a measurement of the arm
+/// gives, and what a still move is planned from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmState<T, const K: usize> {
     /// `a`, m √kg.

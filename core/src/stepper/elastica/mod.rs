@@ -102,7 +102,8 @@ pub struct ElasticaState<T, const K: usize> {
     /// The offset from what each mode turns about, and how far that moved in the last step.
     offset: [[T; 2]; K],
     drift: [[T; 2]; K],
-    /// The hub torque but for what is proportional to θ̈, and the inertia that is, the hub's included.
+    /// The hub torque but for what is proportional to θ̈, and the inertia that is, the hub's
+    /// included.
     torque: T,
     inertia: T,
 }
@@ -114,8 +115,8 @@ impl<T: Scalar, const K: usize> ElasticaState<T, K> {
         Self { y, offset, drift: [[T::ZERO; 2]; K], torque, inertia }
     }
 
-    /// From the prediction `guess` to the corrected state: `correct` is given the mode, its guess and
-    /// how much further than expected its offset drifted.
+    /// From the prediction `guess` to the corrected state: `correct` is given the mode, its guess
+    /// and how much further than expected its offset drifted.
     #[inline(always)]
     fn follow(
         &mut self,
@@ -138,13 +139,13 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// Least and greatest tip angle that the expansion is fitted for, rad.
     pub const BEND: (f64, f64) = (0.05, 2.0);
 
-    /// Fastest turn that may go on and on, rad a tick: beyond it the predictor's spin terms feed the arm,
-    /// too little to matter within a move.
+    /// Fastest turn that may go on and on, rad a tick: beyond it the predictor's spin terms feed
+    /// the arm, too little to matter within a move.
     pub const HELD: f64 = 0.1;
 
     /// For steps of `tick` s and tip angles up to `bend` rad relative to the hub, 0 to 2: see
-    /// [`Rod::bend`]. A smaller range than the least of [`Self::BEND`] is that one: a stiff arm or a
-    /// slow move bends by less, and an expansion fitted to nothing would be none. f64 inside.
+    /// [`Rod::bend`]. A smaller range than the least of [`Self::BEND`] is that one: a stiff arm or
+    /// a slow move bends by less, and an expansion fitted to nothing would be none. f64 inside.
     pub fn new(rod: &Rod<K>, tick: f64, quality: Quality, bend: f64) -> Result<Self, Error> {
         let tick = super::check_tick(tick)?;
         let (least, most) = Self::BEND;

@@ -6,10 +6,10 @@ use crate::stepper::oscillator::{contracting, gain};
 
 /// `ẏ = A(y − r) − (0, b u(t))`, `y = (ωa, p̃)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`.
 ///
-/// Everything in m √kg/s. The remainder `n` of the equations of motion is what moves the centre,
-/// `r = −A⁻¹n`: in these coordinates `A⁻¹` is an exchange of rows and costs nothing, and where `n`
-/// stays what it is the mode turns about `r`. What is kept is the offset `s = −r` to that centre, and
-/// its drift, which spares changes of sign. With `r` changing by `δ` a step, exactly
+/// Everything in m √kg/s. The remainder `n` of the equations of motion is what moves the centre, `r
+/// = −A⁻¹n`: in these coordinates `A⁻¹` is an exchange of rows and costs nothing, and where `n`
+/// stays what it is the mode turns about `r`. What is kept is the offset `s = −r` to that centre,
+/// and its drift, which spares changes of sign. With `r` changing by `δ` a step, exactly
 ///
 /// `y(h) = y + δ + (E − I)(y − o) + …`, `E = exp(hA)`, `o = r + (hA)⁻¹δ`,
 ///
@@ -81,8 +81,8 @@ impl<T: Scalar> Mode<T> {
         })
     }
 
-    /// The same for an undamped mode and a `u` that is `begin` and gains `gained` in a straight line:
-    /// the centre moves with it, and all that is left is a rotation.
+    /// The same for an undamped mode and a `u` that is `begin` and gains `gained` in a straight
+    /// line: the centre moves with it, and all that is left is a rotation.
     #[inline(always)]
     pub(super) fn rotate(
         &self,
@@ -102,8 +102,8 @@ impl<T: Scalar> Mode<T> {
         ]
     }
 
-    /// The same without a load: the hub rests. Drawn towards the centre by the fraction `damping`: by twice
-    /// as much of `p̃` alone, which turns into the other.
+    /// The same without a load: the hub rests. Drawn towards the centre by the fraction `damping`:
+    /// by twice as much of `p̃` alone, which turns into the other.
     #[inline(always)]
     pub(super) fn step_at_rest(&self, y: [T; 2], off: [T; 2], drift: [T; 2], damping: T) -> [T; 2] {
         let [versine, sin] = self.turn[0];

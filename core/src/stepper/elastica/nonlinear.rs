@@ -124,8 +124,8 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         self.omega[k]
     }
 
-    /// The nonlinear terms for `y = (ωa, p̃)` and a hub. Without `ALL` there is neither damping nor gravity;
-    /// without `TURNS` the hub rests.
+    /// The nonlinear terms for `y = (ωa, p̃)` and a hub. Without `ALL` there is neither damping nor
+    /// gravity; without `TURNS` the hub rests.
     #[inline(always)]
     pub(super) fn evaluate<const ALL: bool, const TURNS: bool>(
         &self,

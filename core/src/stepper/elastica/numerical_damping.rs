@@ -3,9 +3,9 @@
 use crate::math::{Scalar, sqrt};
 use crate::model::Rod;
 
-/// Energy gained a step, of itself, per `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in several:
-/// 9e-4 to 1.1e-3 of small bends as measured on bare and loaded links from ω₁h = 0.03 to 3; of one mode
-/// up to 3.5e-3 at one radian, where others take energy from it.
+/// Energy gained a step, of itself, per `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in
+/// several: 9e-4 to 1.1e-3 of small bends as measured on bare and loaded links from ω₁h = 0.03 to
+/// 3; of one mode up to 3.5e-3 at one radian, where others take energy from it.
 const ENERGY_GROWTH: [f64; 2] = [3.5e-3, 1.2e-3];
 
 /// Greatest `(ωh)⁴` that counts, of the first mode and of the others, which are left more of their
@@ -15,9 +15,10 @@ const LARGEST_TURN: [f64; 2] = [32.0, 1.0];
 /// Fraction of a rounding, 5e-9 a step of which were gained in f32.
 const ROUNDING: f64 = 0.25;
 
-/// The corrector of [`Elastica`](super::Elastica) is explicit in the remainder: a step feeds an arm by
-/// `ENERGY_GROWTH b²(ω₁h)⁴` of its energy, nothing within a move, a lot over a million ticks. An arm that rings on
-/// with its hub at rest is drawn towards its centre by as much, and a little more.
+/// The corrector of [`Elastica`](super::Elastica) is explicit in the remainder: a step feeds an arm
+/// by `ENERGY_GROWTH b²(ω₁h)⁴` of its energy, nothing within a move, a lot over a million ticks. An
+/// arm that rings on with its hub at rest is drawn towards its centre by as much, and a little
+/// more.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NumericalDamping<T, const K: usize> {
     /// `b²` per square of the first mode's offset, and its greatest.
@@ -50,7 +51,8 @@ impl<T: Scalar, const K: usize> NumericalDamping<T, K> {
         T::from_f64(bend / sqrt(self.bend.to_f64()))
     }
 
-    /// The fraction by which each mode is drawn to its centre in a step, by how far the first is off.
+    /// The fraction by which each mode is drawn to its centre in a step, by how far the first is
+    /// off.
     #[inline(always)]
     pub(super) fn at(&self, off: &[T; 2]) -> [T; K] {
         let bend = self.bend * (off[0] * off[0] + off[1] * off[1]);

@@ -12,16 +12,16 @@ const ANGLES: [(f64, f64); 6] =
 /// Ticks that an arm is left alone.
 const TICKS: u32 = 200;
 
-/// Largest factor by which its displacement may grow meanwhile. An exact vibration about a bent rest
-/// grows to twice its amplitude at most.
+/// Largest factor by which its displacement may grow meanwhile. An exact vibration about a bent
+/// rest grows to twice its amplitude at most.
 const LARGEST_GROWTH: f64 = 10.0;
 
 /// First displacement, as a fraction of the tip angle that the arm is set up for.
 const DISPLACEMENT: f64 = 1e-3;
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
-    /// True if the arm stays where its weight bends it to. The predictor feeds energy to an arm that
-    /// bends far while a tick hardly resolves its first mode. Set-up only.
+    /// True if the arm stays where its weight bends it to. The predictor feeds energy to an arm
+    /// that bends far while a tick hardly resolves its first mode. Set-up only.
     pub(super) fn is_stable_at_rest(&self) -> bool {
         !self.feels_gravity() || ANGLES.iter().all(|&angle| self.is_stable_at(angle))
     }

@@ -1,10 +1,10 @@
 //! Rates of the hub at which the spin terms leave the steps bounded.
 //!
-//! Each mode is advanced exactly, the spin force as a straight line over the tick: of second order, but
-//! not stable whatever the rate. A mode alone grows where it turns just less than an odd number of half
-//! turns a tick, two together where their turns add up to whole ones, and no formula is simpler than
-//! asking the step itself: the trace of its power, the sum of the powers of its eigenvalues, stays
-//! below their number where nothing grows.
+//! Each mode is advanced exactly, the spin force as a straight line over the tick: of second order,
+//! but not stable whatever the rate. A mode alone grows where it turns just less than an odd number
+//! of half turns a tick, two together where their turns add up to whole ones, and no formula is
+//! simpler than asking the step itself: the trace of its power, the sum of the powers of its
+//! eigenvalues, stays below their number where nothing grows.
 
 use super::{Modal, ModalState};
 use crate::Error;
@@ -26,8 +26,9 @@ const RATIO: f64 = 1.15;
 const MOST_TRIES: u32 = 1000;
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
-    /// Refuses a rate that would feed the modes a hundredfold within `2²⁰` ticks, held or passed through.
-    /// Set-up only: where the bound of the linear ticks does not settle it, a million operations.
+    /// Refuses a rate that would feed the modes a hundredfold within `2²⁰` ticks, held or passed
+    /// through. Set-up only: where the bound of the linear ticks does not settle it, a million
+    /// operations.
     pub(super) fn admit_rate(&self, rate: f64) -> Result<(), Error> {
         let settled = self.fastest.to_f64();
         let carries = |rate: f64| {
@@ -48,8 +49,8 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         Err(Error::TooFast { rate, max })
     }
 
-    /// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being taken
-    /// at a predicted state, as in linear ticks; faster ones take the general step.
+    /// Largest `θ̇` at which no mode gains more than a thousandth a tick from its spin terms being
+    /// taken at a predicted state, as in linear ticks; faster ones take the general step.
     pub(super) fn fastest_linear_rate(&self, omega: &[f64; K]) -> f64 {
         let mut rate = surely_linear(&self.spin, omega, self.tick);
         for _ in 0..MOST_TRIES {
@@ -62,8 +63,8 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         rate
     }
 
-    /// Refuses a gravity that would feed the modes likewise where the hub rests: one that takes or gives
-    /// much of a mode's stiffness while a tick hardly resolves it. Set-up only.
+    /// Refuses a gravity that would feed the modes likewise where the hub rests: one that takes or
+    /// gives much of a mode's stiffness while a tick hardly resolves it. Set-up only.
     pub(super) fn admit_gravity(&self, gravity: f64) -> Result<(), Error> {
         let carries = |share: f64| {
             SLOPES.iter().all(|slope| self.held(0.0, slope * share, false).stays_bounded(20, 100.0))
@@ -102,8 +103,8 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 }
 
 impl<T: Scalar, const K: usize> Step<T, K> {
-    /// True if the mean of the eigenvalues' powers stays below `most` through `2^doublings` ticks: a
-    /// trace, which does not depend on how the state is scaled.
+    /// True if the mean of the eigenvalues' powers stays below `most` through `2^doublings` ticks:
+    /// a trace, which does not depend on how the state is scaled.
     fn stays_bounded(mut self, doublings: u32, most: f64) -> bool {
         let most = T::from_f64(most * 2.0 * K as f64);
         (0..doublings).all(|_| {
@@ -133,9 +134,9 @@ impl<T: Scalar, const K: usize> Step<T, K> {
     }
 }
 
-/// A rate that feeds no mode: `θ̇²Γ` is compared with `2/h²`, above which a mode that the tick resolves
-/// blows up, or with a twentieth of the `ω²` of a mode that turns more than 2 rad a tick: beyond half a
-/// turn a predicted force always feeds a mode a little.
+/// A rate that feeds no mode: `θ̇²Γ` is compared with `2/h²`, above which a mode that the tick
+/// resolves blows up, or with a twentieth of the `ω²` of a mode that turns more than 2 rad a tick:
+/// beyond half a turn a predicted force always feeds a mode a little.
 fn surely_linear<T: Scalar, const K: usize>(
     spin: &Band<T, K, K>,
     omega: &[f64; K],

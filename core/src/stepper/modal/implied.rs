@@ -6,13 +6,13 @@ use crate::math::{Scalar, clip};
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// The change of the force over a step that agrees with the coordinates it leads to, from that
-    /// at the predicted ones: `(I + S D) e = c`, `S = θ̇²Γ − g sinθ Π`, `D` what a mode moves by for a
-    /// change of its force by 1.
+    /// at the predicted ones: `(I + S D) e = c`, `S = θ̇²Γ − g sinθ Π`, `D` what a mode moves by
+    /// for a change of its force by 1.
     ///
-    /// Taken at the predicted coordinates the force would feed modes that turn more than half a turn
-    /// a tick: by `½r²` a tick and less, `r` the share of `S` in the mode's stiffness. So the step is
-    /// the same forwards and backwards, and neither feeds nor damps. Under gravity it is clipped to
-    /// `MOST_GRAVITY_CHANGE`.
+    /// Taken at the predicted coordinates the force would feed modes that turn more than half a
+    /// turn a tick: by `½r²` a tick and less, `r` the share of `S` in the mode's stiffness. So the
+    /// step is the same forwards and backwards, and neither feeds nor damps. Under gravity it is
+    /// clipped to `MOST_GRAVITY_CHANGE`.
     #[inline(always)]
     pub(super) fn implied(&self, mut change: [T; K], hub: &HubState<T>) -> [T; K] {
         let rate2 = if self.terms.spin { hub.rate * hub.rate } else { T::ZERO };

@@ -56,13 +56,14 @@ pub struct Modal<T, const K: usize> {
     bent: HalfForm<T, K, K>,
     weight: [T; K],
     moment: T,
-    /// Weights of the squares of how far a mode is from rest and of `ωȧ`: their sum is below 1 when the
-    /// arm is to sleep.
+    /// Weights of the squares of how far a mode is from rest and of `ωȧ`: their sum is below 1 when
+    /// the arm is to sleep.
     awake: [[T; 2]; K],
     tick: f64,
     /// Largest change of a force over `ω` in a tick, see [`super::MOST_GRAVITY_CHANGE`].
     most: T,
-    /// Rate up to which the spin terms may be taken at a predicted state, as in linear ticks, rad/s.
+    /// Rate up to which the spin terms may be taken at a predicted state, as in linear ticks,
+    /// rad/s.
     fastest: T,
     kicks: [Kicks<T>; K],
 }

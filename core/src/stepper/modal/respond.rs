@@ -5,8 +5,8 @@ use crate::hub::HubState;
 use crate::math::{Scalar, dot};
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
-    /// `(J_h + J_r − bᵀb)θ̈ + bᵀ(ä + bu + αȧ + βω²ȧ)`: the drive and the drag cancel, and the force less
-    /// the spring is left.
+    /// `(J_h + J_r − bᵀb)θ̈ + bᵀ(ä + bu + αȧ + βω²ȧ)`: the drive and the drag cancel, and the force
+    /// less the spring is left.
     #[inline(always)]
     pub(super) fn inertial(&self, state: &ModalState<T, K>, acceleration: T) -> T {
         let mut pull = state.coordinate;

@@ -82,7 +82,8 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     }
 }
 
-/// Weights of the squares of `ωa` and of `ωȧ` of a mode that is settled below the coordinate `floor`.
+/// Weights of the squares of `ωa` and of `ωȧ` of a mode that is settled below the coordinate
+/// `floor`.
 fn settled_weights<T: Scalar>(omega: f64, floor: f64) -> [T; 2] {
     [floor, omega * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
 }

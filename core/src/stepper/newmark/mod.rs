@@ -18,10 +18,11 @@
 //! which needs neither h nor `v` itself, and no difference of large numbers.
 //!
 //! Where the matrices are full (one or two elements, lumped mass), `q` is taken along the principal
-//! axes of `G` in the metric of `K`: `K` is then the identity and `G` a diagonal, and only the solve
-//! with the mass is left to couple the coordinates. The scheme is the same, at a third less work with
-//! one element. Not modes: with `K` exact on the diagonal the lowest of them loses nothing to rounding,
-//! and the spin terms stay off the coupling. Banded matrices would fill; they keep the nodes' `q`.
+//! axes of `G` in the metric of `K`: `K` is then the identity and `G` a diagonal, and only the
+//! solve with the mass is left to couple the coordinates. The scheme is the same, at a third less
+//! work with one element. Not modes: with `K` exact on the diagonal the lowest of them loses
+//! nothing to rounding, and the spin terms stay off the coupling. Banded matrices would fill; they
+//! keep the nodes' `q`.
 
 mod respond;
 mod setup;
@@ -212,9 +213,10 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
         *state = Self::correct(q, d, restoring);
     }
 
-    /// Does nothing: the step takes the hub's rates only, which say what a jump inside the tick gives
-    /// `v`. Where in the tick it jumps moves `q` by at most `⅛(ωh)²` of what the jump bends it by: no
-    /// more than the rule's own period error, `(ωh)²/12` a radian, makes of it within a period.
+    /// Does nothing: the step takes the hub's rates only, which say what a jump inside the tick
+    /// gives `v`. Where in the tick it jumps moves `q` by at most `⅛(ωh)²` of what the jump bends
+    /// it by: no more than the rule's own period error, `(ωh)²/12` a radian, makes of it within a
+    /// period.
     #[inline(always)]
     fn kink(&self, _: &mut NewmarkState<T, N>, _: KinkMoments<'_, T>) {}
 

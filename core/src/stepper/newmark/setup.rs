@@ -8,18 +8,18 @@ use crate::scene::Scene;
 use crate::stepper::terms::Terms;
 use crate::stepper::{MOST_GRAVITY_CHANGE, SLEEP, check_tick};
 
-/// Heaviest payload along principal axes, in link masses over the roundings of the tick's precision:
-/// 17,000 of them in f32. The effective matrix is then as ill-conditioned as the squares of the first
-/// two frequencies are apart, 80 times the ratio of the masses.
+/// Heaviest payload along principal axes, in link masses over the roundings of the tick's
+/// precision: 17,000 of them in f32. The effective matrix is then as ill-conditioned as the squares
+/// of the first two frequencies are apart, 80 times the ratio of the masses.
 const HEAVIEST: f64 = 0.002;
 
-/// By how much more `K` counts in the effective matrix than it should, in roundings a degree of freedom.
-/// Where `4/h² M` is small against it, a `c` beyond `q*` feeds the arm: the rounding of the two must not
-/// get it there. A mode that the tick resolves does not notice.
+/// By how much more `K` counts in the effective matrix than it should, in roundings a degree of
+/// freedom. Where `4/h² M` is small against it, a `c` beyond `q*` feeds the arm: the rounding of
+/// the two must not get it there. A mode that the tick resolves does not notice.
 const MARGIN: f64 = 4.0;
 
-/// By how much the rounding of `K q` may feed an arm, in roundings a tick: in f32, undamped arms of four
-/// and eight elements gained 1e-8 and 1e-7 of their energy a tick.
+/// By how much the rounding of `K q` may feed an arm, in roundings a tick: in f32, undamped arms of
+/// four and eight elements gained 1e-8 and 1e-7 of their energy a tick.
 const fn numerical_damping<const N: usize>() -> f64 {
     let share = N as f64 / 16.0;
     2.5 * share * share * share
@@ -101,9 +101,9 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         core::array::from_fn(|i| core::array::from_fn(|j| if i == j { P::ONE } else { P::ZERO }))
     }
 
-    /// Refuses a tick so long that `4/h² M` is a rounding of `K`. The effective matrix would leave a mass
-    /// that is not positive, and the step would feed the arm: refused from where a pivot of the one
-    /// is that of the other.
+    /// Refuses a tick so long that `4/h² M` is a rounding of `K`. The effective matrix would leave
+    /// a mass that is not positive, and the step would feed the arm: refused from where a pivot of
+    /// the one is that of the other.
     fn check_longest<P: Scalar>(
         tick: f64,
         inertia: &Ldl<P, N, W>,
@@ -115,12 +115,12 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         Error::check("solver.tick", tick, 1e-6, longest.to_f64(), "s").map(drop)
     }
 
-    /// Weights of [`Newmark::awake`] for a link of `length` m, `stiff` being `(½hω₁)²` by Rayleigh's
-    /// quotient.
+    /// Weights of [`Newmark::awake`] for a link of `length` m, `stiff` being `(½hω₁)²` by
+    /// Rayleigh's quotient.
     fn awake<P: Scalar>(length: P, tip: &[P; N], stiff: P) -> [T; 2] {
         let floor = P::from_f64(SLEEP) * length;
-        // Principal coordinates by what they move the tip together; nodes' by their deflection or, a
-        // slope, by that of a link's length.
+        // Principal coordinates by what they move the tip together; nodes' by their deflection or,
+        // a slope, by that of a link's length.
         let long = length * length;
         let reach = match Self::PRINCIPAL {
             true => dot(tip, tip),

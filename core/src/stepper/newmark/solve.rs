@@ -18,8 +18,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         if Self::PRINCIPAL { self.spin.diagonal_times(q) } else { self.spin.times(q) }
     }
 
-    /// Turns `q` and `d` into `q*` and `d*`, the hub having gained that much rate. In place, as no copy
-    /// of an array is free.
+    /// Turns `q` and `d` into `q*` and `d*`, the hub having gained that much rate. In place, as no
+    /// copy of an array is free.
     #[inline(always)]
     pub(super) fn predict<M: HubMotion>(
         &self,

@@ -1,5 +1,5 @@
-//! Planning and set-up, below everything else: however long they take, ticks, drives and requests go
-//! on. The tick is masked while their results are handed over, no longer.
+//! Planning and set-up, below everything else: however long they take, ticks, drives and requests
+//! go on. The tick is masked while their results are handed over, no longer.
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
@@ -51,8 +51,8 @@ pub async fn run() {
     }
 }
 
-/// Plans with the tick running and hands the plan over. Where the axis' motion has changed meanwhile
-/// it is planned once more.
+/// Plans with the tick running and hands the plan over. Where the axis' motion has changed
+/// meanwhile it is planned once more.
 fn follow(
     axis: usize,
     plan: impl Fn(&PlanContext) -> Result<PlannedMove<f32>, Error>,

@@ -6,11 +6,11 @@ use super::node::{Change, Node};
 
 /// A Bernoulli-Euler element between two nodes, cubic in its own frame.
 ///
-/// The frame is the chord; θ̄ᵢ are the end rotations against it and
-/// `ε = (l − l₀)/l₀ + (2θ̄₁² − θ̄₁θ̄₂ + 2θ̄₂²)/30` is the mean stretch of the cubic (second order in
-/// slope), which a chord that shortens by bending does not change. Energy
-/// `½ EA l₀ ε² + ½ EI/l₀ (4θ̄₁² + 4θ̄₁θ̄₂ + 4θ̄₂²)`; stiffness-proportional damping adds β times the
-/// rates of ε and θ̄ to them, so that rigid motion is not damped.
+/// The frame is the chord; θ̄ᵢ are the end rotations against it and `ε = (l − l₀)/l₀ + (2θ̄₁² −
+/// θ̄₁θ̄₂ + 2θ̄₂²)/30` is the mean stretch of the cubic (second order in slope), which a chord that
+/// shortens by bending does not change. Energy `½ EA l₀ ε² + ½ EI/l₀ (4θ̄₁² + 4θ̄₁θ̄₂ + 4θ̄₂²)`;
+/// stiffness-proportional damping adds β times the rates of ε and θ̄ to them, so that rigid motion
+/// is not damped.
 ///
 /// Sources: Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1 (1991),
 /// section 7.4; Battini, Co-rotational beam elements (2002), shallow-arch strain.

@@ -2,11 +2,11 @@
 //! rigid motion with the hub, `u_m`, which is given, and the deformation `u_d`, which is solved
 //! for.
 //!
-//! `M(ü_m + ü_d) + αM(u̇_m + u̇_d) + f(u_d) + βK u̇_d = weight`, with f the internal forces of cubic
-//! elements in corotational frames and β acting on their deformation rates; Newmark's rule
-//! (δ = 1/2, β = 1/4) on u_d with equilibrium iterations. The formulation is that of Kato and
-//! Isobe's trajectory calculation for flexible manipulators (section 2), with iterations added.
-//! Error: of second order in the step, of fourth in the element's length.
+//! `M(ü_m + ü_d) + αM(u̇_m + u̇_d) + f(u_d) + βK u̇_d = weight`, with f the internal forces of
+//! cubic elements in corotational frames and β acting on their deformation rates; Newmark's rule (δ
+//! = 1/2, β = 1/4) on u_d with equilibrium iterations. The formulation is that of Kato and Isobe's
+//! trajectory calculation for flexible manipulators (section 2), with iterations added. Error: of
+//! second order in the step, of fourth in the element's length.
 
 mod block;
 mod element;

@@ -15,8 +15,8 @@ pub(super) struct Rod<const N: usize> {
     masses: [f64; STATIONS],
     /// `ψₖ` at the points, shape by shape.
     by_shape: [[f64; POINTS]; N],
-    /// R, what integrates values at the points from the clamp to each station, m: station by station, and
-    /// the same point by point.
+    /// R, what integrates values at the points from the clamp to each station, m: station by
+    /// station, and the same point by point.
     by_station: [[f64; POINTS]; STATIONS],
     by_point: [[f64; STATIONS]; POINTS],
     /// `Σₛ mₛ Rₛₚ Rₛ_q`, kg m²: the inertia that the angles at the points
@@ -131,8 +131,8 @@ impl<const N: usize> Rod<N> {
         mass
     }
 
-    /// Absolute acceleration of a station in hub axes but for what ä gives it, drag and weight counted
-    /// as accelerations, m/s².
+    /// Absolute acceleration of a station in hub axes but for what ä gives it, drag and weight
+    /// counted as accelerations, m/s².
     fn bias(&self, at: &Configuration, s: usize, hub: &HubState<f64>) -> [f64; 2] {
         let [x, y, xd, yd, cx, cy] = at.stations.map(|quantity| quantity[s]);
         let (rate, acceleration) = (hub.rate, hub.acceleration);

@@ -108,8 +108,9 @@ pub struct Resume {
     state: Vec<f64>,
 }
 
-/// Flies the arm from `resume`, or else from rest at the beginning, to `until` s, and has `visit` see the loads at every step of the integrator and on both
-/// sides of every break. The steps resolve the fastest vibration of the rod.
+/// Flies the arm from `resume`, or else from rest at the beginning, to `until` s, and has `visit`
+/// see the loads at every step of the integrator and on both sides of every break. The steps
+/// resolve the fastest vibration of the rod.
 ///
 /// Returns where the flight got to, to be resumed from with the same options.
 pub fn watch(
@@ -134,8 +135,8 @@ pub fn watch(
     }
 }
 
-/// Hub torque and bending moment at the clamp, N m, of the arm at rest under its own weight with the
-/// hub at `angle`.
+/// Hub torque and bending moment at the clamp, N m, of the arm at rest under its own weight with
+/// the hub at `angle`.
 pub fn rest_loads(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], ReferenceError> {
     let rod = Rod::<7>::new(&scene.validate()?);
     let (sin, cos) = angle.sin_cos();

@@ -13,25 +13,25 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::reference::{Sample, rod};
 use stillbeam_sim::trajectory::Trajectory;
 
-/// Polynomials of the judge, coarsest first. An arm is judged with one more each time, until no verdict
-/// hangs on it.
+/// Polynomials of the judge, coarsest first. An arm is judged with one more each time, until no
+/// verdict hangs on it.
 pub(super) const ORDERS: [usize; 4] = [5, 6, 7, 8];
 
 /// Least and largest tolerance of a step, rad. Most steps are bound by the highest polynomial's
 /// vibration; this is for the others.
 pub(super) const TOLERANCE: (f64, f64) = (1e-11, 1e-7);
 
-/// Tolerance of a step, fraction of the angle that the arm bends by: a stiff arm bends by 1e-4, and its
-/// torque is to be right to a part in a thousand of that.
+/// Tolerance of a step, fraction of the angle that the arm bends by: a stiff arm bends by 1e-4, and
+/// its torque is to be right to a part in a thousand of that.
 pub(super) const PART: f64 = 1e-5;
 
-/// Factor between a rung's error and the tolerance from which on the coarsest judge is enough: it errs
-/// by two fifths of the error where the torque rings most.
+/// Factor between a rung's error and the tolerance from which on the coarsest judge is enough: it
+/// errs by two fifths of the error where the torque rings most.
 pub(super) const FAR: f64 = 2.5;
 
 /// Largest change of a rung's error from one judge to the next, fraction of its distance from the
-/// tolerance. Each polynomial more takes half of the remaining error or less, so that what is left is no
-/// larger than the change.
+/// tolerance. Each polynomial more takes half of the remaining error or less, so that what is left
+/// is no larger than the change.
 pub(super) const CHANGE: f64 = 0.25;
 
 /// Largest change where the error is below twice the tolerance, fraction of the tolerance.
@@ -139,8 +139,8 @@ impl Case {
     }
 }
 
-/// By tick, true if it is one and a half ticks or more from every jump of the commanded acceleration,
-/// as `compare` has it.
+/// By tick, true if it is one and a half ticks or more from every jump of the commanded
+/// acceleration, as `compare` has it.
 fn away(trajectory: &Trajectory, tick: f64) -> Vec<bool> {
     let jumps = compare::jumps(trajectory);
     let near = |t: f64| jumps.iter().any(|jump| (t - jump).abs() <= 1.5 * tick);
@@ -155,8 +155,8 @@ fn larger([a, b]: [f64; 2]) -> f64 {
     a.max(b)
 }
 
-/// Errors of a rung by two judges, for the rungs that a verdict hangs on: those up to the chosen one, or
-/// all where that is none or beyond its tolerances.
+/// Errors of a rung by two judges, for the rungs that a verdict hangs on: those up to the chosen
+/// one, or all where that is none or beyond its tolerances.
 fn pairs(a: &[[f64; 2]], b: &[[f64; 2]], chosen: Option<usize>) -> Vec<(f64, f64)> {
     let kept = |rung: &usize| larger(a[*rung]).max(larger(b[*rung])) <= 1.0;
     let count = chosen.filter(kept).map_or(a.len(), |rung| rung + 1);

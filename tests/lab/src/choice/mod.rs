@@ -18,8 +18,8 @@ use stillbeam_sim::error::Error;
 /// What the arms of the documented campaign are drawn with.
 pub const SEED: u64 = 20_261_122;
 
-/// Judges the first `count` arms of a seed on all cores: the same verdicts, in the same order, on any
-/// number of them.
+/// Judges the first `count` arms of a seed on all cores: the same verdicts, in the same order, on
+/// any number of them.
 pub fn campaign(seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Result<Vec<Verdict>, Error> {
     let verdicts = campaign::each("arm", 0..count, done, |index| {
         let verdict = Case::random(seed, index).and_then(|case| case.judge(index));

@@ -103,8 +103,8 @@ impl Summary {
         self.too_dear[0] + self.too_dear[1]
     }
 
-    /// True if fewer than 1 in 1,000 choices exceed the tolerance and 99 in 100 are at most one rung
-    /// too dear.
+    /// True if fewer than 1 in 1,000 choices exceed the tolerance and 99 in 100 are at most one
+    /// rung too dear.
     pub fn holds(&self) -> bool {
         1000 * self.exceeded < self.choices()
             && 100 * self.at_most_one_too_dear() >= 99 * self.choices()

@@ -77,7 +77,8 @@ impl Verdict {
         self.error().is_some_and(|error| error > 1.0)
     }
 
-    /// Rungs of the choice above the cheapest that met the tolerances; none where no cheaper one did.
+    /// Rungs of the choice above the cheapest that met the tolerances; none where no cheaper one
+    /// did.
     pub fn rungs_too_dear(&self) -> Option<usize> {
         let chosen = self.chosen()?;
         Some(chosen.saturating_sub(self.cheapest().unwrap_or(chosen)))

@@ -1,4 +1,5 @@
-//! `auto`: how good the choices of `auto` are, every rung of the ladder judged by the reference rod.
+//! `auto`: how good the choices of `auto` are, every rung of the ladder judged by the reference
+//! rod.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -1,5 +1,5 @@
-//! The firmware around one axis: bytes in, requests carried out, a tick when it comes. The axis, the
-//! frames, the pace and the motor side are the firmware's own; what stands here is its wiring.
+//! The firmware around one axis: bytes in, requests carried out, a tick when it comes. The axis,
+//! the frames, the pace and the motor side are the firmware's own; what stands here is its wiring.
 
 use std::collections::VecDeque;
 

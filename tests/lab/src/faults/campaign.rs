@@ -179,7 +179,8 @@ impl<'a> Run<'a> {
         self.elapsed = Some(elapsed);
         let Some(step) = self.board.tick(self.now) else { return };
         self.made += 1;
-        // The path never runs ahead of time: one tick at the beginning, one a period, to the nearest.
+        // The path never runs ahead of time: one tick at the beginning, one a period, to the
+        // nearest.
         let period = u64::from(PERIOD);
         if self.made > 1 + (elapsed + period / 2) / period {
             self.broken.push(format!("{} ticks made in {elapsed} µs", self.made));

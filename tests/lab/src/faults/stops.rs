@@ -13,8 +13,8 @@ use stillbeam_sim::error::Error;
 /// Ticks of the moves, 1.2 s, and a few after.
 const TICKS: u32 = ticks(1.3);
 
-/// Every profile, a spin-up and its end, and where it can be planned a still move; each with another
-/// move waiting behind it.
+/// Every profile, a spin-up and its end, and where it can be planned a still move; each with
+/// another move waiting behind it.
 fn moves(configuration: &Configuration) -> Result<Vec<Move>, Error> {
     let mut moves = Profile::ALL.map(|p| Move::To { profile: p, duration: 1.2, to: 1.5 }).to_vec();
     moves.push(Move::SpinUp { duration: 1.0, rate: 0.8 * 5.0 });

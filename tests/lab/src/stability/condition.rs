@@ -20,10 +20,11 @@ pub struct Loss {
     pub assembled: f64,
     /// The same after scaling each degree of freedom so that the diagonal is 1.
     pub scaled: f64,
-    /// Error of the tip in a solution in f32, of itself: factors of the matrix as assembled, and scaled.
+    /// Error of the tip in a solution in f32, of itself: factors of the matrix as assembled, and
+    /// scaled.
     pub solved: [f64; 2],
-    /// Error of `ω₁²q₁` by way of `K q` in f32, of itself, `q` the first mode: as assembled, and by the
-    /// elements' deformations.
+    /// Error of `ω₁²q₁` by way of `K q` in f32, of itself, `q` the first mode: as assembled, and by
+    /// the elements' deformations.
     pub product: [f64; 2],
 }
 
@@ -92,8 +93,8 @@ fn condition(matrix: &DMatrix<f64>) -> f64 {
     values.max() / values.min()
 }
 
-/// Errors of `qᵀK q` in f32, `q` rounded, of itself: by the rows of `K`, and by each element's two end
-/// rotations against its chord.
+/// Errors of `qᵀK q` in f32, `q` rounded, of itself: by the rows of `K`, and by each element's two
+/// end rotations against its chord.
 fn products(
     arm: &Scene,
     elements: usize,

@@ -43,14 +43,15 @@ impl Verdict {
 /// What the hub does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Task {
-    /// A quintic of three first periods, 20 ticks at least, that bends the arm by 0.1 rad; then rest.
+    /// A quintic of three first periods, 20 ticks at least, that bends the arm by 0.1 rad; then
+    /// rest.
     Move,
     /// A spin-up in five first periods, 20 ticks at least, to this many times ω₁, held.
     Spin(f64),
 }
 
-/// Ticks at the end of a run in which nothing may grow: six first periods, at least 1,500 and at most
-/// 20,000.
+/// Ticks at the end of a run in which nothing may grow: six first periods, at least 1,500 and at
+/// most 20,000.
 fn held(turn: f64) -> f64 {
     (6.0 * std::f64::consts::TAU / turn).ceil().clamp(1500.0, 20_000.0)
 }
@@ -61,8 +62,8 @@ const LENGTH: f64 = 0.5;
 /// Ticks after the move that are compared.
 const COMPARED: f64 = 60.0;
 
-/// An undamped level arm with its mass at the tip as heavy as the link and a hub of a tenth of L, of
-/// that first frequency in rad/s.
+/// An undamped level arm with its mass at the tip as heavy as the link and a hub of a tenth of L,
+/// of that first frequency in rad/s.
 pub fn arm(omega: f64) -> Result<Scene, Error> {
     let unit = Scene {
         hub: Hub { radius: 0.1 * LENGTH, inertia: 0.0 },

@@ -158,7 +158,8 @@ fn moves(rng: &mut StdRng, omega: f64, tick: f64, bends: f64) -> (f64, Vec<Step>
     (from, vec![there])
 }
 
-/// One solver of each family; `auto` for one scene in four hundred: it runs the ladder beside the exact rod.
+/// One solver of each family; `auto` for one scene in four hundred: it runs the ladder beside the
+/// exact rod.
 fn solvers(rng: &mut StdRng, tick: f64) -> Vec<Solver> {
     let base = Solver { tick, scalar: Scalar::F64, ..Solver::PAPER };
     let pick = |rng: &mut StdRng, n: usize| rng.random_range(0..n);

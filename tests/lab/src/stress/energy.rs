@@ -16,8 +16,8 @@ pub const TICKS: u64 = 1_000_000;
 /// Between two looks at the energy: no multiple of a period.
 const STRIDE: u64 = 17;
 
-/// Looks that are averaged: the energy as the exact kinematics count it swings by what the expansion
-/// leaves out.
+/// Looks that are averaged: the energy as the exact kinematics count it swings by what the
+/// expansion leaves out.
 const LOOKS: u64 = 500;
 
 /// One arm that rang on.
@@ -35,8 +35,8 @@ pub struct Ring {
     pub loss: f64,
 }
 
-/// Undamped level arms of scenes of a seed, from scene `first` on, each method that takes them in both
-/// precisions, for so many ticks.
+/// Undamped level arms of scenes of a seed, from scene `first` on, each method that takes them in
+/// both precisions, for so many ticks.
 pub fn rings(
     seed: u64,
     first: u64,
@@ -67,8 +67,8 @@ struct Arm {
     bend: f64,
 }
 
-/// The scene without damping and gravity, if a tick resolves its first mode and its move bends it by
-/// a hundredth to half a radian.
+/// The scene without damping and gravity, if a tick resolves its first mode and its move bends it
+/// by a hundredth to half a radian.
 fn suitable(seed: u64, index: u64) -> Option<Arm> {
     let drawn = draw(seed, index);
     let tick = drawn.solvers.first()?.tick;

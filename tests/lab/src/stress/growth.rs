@@ -3,8 +3,9 @@
 /// Fraction of L: ten times what an arm may swing by when it is let sleep.
 pub const TOLD: f64 = 10.0 * stillbeam::stepper::SLEEP;
 
-/// Whether the swing of the last part of the hold, so many ticks at the end, exceeds that of its first
-/// by a half. Swings below [`TOLD`] of the link's length are not told from rounding and sleep.
+/// Whether the swing of the last part of the hold, so many ticks at the end, exceeds that of its
+/// first by a half. Swings below [`TOLD`] of the link's length are not told from rounding and
+/// sleep.
 pub fn grows(found: &[f64], held: usize, length: f64) -> bool {
     let held = &found[found.len().saturating_sub(held)..];
     let part = held.len() / 5;

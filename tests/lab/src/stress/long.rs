@@ -37,7 +37,8 @@ pub struct Shuttle {
     pub stops: u64,
     /// Stops at another angle than the target rounded to f32, whatever the bit.
     pub missed: u64,
-    /// Largest difference of a deflection from that of the 21st cycle at the same tick, of the peak.
+    /// Largest difference of a deflection from that of the 21st cycle at the same tick, of the
+    /// peak.
     pub drift: f64,
 }
 

@@ -55,7 +55,8 @@ pub struct Counts {
     pub off_target: u64,
     /// Runs in which the arm swings up, see [`Run::rings_up`]: not compared.
     pub rings_up: u64,
-    /// f32 against f64, of the peak deflection, by decade of the run's condition: `3` is 10³ to 10⁴.
+    /// f32 against f64, of the peak deflection, by decade of the run's condition: `3` is 10³ to
+    /// 10⁴.
     pub deflection: BTreeMap<String, Spread>,
     /// Runs in which it exceeds the method's bound, see [`bound`].
     pub above: u64,

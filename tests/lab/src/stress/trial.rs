@@ -44,12 +44,12 @@ pub struct Run {
     pub deflection: f64,
     /// Largest difference of torques, of their peak.
     pub torque: f64,
-    /// Condition of the deflection: by how much of its peak it changes for a relative change of EI, at
-    /// least 1. A vibration of N rad has ½N and more, a resonance or a step that feeds
-    /// the arm has any.
+    /// Condition of the deflection: by how much of its peak it changes for a relative change of EI,
+    /// at least 1. A vibration of N rad has ½N and more, a resonance or a step that feeds the arm
+    /// has any.
     pub condition: f64,
-    /// The arm swings up during the last rest, by its own physics or by the method's, or that of elastica
-    /// deflects by more than its length: there is nothing to compare then.
+    /// The arm swings up during the last rest, by its own physics or by the method's, or that of
+    /// elastica deflects by more than its length: there is nothing to compare then.
     pub rings_up: bool,
     /// Ticks.
     pub ticks: u64,

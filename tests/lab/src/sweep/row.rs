@@ -38,8 +38,8 @@ pub struct CaseId {
     pub scene: String,
 }
 
-/// Differences from the reference rod, as `compare` defines them. Infinite where the run diverged: a
-/// number that is none, or a tip ten lengths off.
+/// Differences from the reference rod, as `compare` defines them. Infinite where the run diverged:
+/// a number that is none, or a tip ten lengths off.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Largest distance of the tips, fraction of L.

@@ -35,8 +35,8 @@ pub fn blocks(rows: &[Row]) -> Vec<Block> {
 }
 
 impl Table {
-    /// A line a solver, a column a scene. What a tick costs is not in it: a desktop's nanoseconds are
-    /// another machine's, and no test could check them.
+    /// A line a solver, a column a scene. What a tick costs is not in it: a desktop's nanoseconds
+    /// are another machine's, and no test could check them.
     fn markdown(&self, rows: &[Row]) -> String {
         let scenes = super::picture::scenes(rows);
         let mut solvers: Vec<SolverKeys> = Vec::new();

@@ -1,5 +1,5 @@
-//! Arm MPS2 with the AN386 image (Cortex-M4F at 25 MHz) as QEMU models it: `-M mps2-an386`.
-//! Arm DAI 0386, memory map: ZBT SSRAM 1 at 0, SSRAM 2 and 3 at 0x2000_0000; CMSDK timers and UARTs.
+//! Arm MPS2 with the AN386 image (Cortex-M4F at 25 MHz) as QEMU models it: `-M mps2-an386`. Arm DAI
+//! 0386, memory map: ZBT SSRAM 1 at 0, SSRAM 2 and 3 at 0x2000_0000; CMSDK timers and UARTs.
 //!
 //! FLASH : ORIGIN = 0x00000000, LENGTH = 4M
 //! RAM : ORIGIN = 0x20000000, LENGTH = 4M
@@ -10,11 +10,11 @@
 //! Cortex-M4F takes on average; 10 ms have 156,250 instructions. (The bench's shift of 10 counts
 //! more exactly and leaves 10 ms only 9,765.)
 //!
-//! **Lock-step.** If there is a host on QEMU's standard input, it grants every tick with four bytes:
-//! how many bytes of UART 0 and of UART 1 have to be in before time goes on, and for how many µs
-//! from the last tick the board is kept from running, which shows what late and missed ticks do. Time
-//! stands still while the board waits: a semihosting call takes no virtual time, and with both timers stopped and the
-//! processor asleep QEMU's clock has nowhere to go.
+//! **Lock-step.** If there is a host on QEMU's standard input, it grants every tick with four
+//! bytes: how many bytes of UART 0 and of UART 1 have to be in before time goes on, and for how
+//! many µs from the last tick the board is kept from running, which shows what late and missed
+//! ticks do. Time stands still while the board waits: a semihosting call takes no virtual time, and
+//! with both timers stopped and the processor asleep QEMU's clock has nowhere to go.
 
 #[path = "mps2/lock_step.rs"]
 mod lock_step;
@@ -129,7 +129,8 @@ unsafe impl InterruptNumber for Irq {
     }
 }
 
-/// Of the tick, above the lines, below the alarm; of the tasks, below those; of the plans, below all.
+/// Of the tick, above the lines, below the alarm; of the tasks, below those; of the plans, below
+/// all.
 const PRIORITIES: [(Irq, u8); 6] = [
     (Irq::Alarm, 0x20),
     (Irq::Tick, 0x40),

@@ -37,7 +37,8 @@ pub const UNIT: &str = "cycles";
 pub const COUNTS_PER_SECOND: u32 = 170_000_000;
 
 const BAUD: u32 = 921_600;
-/// 24 MHz make 6 × 16 quanta a bit at 250 kbit/s, 3 × 16 at 500, 3 × 8 at 1 Mbit/s, sampled at 87.5 %.
+/// 24 MHz make 6 × 16 quanta a bit at 250 kbit/s, 3 × 16 at 500, 3 × 8 at 1 Mbit/s, sampled at 87.5
+/// %.
 const CAN_BITRATE: u32 = 250_000;
 
 /// Without a tick for this long the board begins anew, drives off. The oscillator that it counts by
@@ -182,7 +183,8 @@ pub fn ticked() {
     WATCHDOG.lock(|watchdog| watchdog.borrow_mut().iter_mut().for_each(IndependentWatchdog::pet));
 }
 
-/// No more ticks, no more frames: the drives' own watchdogs stop them, and this board's begins anew.
+/// No more ticks, no more frames: the drives' own watchdogs stop them, and this board's begins
+/// anew.
 #[panic_handler]
 fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
     cortex_m::interrupt::disable();

@@ -48,7 +48,8 @@ pub async fn keep_step() {
         time().hold();
         let all_in = || UARTS.iter().zip(awaited).all(|(u, n)| u.taken() >= n);
         while !all_in() {
-            // Masked, so that no byte slips in between the look and the sleep; it wakes all the same.
+            // Masked, so that no byte slips in between the look and the sleep; it wakes all the
+            // same.
             cortex_m::interrupt::free(|_| {
                 if !all_in() {
                     cortex_m::asm::wfi();
@@ -61,8 +62,8 @@ pub async fn keep_step() {
 }
 
 /// Keeps everything from running, the tick too, until so many µs after the last tick: what a fault
-/// would do. Counted from that tick, since the time that passes before this task runs again depends on
-/// the code: an answer in the short time after a late tick takes until long after the next one.
+/// would do. Counted from that tick, since the time that passes before this task runs again depends
+/// on the code: an answer in the short time after a late tick takes until long after the next one.
 fn stall(microseconds: u16) {
     if microseconds > 0 {
         let counts = PER_MICROSECOND * u32::from(microseconds);
