@@ -114,7 +114,7 @@ pub struct Solver {
 }
 
 impl Method {
-    /// As it is typed.
+    /// Name as it is typed.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
@@ -132,7 +132,7 @@ impl Method {
 }
 
 impl Quality {
-    /// As it is typed.
+    /// Name as it is typed.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fast => "fast",
@@ -142,7 +142,7 @@ impl Quality {
 }
 
 impl Mass {
-    /// As it is typed.
+    /// Name as it is typed.
     pub fn name(self) -> &'static str {
         match self {
             Self::Consistent => "consistent",
@@ -152,7 +152,7 @@ impl Mass {
 }
 
 impl Scalar {
-    /// As it is typed.
+    /// Name as it is typed.
     pub fn name(self) -> &'static str {
         match self {
             Self::F32 => "f32",

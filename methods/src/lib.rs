@@ -28,7 +28,7 @@ pub trait Method: 'static {
     /// Builds the stepper. Set-up.
     fn stepper(scene: &Scene, tick: f64) -> Result<Self::Stepper, Error>;
 
-    /// Whether this method is meant for the scene.
+    /// True if this method is meant for the scene.
     fn fits(scene: &Scene) -> bool {
         Self::PAYLOAD_INERTIA.is_none_or(|needed| needed == (scene.payload.inertia > 0.0))
     }

@@ -14,7 +14,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Whether `xᵀAx` is positive for every `x`, by the signs of the pivots; and for this one.
+/// True if `xᵀAx` is positive for every `x`, by the signs of the pivots; and for this one.
 fn positive<const N: usize, const W: usize>(a: &Band<f64, N, W>, x: &[f64]) -> TestCaseResult {
     prop_assert!(a.factor().is_positive());
     let x: [f64; N] = core::array::from_fn(|i| x[i] / a.get(i, i).sqrt());

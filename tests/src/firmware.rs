@@ -166,7 +166,7 @@ pub fn run(command: &mut Command) -> Result<String, String> {
     }
 }
 
-/// Whether the compiler has the target's core library.
+/// True if the compiler has the target's core library.
 ///
 /// # Errors
 /// How to install it.

@@ -73,7 +73,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     }
 }
 
-/// Whether `rest` lies at or beyond `end` as seen from `from`.
+/// True if `rest` lies at or beyond `end` as seen from `from`.
 fn passes<T: Scalar>(from: Angle<T>, rest: Angle<T>, end: Angle<T>) -> bool {
     let turns = |to: Angle<T>| {
         f64::from(to.turns.wrapping_sub(from.turns)) + (to.part.to_f64() - from.part.to_f64())

@@ -246,7 +246,7 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
         self.lower[i][0]
     }
 
-    /// Whether every pivot is positive and finite, so that `A` is positive definite.
+    /// True if every pivot is positive and finite, so that `A` is positive definite.
     pub fn is_positive(&self) -> bool {
         self.lower.iter().all(|row| row[0] > T::ZERO && row[0].is_finite())
     }

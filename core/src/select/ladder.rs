@@ -51,7 +51,7 @@ impl Rung {
         ladder
     }
 
-    /// Whether it is set up for a bend.
+    /// True if it is set up for a bend.
     pub(super) fn is_elastica(self) -> bool {
         matches!(self, Self::Elastica(..))
     }

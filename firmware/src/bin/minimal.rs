@@ -32,7 +32,7 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
     process::exit(exit::PANICKED)
 }
 
-/// Whether the chosen method has run; why not is not told, so that no text of it is linked.
+/// True if the chosen method has run; why not is not told, so that no text of it is linked.
 struct Chosen(Option<()>);
 
 impl Visitor for Chosen {

@@ -10,7 +10,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Whether the point is inside, to rounding.
+    /// True if the point is inside, to rounding.
     pub fn holds(&self, (x, y): (f64, f64)) -> bool {
         let within = |v: f64, (low, high): (f64, f64)| {
             let air = 1e-9 * (high - low);

@@ -107,7 +107,7 @@ impl Comparison {
         self.ticks[usize::from(axis)].push_back((tick, cause));
     }
 
-    /// Whether all axes have sent tick `number`.
+    /// True if all axes have sent tick `number`.
     pub(super) fn has(&self, number: u32) -> bool {
         self.ticks.iter().all(|queue| queue.back().is_some_and(|(tick, _)| tick.number >= number))
     }

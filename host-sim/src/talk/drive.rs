@@ -44,7 +44,7 @@ impl Drive {
             .unwrap_or_default()
     }
 
-    /// Whether it is in closed-loop control.
+    /// True if it is in closed-loop control.
     pub fn is_on(&self) -> bool {
         self.on
     }

@@ -59,7 +59,7 @@ impl Machine {
         Self { link, emulator, outbox: Default::default(), stall: 0, heard: Instant::now() }
     }
 
-    /// Whether time passes only by [`Machine::grant`], and the bus can be listened to.
+    /// True if time passes only by [`Machine::grant`], and the bus can be listened to.
     pub fn is_emulated(&self) -> bool {
         self.emulator.is_some()
     }

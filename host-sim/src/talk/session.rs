@@ -109,7 +109,7 @@ impl Session {
     /// Goes on until a request is answered.
     ///
     /// # Errors
-    /// As [`Session::ask`].
+    /// Errors are those of [`Session::ask`].
     pub fn answer(&mut self, posted: Posted) -> Result<Answer, Error> {
         let Posted { sequence, axis, command } = posted;
         let longest = self.ticks(LONGEST);
@@ -138,7 +138,7 @@ impl Session {
     /// Goes on for so many ticks, heard by the firmware.
     ///
     /// # Errors
-    /// As [`Session::ask`].
+    /// Errors are those of [`Session::ask`].
     pub fn wait(&mut self, ticks: u32) -> Result<(), Error> {
         let end = self.comparison.next().saturating_add(ticks);
         while self.comparison.next() < end {
@@ -153,7 +153,7 @@ impl Session {
     /// As [`Session::wait`], without a word.
     ///
     /// # Errors
-    /// As [`Session::ask`].
+    /// Errors are those of [`Session::ask`].
     pub fn keep_silent(&mut self, ticks: u32) -> Result<(), Error> {
         self.silent = true;
         let outcome = self.wait(ticks);
@@ -216,7 +216,7 @@ impl Session {
         self.comparison.axes().get(usize::from(axis)).map(|axis| &axis.replica)
     }
 
-    /// Whether the emulated drive of an axis is on.
+    /// True if the emulated drive of an axis is on.
     pub fn drive_is_on(&self, axis: u8) -> Option<bool> {
         self.comparison.axes().get(usize::from(axis)).map(|axis| axis.drive.is_on())
     }

@@ -43,7 +43,7 @@ impl Chain {
         Some(())
     }
 
-    /// Whether the matrix, if symmetric, is positive definite from block row `first` on; it is used
+    /// True if the matrix, if symmetric, is positive definite from block row `first` on; it is used
     /// up.
     pub fn is_positive_definite(&mut self, first: usize) -> bool {
         for i in first..self.diagonal.len() {

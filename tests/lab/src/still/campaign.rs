@@ -68,7 +68,7 @@ pub struct Rest {
     pub ratio: f64,
     /// Residual of the still move, and of the linear one, by the judge; of L. None if refused.
     pub residual: Result<(f64, f64), &'static str>,
-    /// Whether the reference rod was the judge, else three modes in f64 at half the step.
+    /// True if the reference rod was the judge, else three modes in f64 at half the step.
     pub by_rod: bool,
 }
 
@@ -132,7 +132,7 @@ pub struct Outcome {
     pub stated: f64,
     /// Residual by a finer flight in f64 from the same state, of L.
     pub residual: f64,
-    /// Whether the hub stops on its way.
+    /// True if the hub stops on its way.
     pub by_way_of_rest: bool,
 }
 

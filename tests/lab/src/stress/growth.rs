@@ -3,7 +3,7 @@
 /// Fraction of L: ten times what an arm may swing by when it is let sleep.
 pub const TOLD: f64 = 10.0 * stillbeam::stepper::SLEEP;
 
-/// Whether the swing of the last part of the hold, so many ticks at the end, exceeds that of its
+/// True if the swing of the last part of the hold, so many ticks at the end, exceeds that of its
 /// first by a half. Swings below [`TOLD`] of the link's length are not told from rounding and
 /// sleep.
 pub fn grows(found: &[f64], held: usize, length: f64) -> bool {
