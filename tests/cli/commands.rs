@@ -19,7 +19,7 @@ fn run(folder: &Path, args: &[&str]) -> (i32, String, String) {
 #[test]
 fn a_run_has_the_columns_and_rows_of_truth() {
     let folder = tempfile::tempdir().expect("folder");
-    let scene = truth_path("b-tip30.toml");
+    let scene = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes/b-tip30.toml");
     let scene = scene.to_str().expect("path");
     let (code, out, err) = run(folder.path(), &["run", scene, "--csv", "deep/out.csv"]);
     assert_eq!((code, err.as_str()), (0, ""));

@@ -14,12 +14,11 @@ pub mod stream;
 use std::path::PathBuf;
 
 use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::scenes;
 use stillbeam_sim::solver::{Mass, Scalar, Solver};
 use stillbeam_sim::table::{self, Row};
 
-/// Scenes that have a truth file.
-pub const TRUTH_SCENES: [&str; 6] =
-    ["d-fast", "a-tip30", "b-tip30", "b-tip30-damped-hub", "s-gravity", "spin-up"];
+pub use stillbeam_lab::reference::truth::NAMES as TRUTH_SCENES;
 
 /// The workspace's root folder.
 pub fn root() -> PathBuf {
@@ -36,7 +35,7 @@ pub fn truth_path(file: &str) -> PathBuf {
 /// # Panics
 /// If a committed file cannot be read.
 pub fn truth(name: &str) -> (SceneFile, Vec<Row>) {
-    let scene = SceneFile::read(&truth_path(&format!("{name}.toml"))).expect("committed scene");
+    let scene = scenes::open(name).expect("an embedded scene");
     let rows = table::read(&truth_path(&format!("{name}.csv"))).expect("committed truth");
     (scene, rows)
 }

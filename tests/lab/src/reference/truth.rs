@@ -5,7 +5,7 @@ use std::path::Path;
 use stillbeam::Scene;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::reference::Sample;
-use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::scenes;
 use stillbeam_sim::trajectory::Trajectory;
 
 /// A scene of `tests/truth` with its solution.
@@ -32,13 +32,13 @@ pub const NAMES: [&str; 6] =
     ["d-fast", "a-tip30", "b-tip30", "b-tip30-damped-hub", "s-gravity", "spin-up"];
 
 impl Truth {
-    /// Reads a scene and its solution from the folder of truths.
+    /// Reads an embedded scene and its solution from `tests/truth`.
     ///
     /// # Errors
     /// What is missing there or wrong.
     pub fn read(name: &str) -> Result<Self, Error> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../truth");
-        let file = SceneFile::read(&folder.join(format!("{name}.toml")))?;
+        let file = scenes::open(name)?;
         let trajectory = file.trajectory(0.010)?;
         let samples = samples(&folder.join(format!("{name}.csv")))?;
         Ok(Self { scene: file.arm, trajectory, samples })

@@ -1,12 +1,14 @@
 //! The reference solvers against the solutions in `tests/truth`.
 
-mod common;
-
-use common::{NAMES, Truth, difference, truth};
 use stillbeam::motion::Limits;
 use stillbeam::{Link, Move, Profile, Scene};
+use stillbeam_lab::reference::truth::{NAMES, Truth, difference};
 use stillbeam_sim::reference::{ReferenceError, Sample, fem, rod};
 use stillbeam_sim::trajectory::Trajectory;
+
+fn truth(name: &str) -> Truth {
+    Truth::read(name).unwrap_or_else(|error| panic!("{error}"))
+}
 
 fn solve_rod(truth: &Truth, options: &rod::Options) -> Vec<Sample> {
     rod::solve(&truth.scene, &truth.trajectory, &truth.times(), options).unwrap()
