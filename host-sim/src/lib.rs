@@ -6,14 +6,9 @@
 //! [`output`]), and how far two tables are apart ([`compare`]). What a motion may ask of the drive
 //! is held against its [`limits`]; what it leaves behind is its [`residual`] vibration.
 //!
-//! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core in [`sweep`], run
-//! time against error; its run time is compared with that of [`textbook`]. The paper's figures are
-//! computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show
-//! both.
-//!
-//! [`stress`] runs random scenes by the million and long runs, [`stability`] maps where the methods
-//! are stable.
-//! `faults` injects what can go wrong around an axis, and judges what comes out.
+//! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core. The paper's figures
+//! are computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show
+//! both. Campaigns and the pages of `docs/` are the lab's (`tests/lab`).
 //!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 

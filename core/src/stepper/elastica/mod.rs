@@ -94,7 +94,7 @@ pub struct Elastica<T, const K: usize> {
     kicks: [Kicks<T>; K],
 }
 
-/// The arm's state; [`Elastica::flex`] says what it means.
+/// The arm's state; [`Elastica::arm_state`] says what it means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticaState<T, const K: usize> {
     /// `(ωₖaₖ, p̃ₖ)` of each mode, m √kg/s.
