@@ -70,8 +70,8 @@
 //!
 //! # Errors
 //!
-//! Whatever is refused is refused by an [`Error`], which names the field, its value, what it must
-//! be and what would do. Nothing has changed then. Kinds may be added: a `match` needs a last arm.
+//! A refusal is an [`Error`], which names the field, its value, what it must be and what to do.
+//! Nothing has changed then. Kinds may be added: a `match` needs a last arm.
 //!
 //! ```
 //! use stillbeam::model::OneElement;
@@ -85,7 +85,7 @@
 //!
 //! # Features
 //!
-//! None is on by default. Each compiles alone, and none of them changes a bit of a setpoint.
+//! All are off by default. Each compiles alone, and none of them changes a bit of a setpoint.
 //!
 //! | feature | adds | for |
 //! |---|---|---|

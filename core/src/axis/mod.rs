@@ -40,9 +40,9 @@ use crate::{Error, Generator, PlanContext, PlannedMove, Setpoint};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Cause {
-    /// Asked to.
+    /// A stop was requested.
     Requested,
-    /// Nothing was heard for longer than the patience.
+    /// The host was silent for longer than [`Policy::patience`].
     LinkLost,
     /// More ticks in a row were missed than are allowed.
     MissedTicks,
@@ -58,19 +58,20 @@ impl fmt::Display for Cause {
     }
 }
 
-/// What the policy needs to know.
+/// Limits of an axis, and the faults after which it stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Policy {
-    /// Moves beyond are refused; stops keep within. The acceleration must be limited; torque and
-    /// moment must not, as an axis cannot check them: see [`Limits`].
+    /// Limits of the hub's motion. A move that exceeds them is refused, and a stop keeps them. The
+    /// acceleration must be limited. Torque and moment must not, as an axis cannot check them: see
+    /// [`Limits`].
     pub limits: Limits,
-    /// Time without a word from the host after which the axis stops, s, rounded to whole ticks, one
-    /// at least. 0 waits for ever.
+    /// Time without a message from the host after which the axis stops, s, rounded to whole ticks,
+    /// one at least. 0 waits for ever.
     pub patience: f64,
     /// Ticks in a row that may be missed before the axis stops; the path waits for them. This is a
-    /// number, not a time: each is a setpoint that the drive has to do without, and what a drive
-    /// can bridge it counts in setpoints, whatever their interval.
+    /// number, not a time: each is a setpoint that the drive has to do without, and a drive counts
+    /// in setpoints what it can bridge, whatever their interval.
     pub missed: u32,
 }
 
@@ -88,7 +89,7 @@ pub struct Tick<T> {
 }
 
 impl<T> Tick<T> {
-    /// The number as it travels with a payload.
+    /// Returns the number as it travels with a payload.
     pub fn sequence(&self) -> Sequence {
         Sequence(self.number as u16)
     }
@@ -128,7 +129,7 @@ where
     }
 }
 
-/// A move that was taken and is not over.
+/// A move that was accepted and is not over.
 #[derive(Clone, Copy, Debug)]
 struct Accepted {
     /// Number of its first tick.
@@ -197,8 +198,8 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         Some(self.tick())
     }
 
-    /// Notes that `ticks` ticks did not take place before the coming one. The time without a word
-    /// from the host goes on through them.
+    /// Notes that `ticks` ticks did not take place before the coming one. The time without a
+    /// message from the host includes them.
     #[inline(always)]
     pub fn missed(&mut self, ticks: u32) {
         self.silence = self.silence.saturating_add(ticks);
@@ -207,7 +208,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         }
     }
 
-    /// A valid word from the host.
+    /// Notes a valid message from the host.
     pub fn heard(&mut self) {
         self.silence = 0;
     }
@@ -252,8 +253,8 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         self.mode = if rests { Mode::Stopped } else { Mode::Stopping };
     }
 
-    /// Where a move begins that is planned now; for [`PlanContext::plan`] and
-    /// [`PlanContext::plan_still`], outside of the tick.
+    /// Returns the start and the limits of a move that is planned now, for [`PlanContext::plan`]
+    /// and [`PlanContext::plan_still`]. Those run outside of the tick.
     pub fn plan_context(&self) -> Result<PlanContext, Error> {
         match self.mode {
             Mode::Enabled => Ok(self.generator.plan_context()),
@@ -278,7 +279,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         Ok(begin)
     }
 
-    /// Another arm on the same hub: a payload taken up or put down. At rest only.
+    /// Replaces the arm on the same hub, as when a payload is taken up or put down. At rest only.
     pub fn replace(&mut self, stepper: S) -> Result<(), Error> {
         if !self.rests() {
             return Err(Error::Moving);
@@ -287,7 +288,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         Ok(())
     }
 
-    /// At rest with no move waiting.
+    /// True if the hub is at rest and no move waits.
     pub fn rests(&self) -> bool {
         self.generator.is_holding() && self.generator.hub().rate == S::Scalar::ZERO
     }
@@ -312,7 +313,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         &self.generator
     }
 
-    /// Where the move under way comes to rest, if it does.
+    /// Returns the end of the move under way, if it comes to rest.
     fn arrival(&self) -> Option<Arrival> {
         let current = self.moves.front()?;
         let latest = self.clock.wrapping_sub(1);

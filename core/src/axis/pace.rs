@@ -5,19 +5,18 @@
 /// The tick that is due next may come from half a period before its time to a period after it. What
 /// comes earlier is an extra tick, such as those of a burst after a freeze: it is not due, and no
 /// setpoint may be made for it. What comes later has missed its time, and stands for a later tick.
-/// However ticks come, no more than `n + 1` of those within `n` periods (`n` to the nearest) are
-/// due.
+/// In any `n` periods (`n` to the nearest) no more than `n + 1` ticks are due, however they come.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
     period: u32,
     due: Option<u32>,
 }
 
-/// How a tick came.
+/// Timing of a tick against its due time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Timing {
-    /// True if a tick is to be made. False for one that came more than half a period early.
+    /// True if a tick is to be made. False if it came more than half a period early.
     pub due: bool,
     /// Counts before its due time.
     pub early: u32,
@@ -51,7 +50,7 @@ impl Pace {
     /// Judges a tick at counter reading `now`; readings wrap. Missed ticks are not made up for, and
     /// neither lateness nor earliness shifts the due times of later ticks.
     ///
-    /// A freeze is told from a shorter one up to the counter's range less one and a half periods.
+    /// The length of a freeze is right up to the counter's range less one and a half periods.
     #[inline(always)]
     pub fn arrive(&mut self, now: u32) -> Timing {
         let due = self.due.unwrap_or(now);

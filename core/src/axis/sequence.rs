@@ -6,13 +6,13 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sequence(pub u16);
 
-/// How a sequence number stands to the last one accepted.
+/// Place of a sequence number relative to the last one accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Freshness {
     /// The next one.
     Next,
-    /// A later one; so many in between are missing.
+    /// A later one. The field counts the numbers missing in between.
     Skipped(u16),
     /// The same again: nothing new has been computed.
     Repeated,
@@ -26,8 +26,8 @@ impl Sequence {
         Self(self.0.wrapping_add(1))
     }
 
-    /// How `self` stands to `last`. Half of the numbers are ahead of any other, half behind: serial
-    /// number arithmetic as in RFC 1982.
+    /// Returns the place of `self` relative to `last`. Half of the numbers are ahead of any other,
+    /// half behind: serial number arithmetic as in RFC 1982.
     pub fn after(self, last: Self) -> Freshness {
         match self.0.wrapping_sub(last.0) {
             0 => Freshness::Repeated,

@@ -1,7 +1,8 @@
 //! A demand as bytes for a drive: one file a protocol. Pure: no bus, no clock.
 //!
 //! All protocols are little-endian; scaled integers are rounded to nearest, and saturation is
-//! reported. What is not finite is not encoded: several drives take a NaN for a command of its own.
+//! reported. A value that is not finite is not encoded: several drives take a NaN for a command of
+//! its own.
 //!
 //! | protocol | position | velocity | torque | bytes |
 //! |---|---|---|---|---|
@@ -9,7 +10,7 @@
 //! | [`cia402`] CSP | i32 increments | i32 increments/s | i16 ‰ of rated torque | 10, or two PDOs |
 //! | [`moteus`] | f32 turns | f32 turns/s | f32 N m | 24, CAN FD |
 //!
-//! None of them has room for a count of its own, so a [`Sequence`](crate::axis::Sequence) travels
+//! No protocol has room for a count of its own, so a [`Sequence`](crate::axis::Sequence) travels
 //! beside each payload: to the task that sends it, in the stamp of a captured frame, as the counter
 //! of CANopen's SYNC.
 
@@ -25,7 +26,7 @@ pub use resolution::{Coarse, TorquePeak};
 
 use crate::hub::Angle;
 
-/// Which of the values did not fit its format and was sent as the nearest that does.
+/// Flags of the values that did not fit their format and were sent as the nearest that does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Saturated {
@@ -38,19 +39,19 @@ pub struct Saturated {
 }
 
 impl Saturated {
-    /// Any of them.
+    /// True if any value was saturated.
     pub fn any(self) -> bool {
         self.position || self.velocity || self.torque
     }
 }
 
-/// A payload and what did not fit into it.
+/// A payload and the flags of the values that did not fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[must_use]
 pub struct Encoded<P> {
     /// The payload.
     pub payload: P,
-    /// Fields that were cut to the nearest value the format holds.
+    /// Flags of the values that were sent as the nearest that the format holds.
     pub saturated: Saturated,
 }
 

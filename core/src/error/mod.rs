@@ -35,7 +35,7 @@ pub enum Error {
         parameter: &'static str,
         /// The limit.
         limit: f64,
-        /// What the move needs.
+        /// Value that the move needs.
         needed: f64,
         /// Unit of both.
         unit: &'static str,
@@ -73,9 +73,9 @@ pub enum Error {
         /// The tolerance that is not kept: `solver.tolerance` of the tip, a fraction of L, or
         /// `solver.torque_tolerance`, a fraction of the torque's peak.
         parameter: &'static str,
-        /// What was asked for.
+        /// Tolerance that was asked for.
         tolerance: f64,
-        /// The error to expect of the best, the same fraction; infinite where none follows.
+        /// Expected error of the best stepper, the same fraction. Infinite if none can follow.
         best: f64,
     },
     /// The queue has not enough free segments for the move.

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// What an [`Axis`](crate::axis::Axis) is doing.
+/// Operating mode of an [`Axis`](crate::axis::Axis).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -18,7 +18,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// What an operator does to get a request accepted that this mode refuses.
+    /// Returns the action after which a request is accepted that this mode refuses.
     pub(super) fn way_out(self) -> &'static str {
         match self {
             Self::Disabled | Self::Stopped => "enable the axis first",

@@ -4,7 +4,7 @@ use crate::math::Scalar;
 use crate::motion::Segment;
 use crate::stepper::Stepper;
 
-/// What the hub does, and the arm with it.
+/// Phase of the motion of hub and arm.
 // In this order: to be asleep is to be zero, and the hub rests up to `Dwelling`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Phase {
@@ -23,12 +23,12 @@ pub(super) enum Phase {
     Unstarted,
 }
 
-/// Where a segment comes from.
+/// Origin of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// It is part of a move.
+    /// A move that contains it.
     Move,
-    /// It holds the end of the moves until the next one.
+    /// The hold at the end of the moves, until the next one.
     Hold,
 }
 
@@ -48,7 +48,8 @@ pub(super) struct Current<T> {
 }
 
 impl<T: Scalar> Current<T> {
-    /// A hold that has no tick: the first tick takes up the first move, or else `hold` itself.
+    /// Returns a hold that has no tick: the first tick takes up the first move, or else `hold`
+    /// itself.
     pub(super) fn unstarted(hold: &Segment<T>) -> Self {
         let mut segment = *hold;
         segment.cut(0);
@@ -85,7 +86,7 @@ impl<T: Scalar> Current<T> {
 
     /// Ends a hold with the latest tick, so that the next one takes up what is in the queue.
     ///
-    /// It stays in its phase until then.
+    /// The phase stays the same until then.
     pub(super) fn end_hold(&mut self) {
         if self.is_holding() {
             self.segment.cut(self.next_k());
@@ -104,7 +105,7 @@ impl<T: Scalar> Current<T> {
         self.k = k;
     }
 
-    /// Puts an arm to sleep that rings no more. `is_settled` is asked only where it matters.
+    /// Puts an arm to sleep that no longer vibrates. Calls `is_settled` only if the arm is ringing.
     #[inline(always)]
     pub(super) fn sleep_if(&mut self, is_settled: impl FnOnce() -> bool) {
         if self.phase == Phase::Ringing && is_settled() {

@@ -10,7 +10,7 @@ use crate::math::Scalar;
 use crate::motion::{Limits, MAX_SEGMENTS, Move, MoveSummary, Segment, plan_segments};
 use crate::stepper::Stepper;
 
-/// Where the next move of a generator begins, and what it may do.
+/// Start of a generator's next move, with the limits that it must keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct PlanContext {
@@ -28,7 +28,7 @@ pub struct PlannedMove<T> {
 }
 
 impl<T> PlannedMove<T> {
-    /// What the move comes to.
+    /// Returns duration, end and peaks of the move.
     pub fn summary(&self) -> &MoveSummary {
         &self.summary
     }
@@ -37,7 +37,7 @@ impl<T> PlannedMove<T> {
 impl PlanContext {
     /// Plans `motion` from here. Runs in f64.
     ///
-    /// This is the way of moves that come over a wire, so it asks more than [`Generator::push`]: a
+    /// Moves that come over a wire are planned here, so it demands more than [`Generator::push`]: a
     /// move turns by 2⁻¹⁶/ε turns at most, 128 in f32, so that its angle is right to 2⁻¹⁶ turn.
     pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<PlannedMove<T>, Error> {
         let mut segments = Vec::new();
@@ -60,8 +60,9 @@ impl PlanContext {
     }
 }
 
-/// Refuses a move of so many turns that its angle would go in steps: a segment's angle is rounded
-/// as a part of its own turn. Longer ways are a spin-up, a dwell and a spin-down, which is exact.
+/// Refuses a move that turns so far that its angle would advance in steps: the rounding error of a
+/// segment's angle is a fraction of the segment's own turn. A longer way is a spin-up, a dwell and
+/// a spin-down. The angle is then exact.
 fn resolved<T: Scalar>(start: &HubState<f64>, summary: &MoveSummary) -> Result<(), Error> {
     let turned = summary.end.angle.since(start.angle);
     let most = 1.0 / 65_536.0 / T::EPSILON.to_f64();
@@ -69,7 +70,7 @@ fn resolved<T: Scalar>(start: &HubState<f64>, summary: &MoveSummary) -> Result<(
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
-    /// Where a move that is planned now begins.
+    /// Returns start and limits of a move that is planned now.
     pub fn plan_context(&self) -> PlanContext {
         PlanContext { start: self.next_start(), limits: self.limits, tick: self.stepper.tick() }
     }
@@ -106,7 +107,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         Ok(())
     }
 
-    /// Where the queue ends.
+    /// Returns the hub at the end of the queue.
     pub(crate) fn end(&self) -> HubState<f64> {
         self.end
     }
@@ -123,7 +124,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.current.take_up(&self.tail, Part::Hold, 0, &self.stepper);
     }
 
-    /// Another arm on the same hub, from the angle where it rests.
+    /// Replaces the arm on the same hub, from the angle where the hub rests.
     pub fn replace(&mut self, stepper: S) {
         self.stepper = stepper;
         self.restart(self.hub.angle);

@@ -17,7 +17,7 @@ use crate::math::Scalar;
 use crate::motion::{Limits, Move, MoveSummary, Plan, Remedy, Segment, plan_segments};
 use crate::stepper::{AnyMotion, AtRest, KinkMoments, Linear, Response, Stepper};
 
-/// What the motor controller gets every tick. SI units.
+/// Setpoint for the motor controller, one every tick. SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -68,7 +68,7 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
     end_acceleration: S::Scalar,
     state: S::State,
     stepper: S,
-    /// What follows the queue: its end, held.
+    /// Segment behind the queue: holds the queue's end.
     tail: Segment<S::Scalar>,
     /// The tail's start in set-up's precision.
     end: HubState<f64>,
@@ -134,8 +134,9 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         Ok(summary)
     }
 
-    /// What would keep the limits, for a move that [`Self::push`] refuses now for one of them.
-    /// Computed apart from the refusal: a target that does not ask does not link it.
+    /// Returns a change that keeps the limits, for a move that [`Self::push`] now refuses because
+    /// of one of them. Separate from the refusal, so that a target which does not call it does not
+    /// link it.
     pub fn remedy(&self, motion: &Move) -> Remedy {
         Plan::remedy(motion, self.next_start(), &self.limits, self.stepper.tick())
     }
@@ -202,26 +203,26 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         respond(&self.hub, self.stepper.response::<AtRest>(&self.state, &self.hub))
     }
 
-    /// The latest setpoint again.
+    /// Returns the latest setpoint again.
     #[inline(always)]
     pub fn setpoint(&self) -> Setpoint<S::Scalar> {
         respond(&self.hub, self.stepper.response::<AnyMotion>(&self.state, &self.hub))
     }
 
-    /// The latest setpoint as it was just before: it differs where a move has ended with an
-    /// acceleration, which the torque jumps with.
+    /// Returns the left-hand value of the latest setpoint. It differs where a move has ended with
+    /// an acceleration: there the torque jumps with the acceleration.
     pub fn setpoint_before(&self) -> Setpoint<S::Scalar> {
         let hub = HubState { acceleration: self.acceleration_before(), ..self.hub };
         respond(&hub, self.stepper.response::<AnyMotion>(&self.state, &hub))
     }
 
-    /// The hub rests and the arm with it, within [`SLEEP`](crate::stepper::SLEEP): it is left as it
-    /// is until the next move.
+    /// True if hub and arm rest, the arm within [`SLEEP`](crate::stepper::SLEEP). Its state is left
+    /// unchanged until the next move.
     pub fn is_asleep(&self) -> bool {
         self.current.is_asleep()
     }
 
-    /// No move under way or waiting.
+    /// True if no move is under way or waiting.
     pub fn is_holding(&self) -> bool {
         self.queue.is_empty() && self.current.is_holding()
     }
@@ -246,7 +247,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if self.current.next_k() <= 1 { self.end_acceleration } else { self.hub.acceleration }
     }
 
-    /// Where a move that is pushed now begins.
+    /// Returns the start of a move that is pushed now.
     fn next_start(&self) -> HubState<f64> {
         if self.is_holding() {
             let angle = self.current.segment().angle(self.current.next_k());

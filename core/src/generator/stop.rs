@@ -6,17 +6,19 @@ use crate::math::Scalar;
 use crate::motion::{Braking, Segment};
 use crate::stepper::Stepper;
 
-/// So many times what a stop takes, a move under way may take to its end and still be finished: a
-/// tail that ends more smoothly than a stop does takes up to twice as long. A move of less than an
-/// angle's resolution is at its end all the time, and may last for days.
+/// Longest remainder of a move that is finished rather than stopped, in durations of the stop.
+///
+/// A tail that ends more smoothly than a stop does takes up to twice as long. There must be a
+/// bound: a move of less than an angle's resolution is at its end all the time, and may last for
+/// days.
 const PATIENCE: u32 = 4;
 
-/// Where the move under way comes to rest.
+/// Time and place at which the move under way comes to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Arrival {
-    /// Ticks from the latest setpoint.
+    /// Ticks from the latest setpoint to the end.
     pub(crate) ticks: u32,
-    /// Its end, at rest.
+    /// Hub at the end of the move, at rest.
     pub(crate) end: HubState<f64>,
 }
 
@@ -65,7 +67,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.tail = Segment::rest(arrival.end.angle.cast());
     }
 
-    /// What follows the queue is rest at `angle`.
+    /// Makes the hub rest at `angle` after the queue.
     pub(super) fn rest_at(&mut self, angle: Angle<S::Scalar>) {
         let exact = Angle { turns: angle.turns, part: angle.part.to_f64() };
         self.end = HubState::at_rest(exact);

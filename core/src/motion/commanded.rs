@@ -1,4 +1,4 @@
-//! A commanded motion as a whole: what a trial of a stepper flies along.
+//! A commanded motion as a whole, along which a stepper is tried.
 
 use core::fmt;
 use core::ops::ControlFlow;
@@ -9,9 +9,9 @@ use crate::hub::HubState;
 
 /// A stretch of a commanded motion that has one formula.
 pub struct Stretch<'a> {
-    /// Where it begins, ticks from the motion's beginning; not whole in general.
+    /// Time at which it begins, ticks from the motion's beginning; not whole in general.
     pub begin: f64,
-    /// Where it ends, ticks from the motion's beginning.
+    /// Time at which it ends, ticks from the motion's beginning.
     pub end: f64,
     /// The hub at any time of the stretch, ticks from the motion's beginning. At the ends it is the
     /// value inside the stretch.
@@ -100,7 +100,7 @@ impl Commanded for Moves<'_> {
         Some(self.moves)
     }
 
-    /// The generator tells the stepper itself.
+    /// Not used: the generator gives the stepper its kinks itself.
     fn kink(&self, _: u64) -> Kink<f32> {
         Kink::NONE
     }

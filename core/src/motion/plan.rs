@@ -20,17 +20,17 @@ pub const MAX_SEGMENTS: usize = 7;
 /// Duration, end and peaks of a planned move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MoveSummary {
-    /// Where it ends: the next move's start.
+    /// Hub at its end: the next move's start.
     pub end: HubState<f64>,
     /// Whole ticks it takes.
     pub ticks: u32,
     /// Greatest magnitudes of rate, acceleration and jerk.
     pub peaks: Peaks,
-    /// Duration as planned less duration as asked for, s: what rounding to whole ticks changed.
+    /// Planned duration less requested duration, s: the change by rounding to whole ticks.
     pub rounded_by: f64,
 }
 
-/// A move that was accepted: its segments and where it ends.
+/// A move that was accepted: its segments and its summary.
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct Plan {
@@ -60,9 +60,9 @@ impl Plan {
         Ok(Self { segments, summary })
     }
 
-    /// Returns what would keep the limits, for a move that [`Self::new`] refuses for one of them:
-    /// the shortest duration in whole ticks that keeps every limit of the motion and one radian a
-    /// tick, or the reason why none does.
+    /// Returns a change that keeps the limits, for a move that [`Self::new`] refuses because of one
+    /// of them: the shortest duration in whole ticks that keeps every limit of the motion and one
+    /// radian a tick, or the reason why none does.
     pub fn remedy(motion: &Move, start: HubState<f64>, limits: &Limits, tick: f64) -> Remedy {
         let demand = match *motion {
             Move::To { profile, to, .. } => {

@@ -12,17 +12,17 @@ pub(super) enum Shapes<T> {
     Hold,
     /// One formula from beginning to end.
     One(Shape<T>),
-    /// Equal shares of the move's time, of a turn by 1, and the turn.
+    /// Pieces of equal duration, for a turn by 1, and the actual turn.
     Cubics(&'static [Piece], f64),
 }
 
-/// A share of a move by 1 in a time of 1.
+/// A piece of a move by 1 in a time of 1.
 pub(super) struct Piece {
-    /// Where it begins, the rate there, and the accelerations at its beginning and end.
+    /// Position and rate at its beginning, and accelerations at its beginning and end.
     pub start: f64,
     pub rate: f64,
     pub accelerations: [f64; 2],
-    /// About its middle, `[c₁, c₂, c₃]`.
+    /// Coefficients `[c₁, c₂, c₃]` about its middle.
     pub cubic: [f64; 3],
 }
 

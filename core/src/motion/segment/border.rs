@@ -1,4 +1,4 @@
-//! How a segment's acceleration begins and ends, for what joins segments inside a tick.
+//! Acceleration of a segment at its two ends, used where segments join inside a tick.
 
 use core::f64::consts::PI;
 
@@ -40,7 +40,7 @@ fn plus<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     core::array::from_fn(|i| a[i] + b[i])
 }
 
-/// Of `c₄u⁴ + c₅u⁵`.
+/// Second to fourth derivative of `c₄u⁴ + c₅u⁵`.
 fn quintic<T: Scalar>([c4, c5]: [T; 2], u: T) -> [T; 3] {
     let n = T::from_f64;
     [
@@ -50,7 +50,8 @@ fn quintic<T: Scalar>([c4, c5]: [T; 2], u: T) -> [T; 3] {
     ]
 }
 
-/// Of `(1 − u²)³Q(u)`: `(1 − u²)³ = ∓(8x³ ± 12x⁴ + …)` at `u = ±1 + x`.
+/// Second to fourth derivative of `(1 − u²)³Q(u)` at `u = ±1`: `(1 − u²)³ = ∓(8x³ ± 12x⁴ + …)` at
+/// `u = ±1 + x`.
 fn bulge<T: Scalar>(d: &[T], u: T) -> [T; 3] {
     let (mut q, mut slope) = (T::ZERO, T::ZERO);
     for &d in d.iter().rev() {

@@ -1,4 +1,4 @@
-//! From a turning hub to rest, planned in the tick's own precision: a stop cannot wait for set-up.
+//! Stops a turning hub. Planned in the tick's own precision, as a stop cannot wait for set-up.
 
 use super::{End, Rest, Segment};
 use crate::Error;
@@ -6,7 +6,7 @@ use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
 use crate::motion::Limits;
 
-/// What a stop may use.
+/// Limits of a stop, in the scalar of the tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Braking<T> {
     acceleration: T,

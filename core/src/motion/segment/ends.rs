@@ -1,4 +1,4 @@
-//! Where a segment begins and ends: exactly, whatever its formula rounds to there.
+//! Exact beginning and end of a segment, whatever its formula rounds to there.
 
 use super::{End, Segment};
 use crate::hub::{Angle, HubState};
@@ -12,19 +12,19 @@ impl<T: Scalar> Segment<T> {
         (hub.angle, hub.rate, hub.acceleration) = (angle, rate, acceleration);
     }
 
-    /// The same segment with rate (rad/s) and acceleration (rad/s²) at its tick 0 as they are
-    /// known, in place of what the formula rounds to.
+    /// Returns the segment with the known rate (rad/s) and acceleration (rad/s²) at its tick 0, in
+    /// place of the formula's rounded values.
     pub(crate) fn beginning(mut self, rate: T, acceleration: T) -> Self {
         (self.begin.rate, self.begin.acceleration) = (rate, acceleration);
         self
     }
 
-    /// The same segment with the acceleration (rad/s²) that it ends with, from the left.
+    /// Returns the segment with `end_acceleration` (rad/s²) as left-hand value at its end.
     pub(crate) fn ending(self, end_acceleration: T) -> Self {
         Self { end_acceleration, ..self }
     }
 
-    /// Stores what the formula gives at tick 0.
+    /// Stores the formula's values at tick 0.
     pub(super) fn begun(mut self) -> Self {
         let mut hub = HubState::ZERO;
         self.drive_otherwise(&mut hub, 0);
@@ -37,12 +37,12 @@ impl<T: Scalar> Segment<T> {
         self.count = count;
     }
 
-    /// The same segment, broken off `count` ticks after its beginning.
+    /// Returns the segment, broken off `count` ticks after its beginning.
     pub(crate) fn broken_off(self, count: u32) -> Self {
         Self { count, end_acceleration: self.hub(count).acceleration, ..self }
     }
 
-    /// The same segment, beginning at the angle `start`, which lies `by` from where it began.
+    /// Returns the segment moved to begin at the angle `start`, which lies `by` from its old start.
     pub(crate) fn shifted(mut self, by: Angle<T>, start: Option<Angle<T>>) -> Self {
         let on = |angle: Angle<T>| Angle { turns: angle.turns.wrapping_add(by.turns), ..angle };
         self.origin = on(self.origin).plus(by.part);
@@ -50,7 +50,7 @@ impl<T: Scalar> Segment<T> {
         self
     }
 
-    /// The same segment at constant rate, beginning at another angle.
+    /// Returns the same segment at constant rate, beginning at another angle.
     pub(crate) fn moved(mut self, origin: Angle<T>) -> Self {
         (self.origin, self.begin.angle) = (origin, origin);
         self

@@ -43,7 +43,7 @@ pub struct Segment<T> {
     end_acceleration: T,
     /// See [`Self::kink_moment`].
     kink_moment: T,
-    /// What a cubic consists of; of the other shapes, their first coefficients.
+    /// Coefficients `c₁`, `c₂`, `c₃` of a cubic; the first coefficients of the other shapes.
     low: [T; 3],
     rest: Rest<T>,
 }
@@ -58,12 +58,12 @@ struct End<T> {
     acceleration: T,
 }
 
-/// What a shape has beyond its first three coefficients. Apart from those, so that a tick of a
-/// cubic need not look which shape it is, and taking a cubic up moves nothing else.
+/// Part of a shape beyond its first three coefficients. It is kept apart from those, so that a tick
+/// of a cubic need not look which shape it is, and taking a cubic up copies nothing else.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Rest<T> {
     Cubic {
-        /// Not less than `|dΔ/du|`.
+        /// Upper bound of `|dΔ/du|`.
         steepest: T,
     },
     /// `c₄`, `c₅`.
@@ -118,14 +118,15 @@ impl<T: Scalar> Segment<T> {
         }
     }
 
-    /// [`Self::drive`] of a cubic.
+    /// Does the work of [`Self::drive`] for a cubic.
     #[inline(always)]
     pub(crate) fn drive_cubic(&self, hub: &mut HubState<T>, k: u32) {
         let u = self.offset + T::from_u32(k) * self.advance;
         (hub.angle, hub.rate, hub.acceleration) = self.scaled(cubic(self.low, u));
     }
 
-    /// [`Self::drive`], out of the way of the cubics: most ticks are theirs.
+    /// Does the work of [`Self::drive`] for the other shapes. Kept apart, as most ticks are of
+    /// cubics.
     #[inline(never)]
     pub(crate) fn drive_otherwise(&self, hub: &mut HubState<T>, k: u32) {
         (hub.angle, hub.rate, hub.acceleration) = match self.rest {
@@ -155,8 +156,8 @@ impl<T: Scalar> Segment<T> {
         (self.origin.plus(delta), rate, half_second * self.acceleration_scale)
     }
 
-    /// The hub any real number of ticks after the segment's first, for solvers that choose their
-    /// own steps. May be negative down to the segment's true beginning.
+    /// Returns the hub any real number of ticks after the segment's first, for solvers that choose
+    /// their own steps. `ticks` may be negative, down to the segment's true beginning.
     pub fn hub_at(&self, ticks: T) -> HubState<T> {
         if ticks == T::ZERO {
             return self.hub(0);
@@ -186,7 +187,7 @@ impl<T: Scalar> Segment<T> {
         self.end_acceleration
     }
 
-    /// The same quintic with another bulge, turns; any other shape as it is.
+    /// Returns the same quintic with another bulge, turns; any other shape unchanged.
     #[inline(always)]
     pub(crate) fn bulged(mut self, bulge: &[T; BULGE]) -> Self {
         if let Rest::Bulged { d, .. } = &mut self.rest {
@@ -195,9 +196,9 @@ impl<T: Scalar> Segment<T> {
         self
     }
 
-    /// The moment of the border within the tick before, rad/s²: by how much `∫₀¹(1 − s)θ̈ ds` over
-    /// that tick exceeds that of the parabola with its mean and its ends, the later one the
-    /// left-hand value at the border. Zero where the border is a tick. The stepper takes it in by
+    /// Moment of the border within the tick before, rad/s²: excess of `∫₀¹(1 − s)θ̈ ds` over that
+    /// of the parabola with the same mean and ends. The later end is the left-hand value at the
+    /// border. Zero where the border is a tick. The stepper takes it in by
     /// [`Stepper::kink`](crate::Stepper::kink).
     pub fn kink_moment(&self) -> T {
         self.kink_moment
@@ -261,7 +262,7 @@ impl<T: Scalar> Segment<T> {
 }
 
 impl<T: Scalar> Angle<T> {
-    /// The angle `k` steps of `step / 2⁶⁴` turns on, rounded once.
+    /// Returns the angle `k` steps of `step / 2⁶⁴` turns further on, rounded once.
     #[inline(always)]
     fn cruise(self, step: i64, k: u32) -> Self {
         // step × k, at most 96 bits, as whole turns and a 64-bit fraction.

@@ -69,8 +69,8 @@ impl<T: Scalar> Kink<T> {
         excess
     }
 
-    /// Excess of `∫₀¹(1 − s)θ̈ ds` over that of the parabola, rad/s²: the value that
-    /// [`Segment::kink_moment`](crate::motion::Segment::kink_moment) says of a border inside a
+    /// Excess of `∫₀¹(1 − s)θ̈ ds` over that of the parabola, rad/s², as
+    /// [`Segment::kink_moment`](crate::motion::Segment::kink_moment) gives it for a border inside a
     /// tick.
     pub fn moment(&self) -> T {
         -(T::HALF * self.excess()[0])
