@@ -1,19 +1,18 @@
 #![forbid(unsafe_code)]
-//! The desktop side of stillbeam: the same core on scene files, and what judges it.
+//! The desktop side of stillbeam: runs the core on scene files and judges it.
 //!
-//! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
-//! motion ([`trajectory`]), the core's run ([`run`], [`dispatch`]), its table ([`table`],
-//! [`output`]), and how far two tables are apart ([`compare`]). What a motion may ask of the drive
-//! is held against its [`limits`]; what it leaves behind is its [`residual`] vibration.
+//! The modules in the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its
+//! commanded motion ([`trajectory`]), the core's run ([`run`], [`dispatch`]), its table ([`table`],
+//! [`output`]), and the differences of two tables ([`compare`]). [`limits`] checks what a motion
+//! asks of the drive. [`residual`] measures the vibration after it.
 //!
 //! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core in [`sweep`], run
-//! time against error; its run time is compared with that of [`textbook`]. The paper's figures are
-//! computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show
-//! both.
+//! time against error. [`textbook`] compares its run time. [`study`] computes the paper's figures,
+//! [`mod@plan`] moves that arrive still. [`report`] and [`plot`] show both.
 //!
-//! [`stress`] runs random scenes by the million and long runs, [`stability`] maps where the methods
+//! [`stress`] runs random scenes by the million and long runs. [`stability`] maps where the methods
 //! are stable.
-//! `faults` injects what can go wrong around an axis, and judges what comes out.
+//! `faults` injects faults around an axis and judges the result.
 //!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 
