@@ -10,7 +10,7 @@ use plotters::style::RGBColor;
 pub enum Colour {
     /// The colour of text.
     Ink,
-    /// The colour of rules and of the background.
+    /// The colour of rules and of secondary elements.
     Grey,
     /// #0072B2.
     Blue,
