@@ -118,8 +118,8 @@ impl Run {
     }
 }
 
-/// Opens an embedded scene. `keys` override its own solver. The paper's method is the default for
-/// both.
+/// Opens an embedded scene. `keys` override its own solver. If neither names a method, the paper's
+/// is taken.
 fn scene(name: &str, keys: SolverKeys) -> Result<SceneFile, Error> {
     let scene = scenes::open(name)?;
     let paper = SolverKeys { method: Some(Method::Newmark), ..SolverKeys::default() };
