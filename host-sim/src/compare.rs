@@ -1,4 +1,4 @@
-//! How far two runs of one scene are apart. The same definitions everywhere in the project.
+//! Differences of two runs of one scene. The whole project uses these definitions.
 
 use crate::error::Error;
 use crate::reference::rod;
@@ -6,10 +6,10 @@ use crate::scene_file::SceneFile;
 use crate::table::Row;
 use crate::trajectory::{Side, Trajectory};
 
-/// Differences of a run `a` from a run `b`, `b` being the better one.
+/// Differences of a run `a` from a run `b`; `b` is the more accurate one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
-    /// Times that both have.
+    /// Number of times that both runs have.
     pub common: usize,
     /// Largest distance of the tips, fraction of L.
     pub tip_max: f64,
@@ -18,7 +18,7 @@ pub struct Comparison {
     /// Time of the largest distance, s.
     pub tip_max_at: f64,
     /// Largest torque difference away from the jumps of the commanded acceleration, fraction of
-    /// `b`'s peak torque; rows less than one and a half row intervals from a jump are left out.
+    /// `b`'s peak torque. Rows less than one and a half row intervals from a jump are left out.
     pub torque: f64,
     /// [`residual`] of `a` and of `b`.
     pub residual: [Residual; 2],
@@ -26,7 +26,7 @@ pub struct Comparison {
     pub length: f64,
 }
 
-/// Compares at the times that both runs have.
+/// Compares two runs at the times that both have.
 pub fn compare(a: &[Row], b: &[Row], scene: &SceneFile) -> Result<Comparison, Error> {
     let tick = scene.solver.resolve()?.tick;
     let trajectory = scene.trajectory(tick)?;
@@ -65,7 +65,7 @@ pub fn compare(a: &[Row], b: &[Row], scene: &SceneFile) -> Result<Comparison, Er
     })
 }
 
-/// What a run's table says of its residual vibration.
+/// Residual vibration that a run's table shows, or the reason why it shows none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Residual {
     /// The residual, fraction of L.
@@ -74,24 +74,25 @@ pub enum Residual {
     Turning,
     /// The table ends before a first period after the last arrival has passed.
     Cut {
-        /// Its last time, s.
+        /// Last time of the table, s.
         ends: f64,
-        /// What it should reach, s.
+        /// Time that the table should reach, s.
         needed: f64,
     },
 }
 
 impl Residual {
-    /// The residual, fraction of L, if there is one.
+    /// Returns the residual, fraction of L, if there is one.
     pub fn value(self) -> Option<f64> {
         if let Self::Of(value) = self { Some(value) } else { None }
     }
 }
 
-/// Residual vibration: the largest deflection of the tip from its rest, the static equilibrium at
-/// the final angle, over a first period after the last arrival. See [`crate::residual`].
+/// Returns the residual vibration. It is the largest deflection of the tip from its rest, the
+/// static equilibrium at the final angle, over a first period after the last arrival. See
+/// [`crate::residual`].
 ///
-/// `rows` at intervals of `tick` s, the setpoint interval of the run.
+/// `rows` stand at intervals of `tick` s, the setpoint interval of the run.
 pub fn residual(rows: &[Row], scene: &SceneFile, tick: f64) -> Result<Residual, Error> {
     residual_along(rows, scene, &scene.trajectory(tick)?)
 }
@@ -118,8 +119,9 @@ fn residual_along(
     Ok(Residual::Of(crate::residual::largest(&samples, end, span)))
 }
 
-/// [`residual`] of a table whose run may have had another tick than the scene says: its rows'
-/// interval. The later arrival counts: at both the hub is at rest.
+/// Returns the [`residual`] of a table whose run may have had another tick than the scene says.
+/// Takes the interval of the rows as the tick. The later arrival counts: at both the hub is at
+/// rest.
 fn residual_of_table(rows: &[Row], scene: &SceneFile, tick: f64) -> Result<Residual, Error> {
     let by_scene = scene.trajectory(tick)?;
     let rounded = (interval(rows) * 1e9).round() * 1e-9;
@@ -131,7 +133,7 @@ fn residual_of_table(rows: &[Row], scene: &SceneFile, tick: f64) -> Result<Resid
     }
 }
 
-/// Times at which the commanded acceleration jumps, the beginning of the run included.
+/// Returns the times at which the commanded acceleration jumps, the beginning of the run included.
 pub fn jumps(trajectory: &Trajectory) -> Vec<f64> {
     let largest =
         trajectory.plans().iter().map(|plan| plan.summary.peaks.acceleration).fold(0.0, f64::max);
@@ -143,7 +145,7 @@ pub fn jumps(trajectory: &Trajectory) -> Vec<f64> {
     first.into_iter().chain(trajectory.breaks().into_iter().filter(|&t| jumps_at(t))).collect()
 }
 
-/// Rows of both at the same times, to a microsecond.
+/// Returns the pairs of rows that have the same time, to a microsecond.
 pub fn common<'a>(a: &'a [Row], b: &'a [Row]) -> Vec<(&'a Row, &'a Row)> {
     let mut pairs = Vec::new();
     let mut rest = b;
@@ -157,7 +159,7 @@ pub fn common<'a>(a: &'a [Row], b: &'a [Row]) -> Vec<(&'a Row, &'a Row)> {
     pairs
 }
 
-/// Longest interval between rows, s.
+/// Returns the longest interval between rows, s.
 fn interval(rows: &[Row]) -> f64 {
     rows.windows(2).map(|pair| pair[1].t_s - pair[0].t_s).fold(0.0, f64::max)
 }

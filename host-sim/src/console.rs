@@ -1,4 +1,4 @@
-//! The terminal: lines out, one line where something fails, and an exit code.
+//! Output to the terminal: lines, one line for an error, and an exit code.
 
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
@@ -10,8 +10,8 @@ use crate::error::Error;
 use crate::scene_file::SceneFile;
 use crate::scenes;
 
-/// Prints a line as std's macro does. Where the terminal or pipe takes no more the program ends, in
-/// one line unless a reader closed it, and does not panic.
+/// Prints a line as std's macro does, but does not panic. If the line cannot be written, the
+/// program ends with one line, or silently if a reader closed the pipe.
 #[macro_export]
 macro_rules! println {
     () => { $crate::console::say(format_args!("\n")) };
@@ -29,7 +29,7 @@ pub fn say(words: std::fmt::Arguments<'_>) {
     std::process::exit(Error::EXIT_CODE.into());
 }
 
-/// Writes one line to standard error. Where that fails too, the exit code has to do.
+/// Writes one line to standard error. If that fails too, only the exit code tells.
 fn complain(words: std::fmt::Arguments<'_>) {
     let _ = writeln!(std::io::stderr(), "error: {words}");
 }
@@ -50,19 +50,19 @@ pub fn run<C: Parser>(execute: impl FnOnce(C) -> Result<ExitCode, Error>) -> Exi
     })
 }
 
-/// Returns the first paragraph of clap's message, without its own `error:`: one line.
+/// Returns the first paragraph of clap's message as one line, without its own `error:`.
 fn usage(error: &clap::Error) -> Error {
     let text = error.to_string();
     let message = text.split("\n\nUsage").next().unwrap_or(&text);
     Error::new(message.trim_start_matches("error:").split("\n\nFor more").next().unwrap_or(message))
 }
 
-/// Writes a line to standard error that is no error. Where it cannot be written, nobody reads it.
+/// Writes a line that is no error to standard error. Ignores a failure to write it.
 pub fn note(words: &str) {
     let _ = writeln!(std::io::stderr(), "note: {words}");
 }
 
-/// Opens a scene and notes what in it is probably in another unit.
+/// Opens a scene and notes its values that are probably in another unit.
 pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
     let scene = scenes::open(name_or_path)?;
     for line in &scene.remarks {

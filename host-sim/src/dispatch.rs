@@ -1,4 +1,4 @@
-//! From numbers that a user types to the model types of the core: the one place that lists them.
+//! Maps the numbers that a user types to the model types of the core. No other place lists them.
 
 use std::marker::PhantomData;
 
@@ -14,9 +14,9 @@ use crate::progress;
 use crate::scene_file::SceneFile;
 use crate::solver::{Mass, Method, Quality, Scalar, Solver};
 
-/// What to do with a model whose type is only known here.
+/// Action on a model whose type is known only here.
 pub trait Visitor {
-    /// What comes out.
+    /// Result of the action.
     type Output;
 
     /// Receives the model.
@@ -52,7 +52,7 @@ pub fn with_model<V: Visitor>(
     }
 }
 
-/// First natural period of the clamped arm, hub at rest, no gravity, s.
+/// Returns the first natural period of the clamped arm, hub at rest, no gravity, s.
 pub fn first_period(scene: &Scene, elements: usize, mass: Mass) -> Result<f64, Error> {
     struct FirstPeriod;
     impl Visitor for FirstPeriod {
@@ -64,9 +64,9 @@ pub fn first_period(scene: &Scene, elements: usize, mass: Mass) -> Result<f64, E
     with_model(scene, elements, mass, FirstPeriod)
 }
 
-/// What to do with a stepper whose type is only known here.
+/// Action on a stepper whose type is known only here.
 pub trait StepperVisitor {
-    /// What comes out.
+    /// Result of the action.
     type Output;
 
     /// Receives the stepper.
@@ -87,7 +87,7 @@ pub fn with_stepper<V: StepperVisitor>(
     with_chosen(scene, solver, choice.as_ref(), visitor)
 }
 
-/// The same where it is known what `auto` has chosen, if that is the method.
+/// [`with_stepper`] with the choice that `auto` has already made, if that is the method.
 pub fn with_chosen<V: StepperVisitor>(
     scene: &SceneFile,
     solver: &Solver,
@@ -179,11 +179,12 @@ fn modal<T: Real, const K: usize, const N: usize, const W: usize>(
     Ok(if solver.spin { stepper } else { stepper.without_spin() })
 }
 
-/// The cheapest stepper that is good enough for the motion that the scene commands, behind its
-/// shaper if it has one; or which one comes nearest. Shows its progress after a second.
+/// Chooses the cheapest stepper that is good enough for the motion that the scene commands, behind
+/// its shaper if it has one. If none is, returns the one that comes nearest. Shows its progress
+/// after a second.
 ///
 /// # Errors
-/// The scene's moves are refused, whatever the method.
+/// An error is returned if the scene's moves are refused, whatever the method.
 pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoChoice>, Error> {
     let tolerance = Tolerance { tip: solver.tolerance, torque: solver.torque_tolerance };
     let late = progress::late("choosing a method");
@@ -192,7 +193,7 @@ pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoCho
     })
 }
 
-/// The errors to expect of a method that is named by hand, along the motion that the scene
+/// Estimates the errors of a method that is named by hand, along the motion that the scene
 /// commands.
 pub fn assess(scene: &SceneFile, solver: &Solver) -> Result<Assessment, Error> {
     with_stepper(scene, solver, Assess { scene })
@@ -214,7 +215,7 @@ impl StepperVisitor for Assess<'_> {
     }
 }
 
-/// Hands over the motion that a scene commands: its moves, or what is left of them behind a shaper.
+/// Hands over the motion that a scene commands: its moves, or the shaped motion.
 fn along<R>(
     scene: &SceneFile,
     tick: f64,
@@ -229,7 +230,7 @@ fn along<R>(
     with(&Moves::new(scene.from, &moves, tick)?)
 }
 
-/// Fitted for the bend that the scene's own accelerations let expect.
+/// Builds elastica, fitted for the bend to expect from the scene's own accelerations.
 fn elastica<T: Real, const K: usize>(
     scene: &SceneFile,
     solver: &Solver,

@@ -1,4 +1,4 @@
-//! What can go wrong on the command line, in one line each.
+//! Errors of the command line, in one line each.
 
 use std::fmt;
 use std::path::Path;
@@ -14,17 +14,17 @@ impl Error {
     /// Exit code for bad input.
     pub const EXIT_CODE: u8 = 2;
 
-    /// An error with that text; line breaks become spaces.
+    /// Creates an error with that text. Line breaks become spaces.
     pub fn new(text: impl fmt::Display) -> Self {
         Self(text.to_string().split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
-    /// The same error, found in `place`: a file, or a move of the queue.
+    /// Adds the `place` where the error was found: a file, or a move of the queue.
     pub fn within(self, place: impl fmt::Display) -> Self {
         Self::new(format_args!("{place}: {self}"))
     }
 
-    /// A file that cannot be read or written.
+    /// Creates the error of a file that cannot be read or written.
     pub fn file(path: &Path, cause: impl fmt::Display) -> Self {
         Self::new(format_args!("{}: {cause}", path.display()))
     }

@@ -1,4 +1,4 @@
-//! A shaped motion as the core's trials fly along it.
+//! A shaped motion as the core's trials follow it.
 
 use std::ops::ControlFlow;
 
@@ -9,7 +9,7 @@ use stillbeam::motion::{Commanded, Kink, Peaks, Segment, Shaped, Shaper, Stretch
 use crate::limits::kinematic;
 use crate::trajectory::{Side, Trajectory};
 
-/// A motion that no generator commands: a stepper is given the hub itself.
+/// A motion that no generator commands. The stepper receives the hub's state itself.
 pub struct Flight<'a> {
     trajectory: &'a Trajectory,
     /// The moves before they pass the shaper.
@@ -22,7 +22,7 @@ pub struct Flight<'a> {
 }
 
 impl<'a> Flight<'a> {
-    /// From rest at `from` rad.
+    /// Creates the flight, from rest at `from` rad.
     pub fn new(trajectory: &'a Trajectory, shaper: &'a Shaper, from: f64) -> Self {
         let tick = trajectory.tick();
         let inner = trajectory.breaks().into_iter().map(|t| t / tick);
@@ -39,7 +39,7 @@ impl<'a> Flight<'a> {
         Self { trajectory, segments, shaper, from, borders: borders.collect(), peaks }
     }
 
-    /// The hub so many ticks from the beginning, within one stretch.
+    /// Returns the hub's state `ticks` ticks after the beginning, within one stretch.
     fn within(&self, [begin, end]: [f64; 2], ticks: f64) -> HubState<f64> {
         let side = if ticks > 0.5 * (begin + end) { Side::Left } else { Side::Right };
         self.trajectory.at(ticks * self.trajectory.tick(), side)

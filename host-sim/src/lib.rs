@@ -1,10 +1,10 @@
 #![forbid(unsafe_code)]
-//! The desktop side of stillbeam: the same core on scene files, and what judges it.
+//! The desktop side of stillbeam: runs the core on scene files and judges it.
 //!
-//! In the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its commanded
-//! motion ([`trajectory`]), the core's run ([`run`], [`dispatch`]), its table ([`table`],
-//! [`output`]), and how far two tables are apart ([`compare`]). What a motion may ask of the drive
-//! is held against its [`limits`]; what it leaves behind is its [`residual`] vibration.
+//! The modules in the order of the data: a scene file ([`scene_file`], [`scenes`], [`solver`]), its
+//! commanded motion ([`trajectory`]), the core's run ([`run`], [`dispatch`]), its table ([`table`],
+//! [`output`]), and the differences of two tables ([`compare`]). [`limits`] checks what a motion
+//! asks of the drive. [`residual`] measures the vibration after it.
 //!
 //! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core. The paper's figures
 //! are computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show

@@ -1,4 +1,4 @@
-//! Files are written whole or not at all; what belongs together, together.
+//! Writes files whole or not at all. Files that belong together appear together.
 
 use std::fs::OpenOptions;
 use std::io::{self, BufWriter, Write};
@@ -8,7 +8,7 @@ use tempfile::NamedTempFile;
 
 use crate::error::Error;
 
-/// Writes one file: see [`Files`].
+/// Writes one file. See [`Files`].
 pub fn write_whole(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -20,21 +20,22 @@ pub fn write_whole(
 
 /// Files that appear together, once all of them are complete.
 ///
-/// Until then each stands under a name of its own beside its place, and is removed where anything
-/// fails, with the folders that were made for it. What is no file, such as `/dev/stdout` or a pipe,
-/// is written into and not replaced; a link leads to the file that it names.
+/// Until then each file stands under a temporary name beside its place. If anything fails, it is
+/// removed, with the folders that were made for it. A path that is not a file, such as
+/// `/dev/stdout` or a pipe, is written into and not replaced. A link leads to the file that it
+/// names.
 #[derive(Default)]
 pub struct Files {
     ready: Vec<(PathBuf, Ready)>,
-    /// Folders that were made, outer ones first.
+    /// Folders that were created, outer ones first.
     folders: Vec<PathBuf>,
 }
 
-/// A file's content, complete.
+/// The complete content of a file.
 enum Ready {
-    /// To take the file's place.
+    /// A temporary file that takes the file's place.
     Beside(NamedTempFile),
-    /// To be written into what is there.
+    /// Bytes to be written into the existing path.
     Bytes(Vec<u8>),
 }
 
@@ -112,7 +113,7 @@ impl Files {
         Ok(Ready::Beside(file))
     }
 
-    /// Makes a folder and those around it, and keeps in mind which were not there.
+    /// Creates a folder and those around it, and records the ones that were missing.
     fn make(&mut self, folder: &Path) -> io::Result<()> {
         let missing: Vec<&Path> = folder
             .ancestors()
@@ -150,7 +151,7 @@ impl From<io::Error> for Fault {
     }
 }
 
-/// A path that cannot be written, in one line.
+/// Returns the error of a path that cannot be written, in one line.
 pub fn refusal(path: &Path, cause: &io::Error) -> Error {
     let wanted = match cause.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "a disk with room for it",
@@ -159,7 +160,7 @@ pub fn refusal(path: &Path, cause: &io::Error) -> Error {
     Error::file(path, format_args!("{cause}; must be {wanted}"))
 }
 
-/// Where the file is: a link's own name is not to be replaced.
+/// Returns the place of the file. A link is followed, because its own name must not be replaced.
 fn place_of(path: &Path) -> io::Result<PathBuf> {
     match std::fs::symlink_metadata(path) {
         Ok(there) if there.is_symlink() => std::fs::canonicalize(path),

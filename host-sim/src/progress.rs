@@ -1,11 +1,11 @@
-//! Progress on the terminal; silent where standard error is none.
+//! Progress on the terminal. Prints nothing if standard error is not a terminal.
 
 use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A bar over so many steps. It shows after the first.
+/// Creates a bar over `steps` steps. It shows after the first.
 pub fn bar(what: &str, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(what.to_owned());
     if let Ok(style) =
@@ -16,12 +16,13 @@ pub fn bar(what: &str, steps: usize) -> ProgressBar {
     bar
 }
 
-/// Percent of one long solution.
+/// Creates a bar in percent for one long solution.
 pub fn percent(what: &str) -> ProgressBar {
     bar(what, 100)
 }
 
-/// Percent of a task that is mostly short: the bar shows after a second and goes away when dropped.
+/// Creates a bar in percent for a task that is mostly short. It shows after a second and goes away
+/// when dropped.
 pub fn late(what: &str) -> Late {
     Late { what: what.to_owned(), begun: Instant::now(), bar: OnceCell::new() }
 }

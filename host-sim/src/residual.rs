@@ -1,35 +1,36 @@
 //! Residual vibration: one definition for every command, table and page.
 //!
 //! The residual is the largest deflection of the tip from the arm's rest, its static equilibrium at
-//! the final angle, over a first period after the last arrival. It does not depend on how long the
-//! move is left to settle, nor on where the ticks fall within a vibration.
+//! the final angle, over a first period after the last arrival. It depends neither on the settling
+//! time of the move nor on where the ticks fall within a vibration.
 
 use stillbeam::Scene;
 
 use crate::error::Error;
 use crate::reference::rod;
 
-/// Least length of the time after arrival, ticks: a vibration faster than the ticks is still seen
-/// at several of its phases.
+/// Least length of the time after arrival, ticks. A vibration faster than the ticks is then still
+/// seen at several of its phases.
 const LEAST_TICKS: f64 = 6.0;
 
-/// Most ticks that a table is continued by. Beyond it an arm has no first period worth waiting for.
+/// Most ticks by which a table is continued. Beyond it an arm has no first period worth waiting
+/// for.
 const MOST_TICKS: f64 = 1e6;
 
-/// Time after arrival over which the residual is taken, s: a first period of the arm, at least six
-/// intervals of `tick` s.
+/// Returns the time after arrival over which the residual is taken, s: a first period of the arm,
+/// at least six intervals of `tick` s.
 pub fn span(arm: &Scene, tick: f64) -> Result<f64, Error> {
     Ok(rod::first_period(arm)?.max(LEAST_TICKS * tick))
 }
 
-/// Ticks of [`span`], rounded up; none where they are more than a table is continued by.
+/// Returns the ticks of [`span`], rounded up, or `None` if a table is not continued by that many.
 pub fn ticks(arm: &Scene, tick: f64) -> Result<Option<u64>, Error> {
     let ticks = (span(arm, tick)? / tick - 1e-9).ceil();
     Ok((ticks <= MOST_TICKS).then_some(ticks as u64))
 }
 
-/// The largest |y| of a vibration sampled as `(t, y)`, both in the units given, over `begin` to
-/// `begin + span`; zero without samples there.
+/// Returns the largest |y| of a vibration sampled as `(t, y)`, both in the units given, over
+/// `begin` to `begin + span`. Returns zero without samples there.
 ///
 /// Between samples a vibration passes higher than at them. The sinusoid through a largest sample y₀
 /// and its neighbours y₋, y₊ has `cos ωh = (y₊ + y₋)/2y₀` and the peak `√(y₀² + (y₊ − y₋)²/4(1 −
@@ -51,9 +52,9 @@ pub fn largest(samples: &[(f64, f64)], begin: f64, span: f64) -> f64 {
     between.fold(sampled, f64::max)
 }
 
-/// The crest of the sinusoid through three samples at equal intervals that lies nearest to the
-/// middle one, as a magnitude; zero if none does. `first`: it may also lie next to the first
-/// sample, which has no neighbour before it.
+/// Returns the crest of the sinusoid through three samples at equal intervals that lies nearest to
+/// the middle one, as a magnitude. Returns zero if none does. With `first`, the crest may also lie
+/// next to the first sample, which has no neighbour before it.
 fn crest([before, here, after]: [f64; 3], first: bool) -> f64 {
     let cos = 0.5 * (before + after) / here;
     // Straight, or two samples a period: no sinusoid follows.

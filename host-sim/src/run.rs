@@ -16,19 +16,19 @@ use crate::solver::Solver;
 use crate::step::Step;
 use crate::table::Row;
 
-/// Segments that can wait in the desktop's generator: two of the longest moves.
+/// Capacity of the desktop's generator queue, segments: two of the longest moves.
 pub const QUEUE: usize = 14;
 
 /// Runs a scene from its beginning to the end of the last rest: a row every tick, from t = 0.
 ///
-/// The scene's limits are kept by what is commanded, whatever the method: see [`limits`]. At the
-/// end of a move the row holds the left-hand acceleration and torque.
+/// The commanded motion keeps the scene's limits, whatever the method: see [`limits`]. At the end
+/// of a move the row holds the left-hand acceleration and torque.
 pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
     run_with(scene, solver, None, &|_| ())
 }
 
-/// [`run`] where it is known what `auto` has chosen, if that is the method. `progress` is called
-/// with the fraction of the limits' check that is done, 0 to 1.
+/// [`run`] with the choice that `auto` has already made, if that is the method. `progress` is
+/// called with the fraction of the limits' check that is done, 0 to 1.
 pub fn run_with(
     scene: &SceneFile,
     solver: &Solver,
@@ -52,7 +52,7 @@ pub fn run_with(
 }
 
 /// Refuses a scene along whose motion the reference rod exceeds a limit of torque or clamp moment.
-/// `commanded` says whether a method that is to make the setpoints keeps the limits with other
+/// `commanded` returns true if the method that is to make the setpoints keeps the limits with other
 /// moves.
 pub fn admit_loads(
     scene: &SceneFile,
@@ -74,7 +74,7 @@ pub fn admit_loads(
     }
 }
 
-/// The first move during which the setpoints themselves exceed the limit of torque.
+/// Returns the first move during which the setpoints themselves exceed the limit of torque.
 fn own_excess(scene: &SceneFile, tick: f64, rows: &[Row]) -> Result<Option<Excess>, Error> {
     let Some(limit) = scene.limits.torque else { return Ok(None) };
     let windows = scene.case(tick).windows(&scene.trajectory(tick)?);
@@ -100,7 +100,7 @@ impl StepperVisitor for Rows<'_> {
     }
 }
 
-/// Ticks a stepper through a scene: a row every tick.
+/// Ticks a stepper through a scene. Returns a row every tick.
 pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Error> {
     if let Some(shaper) = &scene.shaper {
         return drive_shaped(&stepper, scene, shaper);
@@ -121,7 +121,7 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     Ok(rows)
 }
 
-/// [`drive`] along a motion that has passed a shaper, which no generator's queue holds.
+/// Ticks a stepper as [`drive`] does, along a shaped motion, which no generator's queue holds.
 fn drive_shaped<S: Stepper>(
     stepper: &S,
     scene: &SceneFile,
@@ -151,8 +151,8 @@ fn drive_shaped<S: Stepper>(
 }
 
 /// Feeds the scene's moves to a generator as its queue takes them, and has `each` tick it through
-/// all of them: `each(generator, k, ends)` calls [`Generator::tick`] once, for tick `k`, at which a
-/// move ends if `ends`. The scene's motion keeps its kinematic limits.
+/// all of them. `each(generator, k, ends)` calls [`Generator::tick`] once, for tick `k`. `ends` is
+/// true if a move ends at that tick. The scene's motion keeps its kinematic limits.
 pub fn each_tick<S: Stepper>(
     stepper: S,
     scene: &SceneFile,
@@ -167,7 +167,7 @@ pub fn each_tick<S: Stepper>(
     each_tick_of(stepper, scene.from, &scene.motions(), each)
 }
 
-/// [`each_tick`] of moves from rest at `from` rad.
+/// Feeds and ticks as [`each_tick`] does, with moves from rest at `from` rad.
 fn each_tick_of<S: Stepper>(
     stepper: S,
     from: f64,
@@ -200,7 +200,7 @@ fn each_tick_of<S: Stepper>(
     Ok(())
 }
 
-/// A setpoint in the units of the table.
+/// Converts a setpoint to the units of the table.
 pub fn row<T: Real>(t: f64, setpoint: &Setpoint<T>) -> Row {
     let [x, y] = setpoint.global_tip();
     Row {

@@ -1,4 +1,4 @@
-//! Scene files: TOML in SI units to a validated arm and its moves.
+//! Scene files: TOML in SI units, read as a validated arm and its moves.
 
 mod moves;
 mod notes;
@@ -23,7 +23,7 @@ use crate::solver::SolverKeys;
 use crate::step::Step;
 use crate::trajectory::Trajectory;
 
-/// A scene as read: the arm, what it shall do, and what the file says of the solver.
+/// A scene as read: the arm, its moves, and the file's solver keys.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneFile {
     /// Name of the embedded scene, or the file's path.
@@ -32,15 +32,15 @@ pub struct SceneFile {
     pub arm: Scene,
     /// Hub angle at the beginning, rad.
     pub from: f64,
-    /// What the hub does, each move with the time to settle after it.
+    /// Moves of the hub, each with the time to settle after it.
     pub moves: Vec<Step>,
-    /// What the moves pass, each with its rest.
+    /// Shaper that the moves pass, each with its rest.
     pub shaper: Option<Shaper>,
     /// Limits of the drive.
     pub limits: Limits,
     /// The `[solver]` table.
     pub solver: SolverKeys,
-    /// Remarks on values that are probably in another unit, a line each.
+    /// Remarks on values that are probably in another unit, one line each.
     pub remarks: Vec<String>,
 }
 
@@ -190,15 +190,15 @@ impl SceneFile {
         Ok(Self { remarks, ..scene })
     }
 
-    /// The moves and what they pass, to be held against limits.
+    /// Returns the moves and their shaper, to be held against limits.
     pub fn case(&self, tick: f64) -> Case<'_> {
         let Self { arm, from, moves, shaper, .. } = self;
         Case { arm, from: *from, steps: moves, shaper: shaper.as_ref(), tick }
     }
 
-    /// The commanded motion with every duration rounded to whole ticks, its shaper passed, within
-    /// the limits of rate, acceleration and jerk. A first period of rest at least follows the last
-    /// arrival.
+    /// Returns the commanded motion behind its shaper, every duration rounded to whole ticks. It
+    /// keeps the limits of rate, acceleration and jerk. At least a first period of rest follows the
+    /// last arrival.
     pub fn trajectory(&self, tick: f64) -> Result<Trajectory, Error> {
         let case = self.case(tick);
         let trajectory = case.trajectory()?;
@@ -208,7 +208,7 @@ impl SceneFile {
         }
     }
 
-    /// The moves with their dwells, as the generator's queue takes them.
+    /// Returns the moves with their dwells, as the generator's queue takes them.
     pub fn motions(&self) -> Vec<Move> {
         self.moves.iter().flat_map(Step::motions).collect()
     }

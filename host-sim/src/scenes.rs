@@ -1,11 +1,11 @@
-//! Scenes that come with the program, by name.
+//! Scenes that are embedded in the program, by name.
 
 use crate::error::Error;
 use crate::scene_file::SceneFile;
 
 macro_rules! embedded {
     ($($name:literal: $about:literal,)*) => {
-        /// `(name, what it is, text of the file)`.
+        /// Embedded scenes: `(name, description, text of the file)`.
         const EMBEDDED: &[(&str, &str, &str)] =
             &[$(($name, $about, include_str!(concat!("../scenes/", $name, ".toml"))),)*];
     };
@@ -23,12 +23,12 @@ embedded! {
     "pick-and-place": "a queue of moves: out, drop, back",
 }
 
-/// Name and description of every embedded scene.
+/// Returns name and description of every embedded scene.
 pub fn list() -> impl Iterator<Item = (&'static str, &'static str)> {
     EMBEDDED.iter().map(|&(name, about, _)| (name, about))
 }
 
-/// The embedded scene of that name, if there is one.
+/// Returns the embedded scene of that name, if there is one.
 pub fn named(name: &str) -> Option<Result<SceneFile, Error>> {
     EMBEDDED
         .iter()
@@ -36,7 +36,7 @@ pub fn named(name: &str) -> Option<Result<SceneFile, Error>> {
         .map(|(name, _, text)| SceneFile::parse(name, text))
 }
 
-/// An embedded scene by name, or else a scene file by path.
+/// Opens an embedded scene by name, or else a scene file by path.
 pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
     named(name_or_path).unwrap_or_else(|| {
         SceneFile::read(name_or_path.as_ref()).map_err(|error| {

@@ -1,4 +1,4 @@
-//! Which solver a run uses: command line over scene file over defaults.
+//! The solver of a run: the command line precedes the scene file, the scene file the defaults.
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
@@ -88,7 +88,7 @@ pub struct SolverKeys {
     pub spin: Option<bool>,
 }
 
-/// A solver, every choice made.
+/// A solver with every key resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solver {
     /// Stepper.
@@ -114,7 +114,7 @@ pub struct Solver {
 }
 
 impl Method {
-    /// Name as it is typed.
+    /// Returns the name as it is typed.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
@@ -125,14 +125,15 @@ impl Method {
         }
     }
 
-    /// Beam elements where none are asked for: they cost newmark the tick, modal only set-up.
+    /// Returns the default number of beam elements. They cost newmark time in the tick, modal only
+    /// in set-up.
     fn elements(self) -> usize {
         if self == Self::Modal { 8 } else { 1 }
     }
 }
 
 impl Quality {
-    /// Name as it is typed.
+    /// Returns the name as it is typed.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fast => "fast",
@@ -142,7 +143,7 @@ impl Quality {
 }
 
 impl Mass {
-    /// Name as it is typed.
+    /// Returns the name as it is typed.
     pub fn name(self) -> &'static str {
         match self {
             Self::Consistent => "consistent",
@@ -152,7 +153,7 @@ impl Mass {
 }
 
 impl Scalar {
-    /// Name as it is typed.
+    /// Returns the name as it is typed.
     pub fn name(self) -> &'static str {
         match self {
             Self::F32 => "f32",
@@ -178,7 +179,7 @@ impl Solver {
 }
 
 impl Default for Solver {
-    /// The method that suits the scene, at the paper's tick.
+    /// Returns the solver that chooses the method for the scene, at the paper's tick.
     fn default() -> Self {
         Self { method: Method::Auto, ..Self::PAPER }
     }
@@ -202,7 +203,7 @@ impl From<Solver> for SolverKeys {
 }
 
 impl SolverKeys {
-    /// Names of the keys, in the order of the fields; a sweep's columns.
+    /// Names of the keys, in the order of the fields. A sweep has them as columns.
     pub const NAMES: [&'static str; 10] = [
         "method",
         "elements",
@@ -216,8 +217,8 @@ impl SolverKeys {
         "spin",
     ];
 
-    /// Every key that the method reads, absent ones at their defaults; none that it does not, so
-    /// that equal solvers have equal keys.
+    /// Returns every key that the method reads, absent ones at their defaults. Keys that it does
+    /// not read are left out, so that equal solvers have equal keys.
     pub fn relevant(self) -> Self {
         let method = self.method.unwrap_or(Solver::default().method);
         let default = Solver { elements: method.elements(), ..Solver::default() };
@@ -236,8 +237,8 @@ impl SolverKeys {
         }
     }
 
-    /// What is given here although `method` does not read it: each in a line that says which
-    /// methods do.
+    /// Returns the given keys that `method` does not read, each in a line that names the methods
+    /// that do.
     pub fn unread(self, method: Method) -> Vec<String> {
         let reads = |method: Method| {
             let typed = Self { method: Some(method), ..Self::default() };
@@ -264,7 +265,7 @@ impl SolverKeys {
         unread
     }
 
-    /// The values that not every method reads.
+    /// Returns the values that not every method reads.
     fn values(&self) -> [Option<String>; 7] {
         [
             self.elements.map(|n| n.to_string()),
@@ -277,7 +278,7 @@ impl SolverKeys {
         ]
     }
 
-    /// These keys, and `other`'s where they are absent.
+    /// Returns these keys, with `other`'s in place of absent ones.
     pub fn or(self, other: Self) -> Self {
         Self {
             method: self.method.or(other.method),
@@ -293,7 +294,7 @@ impl SolverKeys {
         }
     }
 
-    /// The solver, absent keys at their defaults.
+    /// Returns the solver, with absent keys at their defaults.
     pub fn resolve(self) -> Result<Solver, Error> {
         let default = Solver::default();
         let method = self.method.unwrap_or(default.method);
@@ -342,7 +343,7 @@ impl SolverKeys {
     }
 }
 
-/// A tolerance if it is one.
+/// Returns a tolerance, or an error if the value cannot be one.
 fn fraction(key: &str, value: f64, of: &str) -> Result<f64, Error> {
     if (1e-6..=1.0).contains(&value) {
         return Ok(value);
@@ -351,7 +352,7 @@ fn fraction(key: &str, value: f64, of: &str) -> Result<f64, Error> {
 }
 
 impl Solver {
-    /// In a few words, e.g. `newmark, 4 consistent elements, 10 ms, f32`.
+    /// Describes the solver in a few words, e.g. `newmark, 4 consistent elements, 10 ms, f32`.
     pub fn describe(&self) -> String {
         let tick = self.tick * 1e3;
         let (method, scalar) = (self.method.name(), self.scalar.name());

@@ -12,7 +12,7 @@ pub struct Step {
 }
 
 impl Step {
-    /// The move and the dwell after it, if there is one.
+    /// Returns the move and the dwell after it, if there is one.
     pub fn motions(&self) -> impl Iterator<Item = Move> + use<> {
         let dwell = (self.settle > 0.0).then_some(Move::Dwell { duration: self.settle });
         std::iter::once(self.motion).chain(dwell)

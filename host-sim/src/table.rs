@@ -29,7 +29,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Every number to the digits that are written: nine, the time twelve.
+    /// Rounds every number to the digits that are written: nine, the time twelve.
     fn rounded(self) -> Self {
         Self {
             t_s: significant(self.t_s, 12),
@@ -44,7 +44,7 @@ impl Row {
     }
 }
 
-/// `x` to that many significant digits.
+/// Rounds `x` to that many significant digits.
 pub fn significant(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
@@ -67,7 +67,7 @@ pub fn add(files: &mut Files, path: &Path, rows: &[Row]) -> Result<(), Error> {
     })
 }
 
-/// Reads a table; refuses other columns, numbers that are not finite and times that do not rise.
+/// Reads a table. Refuses other columns, numbers that are not finite and times that do not rise.
 pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
     let mut csv = csv::Reader::from_path(path).map_err(|error| {
         Error::file(path, format_args!("{error}; it must be a CSV of run or reference"))
@@ -106,7 +106,7 @@ pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
     Ok(rows)
 }
 
-/// What is wrong with a row: its line, its column and what it must be.
+/// Returns the error of a row: its line, its column and what it must be.
 fn explained(error: &csv::Error, header: &csv::StringRecord) -> String {
     let line = error.position().map_or(0, csv::Position::line);
     match error.kind() {

@@ -1,16 +1,16 @@
-//! The commanded motion of a whole scene, at any time: what the core plans, kept in f64 for
+//! The commanded motion of a whole scene, at any time. It is the core's plan, kept in f64 for
 //! solvers that choose their own steps.
 
 use stillbeam::hub::{Angle, HubState};
 use stillbeam::motion::{Limits, Plan, Segment, Shaper};
 use stillbeam::{Error, Move};
 
-/// Which value to take where the commanded acceleration jumps.
+/// Side from which a jump of the commanded acceleration is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// Just before.
+    /// The value just before the jump.
     Left,
-    /// Just after.
+    /// The value just after the jump.
     Right,
 }
 
@@ -23,7 +23,7 @@ pub struct Trajectory {
     arrivals: Vec<u64>,
     tick: f64,
     ticks: u64,
-    /// What the whole motion has passed.
+    /// Shaper that the whole motion has passed, if any.
     shaper: Option<Shaper>,
 }
 
@@ -38,7 +38,7 @@ struct Piece {
 }
 
 impl Trajectory {
-    /// Plans the moves from rest at `from` rad. At least one move.
+    /// Plans the moves from rest at `from` rad. Needs at least one move.
     pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, Error> {
         let mut start = HubState::resting_at(from)?;
         let mut trajectory = Self {
@@ -72,15 +72,16 @@ impl Trajectory {
         Ok(trajectory)
     }
 
-    /// The same motion through a shaper, which makes it longer by its delay, rounded up to whole
-    /// ticks. From rest to rest.
+    /// Returns the same motion through a shaper, from rest to rest. The motion gets longer by the
+    /// shaper's delay, rounded up to whole ticks.
     pub fn shaped(self, shaper: Shaper) -> Self {
         let added = (shaper.delay() / self.tick - 1e-9).ceil() as u64;
         let arrivals = self.arrivals.iter().map(|k| k + added).collect();
         Self { arrivals, ticks: self.ticks + added, shaper: Some(shaper), ..self }
     }
 
-    /// The hub at time `t` s; before the beginning and after the end, the nearest of the two.
+    /// Returns the hub at time `t` s. Before the beginning and after the end, the nearest of the
+    /// two counts.
     pub fn at(&self, t: f64, side: Side) -> HubState<f64> {
         let Some(shaper) = &self.shaper else { return self.unshaped(t, side) };
         let mut sum = HubState { rate: 0.0, acceleration: 0.0, ..self.unshaped(0.0, Side::Right) };
@@ -117,8 +118,8 @@ impl Trajectory {
         piece.segment.hub_at((t - piece.first) / self.tick)
     }
 
-    /// Times strictly inside the run at which the motion's formula changes; its acceleration or a
-    /// higher derivative may jump there. An integrator restarts at each.
+    /// Returns the times strictly inside the run at which the motion's formula changes. Its
+    /// acceleration or a higher derivative may jump there. An integrator restarts at each.
     pub fn breaks(&self) -> Vec<f64> {
         let Some(shaper) = &self.shaper else {
             return self.pieces.iter().skip(1).map(|piece| piece.begin).collect();
@@ -134,8 +135,8 @@ impl Trajectory {
         all
     }
 
-    /// Times at which moves end, dwells left out, s. There a table holds the left-hand acceleration
-    /// and torque.
+    /// Returns the times at which moves end, dwells left out, s. A table holds the left-hand
+    /// acceleration and torque there.
     pub fn arrivals(&self) -> impl Iterator<Item = f64> {
         self.arrivals.iter().map(|&k| k as f64 * self.tick)
     }
@@ -155,7 +156,7 @@ impl Trajectory {
         self.ticks as f64 * self.tick
     }
 
-    /// The plans of the moves, in order.
+    /// Returns the plans of the moves, in order.
     pub fn plans(&self) -> &[Plan] {
         &self.plans
     }

@@ -8,7 +8,7 @@ use crate::scene_file::SceneFile;
 use crate::table::Row;
 use crate::trajectory::Trajectory;
 
-/// Which solver to judge by.
+/// Reference solver by which the core is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Reference {
     /// The inextensible rod with exact kinematics.
@@ -18,7 +18,7 @@ pub enum Reference {
 }
 
 impl Reference {
-    /// In a few words.
+    /// Describes the solver in a few words.
     pub fn describe(self) -> &'static str {
         match self {
             Self::Rod => "inextensible rod, exact kinematics",
@@ -27,10 +27,11 @@ impl Reference {
     }
 }
 
-/// Solves a scene's motion at `times` (s, rising, within the run); rows as `run` writes them.
+/// Solves a scene's motion at `times` (s, rising, within the run). Returns rows as `run` writes
+/// them.
 ///
-/// At the end of a move the row holds the left-hand acceleration and torque, at the end of a dwell
-/// too. `progress` is called with the fraction that is done.
+/// The row at the end of a move or of a dwell holds the left-hand acceleration and torque.
+/// `progress` is called with the fraction that is done.
 pub fn solve(
     reference: Reference,
     scene: &SceneFile,
@@ -49,7 +50,7 @@ pub fn solve(
     Ok(samples.map_err(Error::new)?.iter().map(row).collect())
 }
 
-/// Times from 0 to the end of a motion, `every` s apart, the end included.
+/// Returns times from 0 to the end of a motion, `every` s apart, the end included.
 pub fn times(trajectory: &Trajectory, every: f64) -> Vec<f64> {
     let end = trajectory.duration();
     let whole = (end / every + 1e-6).floor() as u64;

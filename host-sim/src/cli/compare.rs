@@ -1,4 +1,4 @@
-//! `compare`: two runs of a scene.
+//! `compare`: compares two runs of a scene.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

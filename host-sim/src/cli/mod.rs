@@ -1,4 +1,4 @@
-//! The command line: words in, a library call, lines out. One command a file.
+//! The command line: parses the words, calls the library and prints lines. One command a file.
 
 mod compare;
 mod plan;
@@ -33,7 +33,7 @@ enum Command {
     Run(run::RunArgs),
     /// Plan a move that arrives still, judge it and draw it
     Plan(plan::PlanArgs),
-    /// How far two runs of a scene are apart
+    /// Compare two runs of a scene
     Compare(compare::CompareArgs),
     /// Solve a scene with a reference solver
     Reference(reference::ReferenceArgs),

@@ -1,4 +1,4 @@
-//! `plan`: a move that arrives still, its figures and its pictures.
+//! `plan`: plans a move without residual vibration, prints its figures and draws it.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

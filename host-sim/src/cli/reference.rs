@@ -1,4 +1,4 @@
-//! `reference`: what the core is judged by, on a scene.
+//! `reference`: solves a scene with a reference solver.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ pub struct ReferenceArgs {
     /// Reference solver
     #[arg(long, value_enum, default_value = "rod")]
     solver: Reference,
-    /// Where the rows go
+    /// File for the rows
     #[arg(long, value_name = "OUT.csv")]
     csv: PathBuf,
     /// Interval of the rows in s [default: the scene's tick]

@@ -1,4 +1,4 @@
-//! `run`: the core on a scene.
+//! `run`: runs the core on a scene.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -15,7 +15,7 @@ use stillbeam_sim::{dispatch, println, progress, run, table};
 pub struct RunArgs {
     /// Scene file, or the name of an embedded scene
     scene: String,
-    /// Where the setpoints go
+    /// File for the setpoints
     #[arg(long, value_name = "OUT.csv")]
     csv: PathBuf,
     #[command(flatten)]
@@ -84,9 +84,9 @@ impl RunArgs {
     }
 }
 
-/// What `auto` chooses. Tolerances that nobody asked for are no reason not to run: then the rung
-/// that comes nearest to them is taken, and that is said. A tip that errs by more than is
-/// [`REMARKABLE`] is no run.
+/// Returns the method that `auto` chooses. If no method keeps default tolerances, takes the one
+/// that comes nearest and notes it. Returns an error if a method or tolerances were asked for, or
+/// if the tip's error exceeds [`REMARKABLE`].
 fn chosen(
     scene: &SceneFile,
     solver: &Solver,
@@ -111,11 +111,11 @@ fn chosen(
     Ok(nearest)
 }
 
-/// Errors above which a method that is named by hand is remarked on.
+/// Errors above which a method that is named by hand gets a remark.
 const REMARKABLE: Tolerance = Tolerance { tip: 0.01, torque: 0.05 };
 
-/// Says in one line if the method is expected to err by more than [`REMARKABLE`], and which would
-/// not.
+/// Returns a remark if the method is expected to err by more than [`REMARKABLE`]. The remark names
+/// a better method if there is one.
 fn remark(scene: &SceneFile, solver: &Solver) -> Option<String> {
     // A method that cannot be judged here has run all the same.
     let expected = dispatch::assess(scene, solver).ok()?;
@@ -140,7 +140,7 @@ fn remark(scene: &SceneFile, solver: &Solver) -> Option<String> {
     Some(format!("{method} is expected to err by {}; {advice}", errors(&expected)))
 }
 
-/// In words, e.g. `4.0e-4 of L, 0.2 % of the torque's peak`.
+/// Returns the errors in words, e.g. `4.0e-4 of L, 0.2 % of the torque's peak`.
 fn errors(expected: &Assessment) -> String {
     format!("{:.1e} of L, {:.2} % of the torque's peak", expected.tip, 100.0 * expected.torque)
 }

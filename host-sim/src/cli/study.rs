@@ -1,4 +1,4 @@
-//! `study`, and what runs without a command: the paper's figures.
+//! `study`, the default command: computes the paper's figures.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -83,7 +83,7 @@ fn print(study: &Study) {
     }
 }
 
-/// A paragraph as a list item of lines that a terminal holds.
+/// Returns a paragraph as a list item, wrapped to the width of a terminal.
 fn wrapped(text: &str) -> String {
     let (mut lines, mut line) = (Vec::new(), String::from("-"));
     for word in text.split(' ') {

@@ -18,10 +18,10 @@ pub struct TalkArgs {
     /// A board's serial port, instead of QEMU
     #[arg(long, value_name = "PORT")]
     serial: Option<String>,
-    /// Of the serial port
+    /// Baud rate of the serial port
     #[arg(long, default_value_t = 921_600)]
     baud: u32,
-    /// Where a page with the setpoints goes
+    /// File for a page with the setpoints
     #[arg(long, value_name = "OUT.html")]
     plot: Option<PathBuf>,
 }

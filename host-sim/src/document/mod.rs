@@ -1,4 +1,4 @@
-//! TOML files whose errors say where they are: file, line, column, key, and what it must be.
+//! TOML files whose errors name file, line, column, key, and what the value must be.
 
 mod words;
 
@@ -7,25 +7,25 @@ use toml::de::{DeTable, DeValue};
 
 use crate::error::Error;
 
-/// A TOML text and where its keys stand in it.
+/// A TOML text with the positions of its keys.
 pub struct Document<'a> {
-    /// File, or what else the text is called.
+    /// Name of the text in errors: its file, or another name.
     place: &'a str,
     text: &'a str,
     root: DeValue<'a>,
 }
 
-/// Bytes of the text, from which lines and columns are counted.
+/// Range of bytes in the text, from which lines and columns are counted.
 type Span = std::ops::Range<usize>;
 
-/// A key of the text: its path, e.g. `moves[3].duration`, and where it is.
+/// A key of the text: its path, e.g. `moves[3].duration`, and its position.
 struct Key {
     path: String,
     span: Span,
 }
 
 impl<'a> Document<'a> {
-    /// Parses a text; `place` is what errors call it.
+    /// Parses a text. Errors call it `place`.
     pub fn parse(place: &'a str, text: &'a str) -> Result<Self, Error> {
         // What can be made of a broken text tells the key that it breaks at.
         let (table, errors) = DeTable::parse_recoverable(text);
@@ -36,7 +36,7 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// The text as a `T`.
+    /// Reads the text as a `T`.
     pub fn read<T: DeserializeOwned>(&self) -> Result<T, Error> {
         let tokens = toml::Deserializer::parse(self.text).map_err(|error| self.unparsed(&error))?;
         serde_path_to_error::deserialize(tokens).map_err(|error| {
@@ -49,7 +49,7 @@ impl<'a> Document<'a> {
         })
     }
 
-    /// The same error, which begins with a key as errors of scenes do, with the place of that key.
+    /// Adds the position of a key to an error that begins with that key, as errors of scenes do.
     pub fn locate(&self, error: &Error) -> Error {
         let text = error.to_string();
         match words::path_of(&text).and_then(|path| self.find(&path)) {
@@ -58,7 +58,8 @@ impl<'a> Document<'a> {
         }
     }
 
-    /// Where the value of a path begins, or that of the innermost table around it that is there.
+    /// Returns the byte at which the value of a path begins. If the value is absent, returns that
+    /// of the innermost table around it.
     fn find(&self, path: &[String]) -> Option<usize> {
         let (mut value, mut start) = (&self.root, None);
         for step in path {
@@ -75,7 +76,7 @@ impl<'a> Document<'a> {
         start
     }
 
-    /// What is wrong with a text that is no TOML.
+    /// Returns the error of a text that is not TOML.
     fn unparsed(&self, error: &toml::de::Error) -> Error {
         let at = error.span().map_or(self.text.len(), |span| span.start).min(self.text.len());
         let message = error.message();
@@ -106,7 +107,7 @@ impl<'a> Document<'a> {
         self.error_at(start, words::no_value(&key.path, given, message))
     }
 
-    /// What stands behind a key's `=`, without a comment, and where.
+    /// Returns the value after a key's `=`, without a comment, and the byte at which it begins.
     fn value_after(&self, key: &Key) -> Option<(usize, &'a str)> {
         let rest = self.text.get(key.span.end..)?.lines().next()?;
         let (_, value) = rest.split_once('=')?;
@@ -116,7 +117,7 @@ impl<'a> Document<'a> {
         Some((start, value))
     }
 
-    /// Line and column of a byte, both from 1.
+    /// Returns line and column of a byte, both from 1.
     fn position(&self, byte: usize) -> (usize, usize) {
         let before = self.text.get(..byte).unwrap_or(self.text);
         let line = before.rsplit('\n').next().unwrap_or("");
@@ -129,7 +130,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Every key of a value, `path` being the value's own.
+/// Collects every key of a value. `path` is the value's own.
 fn collect(value: &DeValue<'_>, path: &str, keys: &mut Vec<Key>) {
     match value {
         DeValue::Table(table) => {

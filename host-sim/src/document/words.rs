@@ -1,6 +1,6 @@
-//! What a TOML library says, said to whom wrote the file: the key, what is given, what it must be.
+//! Rewrites the messages of the TOML library: the key, the given value, and what it must be.
 
-/// Why a value is not of its key's type, in serde's words, in ours.
+/// Explains that a value is not of its key's type, from serde's message.
 pub(super) fn mismatch(path: &str, given: &str, message: &str) -> String {
     let inside = |key: &str| match path {
         "" => key.to_owned(),
@@ -36,7 +36,7 @@ pub(super) fn mismatch(path: &str, given: &str, message: &str) -> String {
     }
 }
 
-/// What serde expects, for whom never read its name.
+/// Returns the type that serde expects in plain words.
 fn kind(expected: &str, given: &str) -> String {
     let bare = given.trim_matches(['"', '\'']);
     match expected {
@@ -59,7 +59,7 @@ fn kind(expected: &str, given: &str) -> String {
     }
 }
 
-/// Why what stands behind a key is no TOML.
+/// Explains that the text after a key's `=` is not a TOML value.
 pub(super) fn no_value(path: &str, given: &str, message: &str) -> String {
     let wanted = if given.is_empty() {
         "a value behind the =".to_owned()
@@ -73,12 +73,12 @@ pub(super) fn no_value(path: &str, given: &str, message: &str) -> String {
     format!("{path} = {given}: must be {wanted}")
 }
 
-/// Why a line is no TOML.
+/// Explains that a line is not TOML.
 pub(super) fn no_toml(given: &str, message: &str) -> String {
     format!("\"{given}\": {message}; must be key = value, or a table's name in brackets")
 }
 
-/// What a number must be that begins as one and goes on as something else.
+/// Describes the number that is wanted in place of a text that only begins as one.
 fn number(given: &str) -> String {
     let end = given
         .find(|c: char| !(c.is_ascii_digit() || ['+', '-', '.', ',', '_'].contains(&c)))
@@ -98,7 +98,7 @@ fn number(given: &str) -> String {
     "a number, e.g. 0.5".to_owned()
 }
 
-/// A value in its SI unit, as far as the unit is known.
+/// Converts a value to its SI unit, if the unit is known.
 fn si(value: f64, unit: &str) -> String {
     let factor = match unit {
         "ms" | "mm" | "g" | "mNm" => 1e-3,
@@ -113,13 +113,13 @@ fn si(value: f64, unit: &str) -> String {
     format!("{:.12}", scaled).trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// The name after `prefix` and the known ones, all of which stand in backticks.
+/// Returns the name after `prefix` and the known names. All of them stand in backticks.
 fn quoted<'a>(message: &'a str, prefix: &str) -> Option<(&'a str, Vec<&'a str>)> {
     let mut parts = message.strip_prefix(prefix)?.split('`').skip(1).step_by(2);
     Some((parts.next()?, parts.collect()))
 }
 
-/// The known names, and which of them is close to what was given.
+/// Lists the known names, and the one that is close to the given name.
 fn choice(given: &str, known: &[&str]) -> String {
     let near = known
         .iter()
@@ -134,8 +134,8 @@ fn choice(given: &str, known: &[&str]) -> String {
     }
 }
 
-/// The path that an error of a scene begins with, `moves[3]: move.duration = 0: …` that of the
-/// move's own key.
+/// Returns the path with which an error of a scene begins. For `moves[3]: move.duration = 0: …` it
+/// is the path of the move's own key.
 pub(super) fn path_of(error: &str) -> Option<Vec<String>> {
     let name = |text: &str| -> String {
         text.chars().take_while(|c| c.is_ascii_alphanumeric() || "_.[]".contains(*c)).collect()

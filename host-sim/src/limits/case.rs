@@ -1,4 +1,4 @@
-//! A commanded motion, and which of its moves is under way when.
+//! A commanded motion, and the time windows of its moves.
 
 use stillbeam::motion::Shaper;
 use stillbeam::{Limits, Move, Scene};
@@ -8,7 +8,7 @@ use crate::residual;
 use crate::step::Step;
 use crate::trajectory::Trajectory;
 
-/// Moves of an arm with what they pass, to be held against limits.
+/// Moves of an arm with their shaper, to be held against limits.
 #[derive(Clone, Copy, Debug)]
 pub struct Case<'a> {
     /// The arm.
@@ -17,26 +17,26 @@ pub struct Case<'a> {
     pub from: f64,
     /// The moves, each with the time to settle after it.
     pub steps: &'a [Step],
-    /// What they pass.
+    /// Shaper that the moves pass, if any.
     pub shaper: Option<&'a Shaper>,
     /// h, s.
     pub tick: f64,
 }
 
-/// The time during which a move counts as the one under way: from its beginning to that of the
-/// next, its own rest and dwells included.
+/// Time during which a move counts as the one under way. It lasts from the move's beginning to that
+/// of the next, its own rest and dwells included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Index of the move in its scene.
     pub index: usize,
-    /// s.
+    /// Beginning, s.
     pub begin: f64,
-    /// s.
+    /// End, s.
     pub end: f64,
 }
 
 impl<'a> Case<'a> {
-    /// The same motion with other moves.
+    /// Returns the same motion with other moves.
     pub fn with<'b>(&self, steps: &'b [Step]) -> Case<'b>
     where
         'a: 'b,
@@ -44,8 +44,8 @@ impl<'a> Case<'a> {
         Case { steps, ..*self }
     }
 
-    /// The commanded motion, held against no limit. It goes on for a first period at least after
-    /// the last arrival if it ends at rest there, so that a run shows its residual vibration.
+    /// Returns the commanded motion, held against no limit. If it ends at rest, it goes on for at
+    /// least a first period after the last arrival, so that a run shows its residual vibration.
     pub fn trajectory(&self) -> Result<Trajectory, Error> {
         let mut motions: Vec<Move> = self.steps.iter().flat_map(Step::motions).collect();
         let mut trajectory = self.plan(&motions)?;
@@ -64,7 +64,7 @@ impl<'a> Case<'a> {
         Ok(trajectory.shaped(shaper.clone()))
     }
 
-    /// Ticks of rest that the scene's own moves lack after the last arrival.
+    /// Returns the ticks of rest that the scene's own moves lack after the last arrival.
     fn missing_rest(&self, trajectory: &Trajectory) -> Result<u64, Error> {
         let turning = trajectory.plans().last().is_none_or(|plan| plan.summary.end.rate != 0.0);
         let Some(arrival) = trajectory.arrivals().last().filter(|_| !turning) else {
@@ -75,7 +75,7 @@ impl<'a> Case<'a> {
         Ok(needs.saturating_sub(has))
     }
 
-    /// The moves end to end, the error naming the one that is refused.
+    /// Plans the moves end to end. An error names the move that is refused.
     fn plan(&self, motions: &[Move]) -> Result<Trajectory, Error> {
         Trajectory::plan(self.from, motions, &Limits::default(), self.tick).map_err(|error| {
             let refused = (1..motions.len()).find(|&count| {
@@ -96,7 +96,7 @@ impl<'a> Case<'a> {
         })
     }
 
-    /// The moves' windows, in order; they cover the whole run.
+    /// Returns the moves' windows, in order. They cover the whole run.
     pub fn windows(&self, trajectory: &Trajectory) -> Vec<Window> {
         let mut windows: Vec<Window> = Vec::new();
         let mut ticks = 0;
@@ -120,7 +120,7 @@ impl<'a> Case<'a> {
     }
 }
 
-/// A move as it stands in its scene file.
+/// Returns the name of a move in its scene file.
 pub(super) fn place(index: usize, count: usize) -> String {
     if count == 1 { "move".to_owned() } else { format!("moves[{index}]") }
 }

@@ -1,6 +1,6 @@
 //! Rate, acceleration and jerk of a commanded motion, at any time of it.
 //!
-//! Between two breaks the motion is smooth: there it is sampled, and the largest samples are
+//! The motion is smooth between two breaks. It is sampled there, and the largest samples are
 //! refined. At a break both sides count.
 
 use stillbeam::Limits;
@@ -12,20 +12,20 @@ use crate::trajectory::{Side, Trajectory};
 /// extremes, and up to five copies of moves overlap behind a shaper.
 const SAMPLES: u32 = 96;
 
-/// Samples below this fraction of the largest are not refined: between samples, a smooth motion
-/// rises by less.
+/// Fraction of the largest sample below which a sample is not refined. A smooth motion rises by
+/// less between samples.
 const CLOSE: f64 = 0.97;
 
-/// Thirds that a bracket is narrowed by: to 1e-5 of it, a peak to 1e-10 of itself.
+/// Number of times that a bracket is narrowed by a third: to 1e-5 of it, a peak to 1e-10 of itself.
 const NARROWINGS: u32 = 28;
 
-/// Step of the difference that the jerk is, fraction of the stretch.
+/// Step of the difference quotient that gives the jerk, fraction of the stretch.
 const DIFFERENCE: f64 = 1e-4;
 
-/// A jump of the acceleration that is no rounding, fraction of its peak.
+/// Smallest jump of the acceleration that is not taken for rounding, fraction of its peak.
 const JUMP: f64 = 1e-7;
 
-/// Greatest magnitudes in a window. Error 1e-6 of each; the jerk is infinite where the commanded
+/// Greatest magnitudes in a window. Error 1e-6 of each. The jerk is infinite if the commanded
 /// acceleration jumps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peaks {
@@ -38,7 +38,7 @@ pub struct Peaks {
 }
 
 impl Peaks {
-    /// The peak of a quantity, none of a load.
+    /// Returns the peak of a quantity, or `None` for a load.
     pub fn of(&self, quantity: Quantity) -> Option<Peak> {
         match quantity {
             Quantity::Rate | Quantity::Turn => Some(self.rate),
@@ -49,7 +49,8 @@ impl Peaks {
     }
 }
 
-/// The first window in which the motion exceeds a limit, or turns by more than a radian a tick.
+/// Returns the first window in which the motion exceeds a limit or turns by more than a radian a
+/// tick.
 pub fn excess(case: &Case<'_>, trajectory: &Trajectory, limits: &Limits) -> Option<Excess> {
     if limits.rate.is_none() && limits.acceleration.is_none() && limits.jerk.is_none()
         // Without a shaper the moves themselves have been held against the tick.
@@ -63,12 +64,12 @@ pub fn excess(case: &Case<'_>, trajectory: &Trajectory, limits: &Limits) -> Opti
         .find_map(|window| excess_within(window, &stretches, limits, case.tick))
 }
 
-/// [`excess`] in one window only.
+/// Returns the [`excess`] in one window only.
 pub fn excess_in(window: &Window, trajectory: &Trajectory, limits: &Limits) -> Option<Excess> {
     excess_within(window, &Stretches::of(trajectory), limits, trajectory.tick())
 }
 
-/// Greatest magnitudes from `begin` to `end`, s.
+/// Returns the greatest magnitudes from `begin` to `end`, s.
 pub fn peaks(trajectory: &Trajectory, begin: f64, end: f64) -> Peaks {
     Stretches::of(trajectory).peaks(begin, end)
 }
@@ -134,7 +135,8 @@ impl<'a> Stretches<'a> {
         peaks
     }
 
-    /// θ̈ beside a break; before the beginning and after the end of a run that ends at rest, none.
+    /// Returns θ̈ beside a break; zero before the beginning, and after the end of a run that ends
+    /// at rest.
     fn acceleration(&self, t: f64, side: Side) -> f64 {
         let eps = 1e-9 * self.trajectory.tick();
         let before = t <= eps && side == Side::Left;
@@ -151,14 +153,15 @@ struct Stretch<'a> {
 }
 
 impl Stretch<'_> {
-    /// θ̇ and θ̈, from within at the ends.
+    /// Returns θ̇ and θ̈, from within at the ends.
     fn hub(&self, t: f64) -> (f64, f64) {
         let early = t < 0.5 * (self.begin + self.end);
         let hub = self.trajectory.at(t, if early { Side::Right } else { Side::Left });
         (hub.rate, hub.acceleration)
     }
 
-    /// The slope of θ̈ by a difference, one-sided at the ends. Error 1e-7 of the peak.
+    /// Returns the slope of θ̈ by a difference quotient, one-sided at the ends. Error 1e-7 of the
+    /// peak.
     fn jerk(&self, t: f64) -> f64 {
         let step = DIFFERENCE * (self.end - self.begin);
         let a = |t: f64| self.hub(t).1;

@@ -1,4 +1,4 @@
-//! Torque and clamp moment along a commanded motion: those of the reference rod.
+//! Torque and clamp moment of the reference rod along a commanded motion.
 
 use stillbeam::Limits;
 
@@ -7,14 +7,14 @@ use crate::error::Error;
 use crate::reference::rod::{self, Load, Options, Resume};
 use crate::trajectory::Trajectory;
 
-/// Fineness of a flight. With two polynomials more, or a thousandth of the tolerance, peak loads of
-/// the embedded scenes and of stiff bars change by less than 4e-4.
+/// Options of a full check. With two polynomials more, or a thousandth of the tolerance, peak loads
+/// of the embedded scenes and of stiff bars change by less than 4e-4.
 pub const FINE: Options = Options { order: 6, tolerance: 1e-6, integrator: None };
 
-/// Fineness of a first look and of a search, in a quarter of the time; error below 3e-3.
+/// Options of a first check and of a search, in a quarter of the time. Error below 3e-3.
 pub const QUICK: Options = Options { order: 5, tolerance: 1e-5, integrator: None };
 
-/// A first look suffices where it sees less than this fraction of a limit: it errs by less.
+/// Fraction of a limit below which the first check suffices, because its error is smaller.
 const CLEARLY: f64 = 0.9;
 
 /// Greatest magnitudes over a time, N m.
@@ -27,7 +27,7 @@ pub struct Peaks {
 }
 
 impl Peaks {
-    /// The first limit that the peaks exceed, during the move at `index`.
+    /// Returns the first limit that the peaks exceed, during the move at `index`.
     pub fn excess(&self, limits: &Limits, index: usize) -> Option<Excess> {
         let torque = limits.torque.map(|limit| (Quantity::Torque, self.torque, limit));
         let moment = limits.moment.map(|limit| (Quantity::Moment, self.moment, limit));
@@ -37,7 +37,7 @@ impl Peaks {
             .find_map(|(quantity, peak, limit)| Excess::of(quantity, peak, limit, index))
     }
 
-    /// The greatest fraction of a limit.
+    /// Returns the greatest fraction of a limit.
     fn fraction(&self, limits: &Limits) -> f64 {
         let torque = limits.torque.map_or(0.0, |limit| self.torque.value / limit);
         torque.max(limits.moment.map_or(0.0, |limit| self.moment.value / limit))
@@ -49,20 +49,20 @@ pub fn limited(limits: &Limits) -> bool {
     limits.torque.is_some() || limits.moment.is_some()
 }
 
-/// What a flight found: the first window that exceeds a limit, and the arm at its beginning.
+/// Result of a flight: the first window that exceeds a limit, and the arm at its beginning.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The excess.
     pub excess: Excess,
     /// The window.
     pub window: Window,
-    /// The arm at the window's beginning, in a [`FINE`] flight and in a [`QUICK`] one; none at
+    /// The arm at the window's beginning, in a [`FINE`] flight and in a [`QUICK`] one; `None` at
     /// rest.
     pub states: [Option<Resume>; 2],
 }
 
-/// The first window of a motion in which the rod exceeds a load limit; none without such limits.
-/// `progress` is called with the fraction that is done.
+/// Returns the first window of a motion in which the rod exceeds a load limit. Returns `None`
+/// without such limits. `progress` is called with the fraction that is done.
 pub fn excess(
     case: &Case<'_>,
     trajectory: &Trajectory,
@@ -100,7 +100,7 @@ pub fn excess(
     Ok(None)
 }
 
-/// The rod's peaks in a window, from its state at the window's beginning, and its state at the end.
+/// Returns the rod's peaks in a window and its state at the end, from its state at the beginning.
 pub fn fly(
     case: &Case<'_>,
     trajectory: &Trajectory,
@@ -123,7 +123,7 @@ pub fn fly(
     Ok((peaks, Some(end)))
 }
 
-/// The last two of a row of samples.
+/// The last two samples of a row.
 #[derive(Default)]
 struct Crest {
     before: Option<(f64, f64)>,

@@ -20,7 +20,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Field of a scene file.
+    /// Returns the quantity's field of a scene file.
     pub fn parameter(self) -> &'static str {
         match self {
             Self::Rate => "limits.rate",
@@ -32,7 +32,7 @@ impl Quantity {
         }
     }
 
-    /// Unit of the quantity.
+    /// Returns the unit of the quantity.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Rate | Self::Turn => "rad/s",
@@ -42,7 +42,7 @@ impl Quantity {
         }
     }
 
-    /// The limit, none where there is none. `tick` in s.
+    /// Returns the limit, or `None` without one. `tick` in s.
     pub fn limit(self, limits: &Limits, tick: f64) -> Option<f64> {
         match self {
             Self::Rate => limits.rate,
@@ -54,7 +54,7 @@ impl Quantity {
         }
     }
 
-    /// The limit's field, to be changed.
+    /// Returns the limit's field, to be changed.
     pub fn of_mut(self, limits: &mut Limits) -> Option<&mut f64> {
         match self {
             Self::Rate => limits.rate.as_mut(),
@@ -66,8 +66,9 @@ impl Quantity {
         }
     }
 
-    /// How many times as long a move has to be that exceeds its limit `ratio` times, if its shape
-    /// stays: rates fall with 1/T, accelerations and what they load with 1/T², jerks with 1/T³.
+    /// Returns the factor by which a move must be longer if it exceeds its limit `ratio` times. The
+    /// move keeps its shape: rates fall with 1/T, accelerations and loads with 1/T², jerks with
+    /// 1/T³.
     pub fn stretch(self, ratio: f64) -> f64 {
         match self {
             Self::Rate | Self::Turn => ratio,

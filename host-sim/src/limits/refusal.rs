@@ -1,4 +1,4 @@
-//! A motion that exceeds a limit, in one line: the move, the limit, the need, and what would do.
+//! A motion that exceeds a limit, in one line: the move, the limit, the need, and a remedy.
 
 use std::fmt;
 
@@ -9,15 +9,15 @@ use super::{Peak, Quantity};
 use crate::error::Error;
 use crate::table::significant;
 
-/// Rounding that a limit takes, as in the core.
+/// Rounding error by which a limit may be exceeded, as in the core.
 const ROUNDING: f64 = 1e-9;
 
 /// A limit that is exceeded during a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
-    /// What is limited.
+    /// Quantity that is limited.
     pub quantity: Quantity,
-    /// What the move needs, and when.
+    /// Magnitude that the move needs, and its time.
     pub peak: Peak,
     /// The limit.
     pub limit: f64,
@@ -26,27 +26,27 @@ pub struct Excess {
 }
 
 impl Excess {
-    /// The excess, none where the peak keeps the limit.
+    /// Returns the excess, or `None` if the peak keeps the limit.
     pub fn of(quantity: Quantity, peak: Peak, limit: f64, index: usize) -> Option<Self> {
         let exceeds = peak.value > limit * (1.0 + ROUNDING);
         exceeds.then_some(Self { quantity, peak, limit, index })
     }
 
-    /// How many times the limit is needed.
+    /// Returns the peak divided by the limit.
     pub fn ratio(&self) -> f64 {
         self.peak.value / self.limit
     }
 }
 
-/// What would keep the limit.
+/// Change to the move that would keep the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Way {
-    /// As the core says it.
+    /// Remedy that the core names.
     Remedy(Remedy),
-    /// No duration of this move: pulses of the shaper that come this late, s, still carry an
-    /// earlier one.
+    /// No duration of this move keeps the limit. Pulses of the shaper that come this late, s, still
+    /// carry an earlier move.
     Pulses(f64),
-    /// No duration up to this one, s.
+    /// No duration up to this one, s, keeps the limit.
     None(f64),
     /// The method's own setpoints exceed the limit, which the arm itself keeps.
     Method,
@@ -55,11 +55,11 @@ pub enum Way {
 /// A motion that is not accepted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refusal {
-    /// The limit.
+    /// Limit that is exceeded.
     pub excess: Excess,
-    /// Moves of the scene.
+    /// Number of moves in the scene.
     pub count: usize,
-    /// What would do.
+    /// Change that would keep the limit.
     pub way: Way,
 }
 
@@ -112,7 +112,7 @@ impl From<Refusal> for Error {
     }
 }
 
-/// A need: as many decimals as tell it from a limit that is close by.
+/// Formats a need with as many decimals as tell it from a limit that is close by.
 fn number(value: f64) -> String {
     match value {
         _ if value.is_infinite() => "an infinite value of".to_owned(),
@@ -121,7 +121,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// A time as it can be typed back: its decimals to a nanosecond.
+/// Rounds a time to a nanosecond, so that it can be typed back.
 pub(super) fn seconds(time: f64) -> f64 {
     (time * 1e9).round() / 1e9 + 0.0
 }

@@ -1,4 +1,4 @@
-//! What would keep a limit: the shortest duration of the move, or why none does.
+//! Remedies for an exceeded limit: the shortest duration of the move, or the reason why none helps.
 
 use std::cell::Cell;
 
@@ -11,26 +11,26 @@ use crate::reference::rod::{self, Options, Resume};
 use crate::step::Step;
 use crate::trajectory::{Side, Trajectory};
 
-/// Longest duration that is tried: ticks.
+/// Longest duration that is tried, ticks.
 const MOST_TICKS: u32 = 1 << 24;
 
-/// Durations that are tried on the way up where a trial costs nothing, and where it is a flight.
+/// Number of increasing durations that are tried if a trial is cheap, and if it is a flight.
 const TRIALS: u32 = 400;
 const FLIGHTS: u32 = 60;
 
-/// First periods that a search flies in all: up to ten seconds. A limit a thousand times too low
-/// takes moves so long that a search would not end; the refusal then says only that it takes a
-/// longer one.
+/// First periods that a search flies in all, which takes up to ten seconds. A limit a thousand
+/// times too low takes moves so long that a search would not end. The refusal then says only that
+/// it takes a longer move.
 const BUDGET: f64 = 1000.0;
 
-/// Durations that are tried above the one that a quick search has found.
+/// Number of durations that are tried above the one that a quick search has found.
 const CLOSER: u32 = 24;
 
-/// Share of the aimed duration that a search may leap to: there a load would be twice its limit,
-/// and the most that a vibration does to a load is to double it or to cancel half of it.
+/// Share of the aimed duration to which a search may leap. A load would be twice its limit there,
+/// and a vibration at most doubles a load or cancels half of it.
 const LEAP: f64 = 0.7;
 
-/// The refusal of a motion whose trajectory exceeds a kinematic limit.
+/// Returns the refusal of a motion whose trajectory exceeds a kinematic limit.
 pub fn of_motion(
     case: &Case<'_>,
     trajectory: &Trajectory,
@@ -53,8 +53,9 @@ pub fn of_motion(
     Refusal { excess, count: case.steps.len(), way }
 }
 
-/// The refusal of a motion along which the rod exceeds a load limit. `admit` is asked of the moves
-/// with a duration that the rod takes, and says whether whoever commands the motion takes it too.
+/// Returns the refusal of a motion along which the rod exceeds a load limit. `admit` gets the moves
+/// with a duration that keeps the rod's limits. It returns true if whoever commands the motion
+/// accepts them too.
 pub fn of_loads(
     case: &Case<'_>,
     trajectory: &Trajectory,
@@ -122,7 +123,8 @@ pub fn of_loads(
     Ok(refusal(longer))
 }
 
-/// What merely holding the arm takes between two hub angles, rad, if that exceeds the limit.
+/// Returns the load that holds the arm at rest between two hub angles, rad, if it exceeds the
+/// limit.
 pub fn too_heavy(
     case: &Case<'_>,
     limits: &Limits,
@@ -140,7 +142,7 @@ pub fn too_heavy(
     Ok((held > limit).then_some(held))
 }
 
-/// What is clear without trying a duration.
+/// Returns the remedy that needs no trial of a duration, if there is one.
 fn plain_way(
     case: &Case<'_>,
     trajectory: &Trajectory,
@@ -171,7 +173,8 @@ fn plain_way(
     }
 }
 
-/// How many times as long the move has to be by its kinematics, none where it keeps the limits.
+/// Returns the factor by which the move must be longer to keep its kinematic limits. Returns `None`
+/// if it keeps them.
 fn excess_during(
     case: &Case<'_>,
     trajectory: &Trajectory,
@@ -184,7 +187,7 @@ fn excess_during(
     Some(excess.quantity.stretch(excess.ratio()))
 }
 
-/// The moves, one of them in another time.
+/// Returns the moves, one of them with another duration.
 fn lasting(case: &Case<'_>, index: usize, ticks: u32) -> Vec<Step> {
     let mut steps = case.steps.to_vec();
     if let Some(step) = steps.get_mut(index) {
@@ -215,11 +218,12 @@ fn searched(
     })
 }
 
-/// The shortest duration beyond `failing`, whole ticks, that keeps the limits.
+/// Returns the shortest duration beyond `failing`, whole ticks, that keeps the limits.
 ///
-/// `keeps` says how many times as long a duration would have to be, none if it does. The durations
-/// go up to `LEAP` of that at once, then by no more than `careful` ticks or a twentieth, then are
-/// halved back to the last that failed. The error is the longest that was tried.
+/// `keeps` returns the factor by which a duration would have to be longer, or `None` if it keeps
+/// the limits. The durations go up to `LEAP` of that at once, then by no more than `careful` ticks
+/// or a twentieth. They are then halved back to the last that failed. The error is the longest
+/// duration that was tried.
 pub fn shortest(
     failing: u32,
     first: f64,

@@ -1,20 +1,20 @@
-//! What merely holding the arm takes.
+//! Loads that hold the arm at rest against its weight.
 
 use stillbeam::{Angle, Scene};
 
 use crate::error::Error;
 use crate::reference::rod;
 
-/// Greatest step of the hub between two equilibria, rad: a holding torque's peak, flat as a
-/// cosine's, is then right to 1e-4.
+/// Greatest step of the hub between two equilibria, rad. The peak of a holding torque is as flat as
+/// a cosine's, so this step gives it to 1e-4.
 const STEP: f64 = 0.03;
 
-/// Most equilibria: beyond two turns the torques repeat.
+/// Greatest range of hub angles, rad. Beyond two turns the torques repeat.
 const TURN: f64 = 2.0 * std::f64::consts::TAU;
 
-/// Greatest hub torque and clamp moment, N m, of the arm at rest under its weight anywhere between
-/// two hub angles, rad. However slowly the hub moves from one to the other, the motor feels them.
-/// Zero without gravity.
+/// Returns the greatest hub torque and clamp moment, N m, of the arm at rest under its weight
+/// anywhere between two hub angles, rad. The motor feels them however slowly the hub moves from one
+/// angle to the other. Zero without gravity.
 pub fn holding(arm: &Scene, from: f64, to: f64) -> Result<[f64; 2], Error> {
     let mut most = [0.0_f64; 2];
     if arm.gravity == 0.0 {

@@ -1,4 +1,4 @@
-//! Still moves against other motions of the same duration.
+//! Still moves compared with other motions of the same duration.
 
 use std::f64::consts::PI;
 
@@ -29,29 +29,29 @@ pub const HEADER: [&str; ERRORS.len() + 4] = [
     "torque",
 ];
 
-/// Band that the robust entry is planned for.
+/// Frequency band for which the robust entry is planned, ± fraction.
 pub const SPREAD: f64 = 0.2;
 
-/// Its name.
+/// Name of the robust entry.
 pub const ROBUST: &str = "still, robust to \u{b1}20 %";
 
-/// One motion and what it leaves.
+/// One motion and its residual vibration.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    /// As it stands in the table.
+    /// Name in the table.
     pub name: String,
-    /// For each of [`ERRORS`].
+    /// Judgement for each of [`ERRORS`].
     pub judgements: Vec<Judgement>,
 }
 
 impl Entry {
-    /// Residual for each of [`ERRORS`], fraction of L.
+    /// Returns the residual for each of [`ERRORS`], fraction of L.
     pub fn residuals(&self) -> impl Iterator<Item = f64> + '_ {
         self.judgements.iter().map(|judgement| judgement.residual)
     }
 
-    /// A row of the table, see [`HEADER`]: residuals in % of L, rate in π/T, acceleration in π/T²,
-    /// torque in mN m.
+    /// Returns a row of the table, see [`HEADER`]: residuals in % of L, rate in π/T, acceleration
+    /// in π/T², torque in mN m.
     pub fn cells(&self, duration: f64) -> Vec<String> {
         let nominal = self.nominal();
         std::iter::once(self.name.clone())
@@ -64,14 +64,14 @@ impl Entry {
             .collect()
     }
 
-    /// The run with the frequency that was planned for.
+    /// Returns the run with the frequency for which the motion was planned.
     pub fn nominal(&self) -> &Judgement {
         &self.judgements[ERRORS.len() / 2]
     }
 }
 
-/// Every motion from 0 to `to` rad in the same `duration` s, shapers included; those for which it
-/// is too short are left out.
+/// Judges every motion from 0 to `to` rad in the same `duration` s, shapers included. Motions for
+/// which the duration is too short are left out.
 pub fn entries(
     arm: &Scene,
     to: f64,
@@ -91,7 +91,7 @@ pub fn entries(
         .collect()
 }
 
-/// The motions by name.
+/// Returns the motions by name.
 pub(super) fn motions(
     arm: &Scene,
     to: f64,
@@ -129,7 +129,7 @@ pub(super) fn motions(
     Ok(all)
 }
 
-/// A fraction as per cent: three digits, 0.001 at the finest.
+/// Formats a fraction as per cent: three digits, 0.001 at the finest.
 pub fn percent(fraction: f64) -> String {
     let value = 100.0 * fraction;
     match value {

@@ -1,4 +1,4 @@
-//! What a motion really leaves behind: the reference rod, flown through it.
+//! The residual vibration of a motion, simulated with the reference rod.
 
 use stillbeam::motion::Shaper;
 use stillbeam::{Limits, Move, Scene};
@@ -9,17 +9,17 @@ use crate::reference::rod::{self, Options};
 use crate::residual;
 use crate::trajectory::{Side, Trajectory};
 
-/// A residual changes by less than 1e-6 of L with finer ones.
+/// Default options of the rod. With finer ones a residual changes by less than 1e-6 of L.
 const FINE: Options = Options { order: 6, tolerance: 1e-8, integrator: None };
 
-/// For comparing many motions of one arm with payload: a residual changes by less than 1e-7 of L,
-/// a torque by 2e-3, and the flight takes half the time. A bare arm wants the finer default.
+/// Options for comparing many motions of one arm with payload, in half the time. A residual changes
+/// by less than 1e-7 of L, a torque by 2e-3. A bare arm wants the finer default.
 pub const BRISK: Options = Options { order: 5, tolerance: 1e-6, integrator: None };
 
-/// Instants at which the rest is looked at, over a first period.
+/// Instants over a first period at which the rest is sampled.
 const LOOKS: usize = 120;
 
-/// What a motion does to an arm.
+/// Effect of a motion on an arm.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// Residual vibration, fraction of L: see [`crate::residual`].
@@ -32,7 +32,7 @@ pub struct Judgement {
     pub rate: f64,
     /// Largest hub acceleration, rad/s².
     pub acceleration: f64,
-    /// Length of the motion with what a shaper adds, s.
+    /// Length of the motion including the delay of a shaper, s.
     pub duration: f64,
     /// The run, the time after the motion included.
     pub samples: Vec<Sample>,
@@ -45,24 +45,24 @@ pub struct Motion {
     pub from: f64,
     /// The moves.
     pub moves: Vec<Move>,
-    /// What they pass.
+    /// Shaper that the moves pass, if any.
     pub shaper: Option<Shaper>,
     /// h, s.
     pub tick: f64,
 }
 
 impl Motion {
-    /// One move, unshaped.
+    /// Returns the motion of one move, unshaped.
     pub fn of(from: f64, motion: Move, tick: f64) -> Self {
         Self { from, moves: vec![motion], shaper: None, tick }
     }
 
-    /// Through a shaper.
+    /// Returns the motion through a shaper.
     pub fn shaped(self, shaper: Shaper) -> Self {
         Self { shaper: Some(shaper), ..self }
     }
 
-    /// The motion with at least `rest` s after it.
+    /// Returns the trajectory of the motion with at least `rest` s after it.
     fn trajectory(&self, rest: f64) -> Result<Trajectory, Error> {
         let mut moves = self.moves.clone();
         moves.push(Move::Dwell { duration: rest + self.tick });
@@ -73,8 +73,8 @@ impl Motion {
         })
     }
 
-    /// Flies the arm through the motion, its frequencies off by the fraction `error`: the motion
-    /// was made for another.
+    /// Simulates the arm along the motion. The arm's frequencies differ by the fraction `error`
+    /// from those for which the motion was made.
     pub fn judge(&self, arm: &Scene, error: f64) -> Result<Judgement, Error> {
         self.judge_with(arm, error, &FINE)
     }

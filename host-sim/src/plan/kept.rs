@@ -1,8 +1,8 @@
-//! Still moves that keep their limits in truth.
+//! Still moves that keep their limits on the reference rod.
 //!
-//! The planner knows the arm in two modes and from rest. What it plans is held against the limits
-//! as every motion is, torque and clamp moment by the reference rod, which still rings from the
-//! move before. Where that shows more than the planner saw, it plans again within tighter limits.
+//! The planner knows the arm in two modes and from rest. Its plan is held against the limits as
+//! every motion is, torque and clamp moment by the reference rod, which still rings from the move
+//! before. If that shows more than the planner saw, it plans again within tighter limits.
 
 use std::cell::OnceCell;
 
@@ -14,18 +14,18 @@ use crate::limits::{Case, Excess, Peak, Quantity, Refusal, Way, kinematic, load,
 use crate::reference::rod::Resume;
 use crate::step::Step;
 
-/// Fraction of the torque limit that a shortest move is planned for: a method's own setpoints, good
-/// to a hundredth of the peak, then keep the limit too.
+/// Fraction of the torque limit for which a shortest move is planned. A method's own setpoints,
+/// good to a hundredth of the peak, then keep the limit too.
 const GOAL: f64 = 0.985;
 
-/// Times that limits are tightened.
+/// Number of times that limits are tightened.
 const ROUNDS: u32 = 8;
 
-/// Durations that are tried where tightened limits do not converge, and how they grow.
+/// Number of durations that are tried if tightened limits do not converge, and their growth.
 const LONGER: u32 = 40;
 const GROWTH: f64 = 1.03;
 
-/// Fraction of a duration below which no shorter one is looked for, and how often the rest is
+/// Fraction of a duration below which no shorter one is tried, and number of times that the rest is
 /// halved.
 const SHORTER: f64 = 0.8;
 const HALVINGS: u32 = 5;
@@ -41,22 +41,22 @@ pub struct Asked<'a> {
     pub from: f64,
     /// Hub angle at the end, rad.
     pub to: f64,
-    /// s; the shortest within the limits where there is none.
+    /// Duration, s. `None` asks for the shortest within the limits.
     pub duration: Option<f64>,
-    /// The fraction to which the arm's frequencies are known, for a robust move.
+    /// Fraction to which the arm's frequencies are known, for a robust move.
     pub robust: Option<f64>,
     /// Time after it, s.
     pub settle: f64,
-    /// Moves of the scene.
+    /// Number of moves in the scene.
     pub count: usize,
 }
 
-/// A plan and what its planner expects.
+/// A plan and its planner's prediction.
 #[derive(Clone, Copy, Debug)]
 pub struct Kept {
     /// The plan.
     pub plan: StillMove,
-    /// What its planner expects.
+    /// Prediction of the planner.
     pub prediction: Prediction,
     /// `2π/ω₁`, s.
     pub first_period: f64,
@@ -81,7 +81,7 @@ impl Asked<'_> {
     }
 }
 
-/// Why a plan is none.
+/// Reason why there is no plan.
 enum Failure {
     Exceeds(Excess),
     Core(CoreError),
@@ -90,12 +90,12 @@ enum Failure {
 struct Search<'a> {
     asked: &'a Asked<'a>,
     planner: Planner<f32, 2>,
-    /// The rod where the move begins; none at rest.
+    /// State of the rod at the beginning of the move; `None` at rest.
     state: OnceCell<Option<Resume>>,
 }
 
 impl Search<'_> {
-    /// Refuses a move on the way of which merely holding the arm exceeds a limit.
+    /// Refuses a move if holding the arm at rest somewhere on its way exceeds a limit.
     fn weight(&self) -> Result<(), Error> {
         let Asked { before, limits, from, to, .. } = self.asked;
         for quantity in [Quantity::Torque, Quantity::Moment] {
@@ -113,7 +113,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// The move from rest to rest.
+    /// Returns the request of the move from rest to rest.
     fn request(&self) -> Request<f32, 2> {
         Request::from_rest(self.asked.from, self.asked.to)
     }
@@ -122,7 +122,7 @@ impl Search<'_> {
         Refusal { excess, count: self.asked.count, way }.into()
     }
 
-    /// The move of a given duration, or the refusal that says which would do.
+    /// Plans the move of a given duration, or returns the refusal that names a sufficient one.
     fn lasting(&self, duration: f64) -> Result<StillMove, Error> {
         let excess = match self.attempt(duration, self.asked.limits)? {
             Ok(found) => return Ok(found),
@@ -141,7 +141,7 @@ impl Search<'_> {
         Err(self.refusal(excess, way))
     }
 
-    /// A move of that duration, s, within the limits in truth.
+    /// Plans a move of that duration, s, within the limits on the reference rod.
     fn attempt(&self, duration: f64, limits: &Limits) -> Result<Result<StillMove, Failure>, Error> {
         let within =
             |limits: &Limits| self.planner.plan(&self.request().limits(*limits).duration(duration));
@@ -166,7 +166,7 @@ impl Search<'_> {
         }
     }
 
-    /// The shortest move within the limits in truth.
+    /// Plans the shortest move within the limits on the reference rod.
     fn shortest(&self) -> Result<StillMove, Error> {
         let limits = self.asked.limits;
         let goal = Limits { torque: limits.torque.map(|torque| GOAL * torque), ..*limits };
@@ -187,7 +187,7 @@ impl Search<'_> {
         Err(self.refusal(excess, Way::None(ticks * self.asked.before.tick)))
     }
 
-    /// Halves a duration back that tightened load limits made too long: they take the weight's
+    /// Halves a duration back that tightened load limits made too long. They take the weight's
     /// share of a load for the motion's.
     fn shortened(&self, found: StillMove, goal: &Limits) -> Result<StillMove, Error> {
         let mut found = found;
@@ -208,8 +208,8 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// Plans, looks at the truth, and plans again within limits that are tighter by what it
-    /// exceeds. The failure comes with the ticks of the last plan.
+    /// Plans, checks the plan on the reference rod, and plans again within limits that are
+    /// tightened by the excess. The failure comes with the ticks of the last plan.
     fn tightened(
         &self,
         goal: &Limits,
@@ -241,7 +241,7 @@ impl Search<'_> {
         Ok(Err(failure.unwrap_or((Failure::Core(CoreError::NotAtRest { rate: 0.0 }), 0))))
     }
 
-    /// Every limit that a plan exceeds in truth.
+    /// Returns every limit that a plan exceeds on the reference rod.
     fn over(&self, plan: &StillMove, limits: &Limits) -> Result<Vec<Excess>, Error> {
         let Asked { before, settle, .. } = self.asked;
         let mut steps = before.steps.to_vec();

@@ -1,4 +1,4 @@
-//! Still moves on the desk: planned, judged by the reference rod, drawn, and held against other
+//! Still moves on the desktop: planned, judged by the reference rod, drawn, and compared with other
 //! motions.
 
 pub mod comparison;

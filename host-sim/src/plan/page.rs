@@ -15,7 +15,8 @@ use crate::table;
 
 use stillbeam::{Move, Profile};
 
-/// Writes `index.html`, a picture a chart and `plan.csv` into a folder. Returns the page's path.
+/// Writes `index.html`, a picture for each chart, and `plan.csv` into a folder. Returns the page's
+/// path.
 pub fn write(
     folder: &Path,
     name: &str,
@@ -55,7 +56,8 @@ pub fn write(
     Ok(path)
 }
 
-/// Motion, acceleration, deflection and sensitivity, each with the name of its file.
+/// Returns the charts of motion, acceleration, deflection and sensitivity, each with its file's
+/// name.
 fn charts(request: &Request, planned: &Planned) -> Result<Vec<(&'static str, Chart)>, Error> {
     let duration = planned.plan.duration();
     let quintic = Motion::of(

@@ -1,4 +1,4 @@
-//! The pictures that a still move is chosen by.
+//! Charts that help to choose a still move.
 
 use rayon::prelude::*;
 use stillbeam::Scene;
@@ -8,9 +8,9 @@ use super::judge;
 use crate::error::Error;
 use crate::plot::{Axis, Chart, Colour, Dash, Series};
 
-/// What a curve is of and how it looks.
+/// Motion of a curve and the look of the curve.
 struct Style {
-    /// Name in the contest, or how it begins.
+    /// Name in the comparison, or its beginning.
     motion: &'static str,
     label: &'static str,
     colour: Colour,
@@ -63,13 +63,13 @@ const POINTS: i32 = 40;
 /// Residual over frequency error.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// Name in the contest.
+    /// Name in the comparison.
     pub motion: String,
     /// `(frequency error, residual)`, fractions.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Sensitivity of the motions that are drawn, ±20 %. `done` is called once a motion.
+/// Computes the sensitivity of the drawn motions, ±20 %. `done` is called once a motion.
 pub fn curves(
     arm: &Scene,
     to: f64,
@@ -92,7 +92,7 @@ pub fn curves(
         .collect()
 }
 
-/// Residual over frequency error at equal total duration: what a move is to be chosen by.
+/// Draws residual over frequency error at equal total duration. A move is chosen by this chart.
 pub fn sensitivity(curves: &[Curve]) -> Chart {
     let line = |curve: &Curve| {
         let percent = |&(error, left): &(f64, f64)| (100.0 * error, 100.0 * left.max(1e-7));
@@ -107,7 +107,7 @@ pub fn sensitivity(curves: &[Curve]) -> Chart {
     .with_all(curves.iter().filter_map(line))
 }
 
-/// The tip's deflection during the motions and after them, the frequency being right.
+/// Draws the tip's deflection during the motions and after them, without frequency error.
 pub fn swing(entries: &[Entry], duration: f64, length: f64) -> Chart {
     let line = |entry: &Entry| {
         let samples = &entry.nominal().samples;
@@ -124,10 +124,10 @@ pub fn swing(entries: &[Entry], duration: f64, length: f64) -> Chart {
     .with_all(swung(entries).filter_map(line))
 }
 
-/// The motions of [`swing`].
+/// Returns the motions of [`swing`].
 pub fn swung(entries: &[Entry]) -> impl Iterator<Item = &Entry> {
     entries.iter().filter(|entry| SWUNG.contains(&entry.name.as_str()))
 }
 
-/// Motions whose swing is drawn: more would hide each other.
+/// Motions whose deflection is drawn. More would hide each other.
 const SWUNG: [&str; 3] = ["quintic", "quintic, ZV", "still"];

@@ -1,4 +1,4 @@
-//! A still move as it is asked for, and all that is found out about it.
+//! A request for a still move, and the results for it.
 
 use rayon::prelude::*;
 use stillbeam::planner::{Prediction, StillMove};
@@ -16,7 +16,7 @@ pub const ERRORS: [f64; 17] = [
     0.15, 0.175, 0.2,
 ];
 
-/// What to plan.
+/// Request for a still move.
 #[derive(Clone, Copy, Debug)]
 pub struct Request {
     /// The arm.
@@ -25,11 +25,11 @@ pub struct Request {
     pub from: f64,
     /// Hub angle at the end, rad.
     pub to: f64,
-    /// s; the shortest within the limits where there is none.
+    /// Duration, s. `None` asks for the shortest within the limits.
     pub duration: Option<f64>,
-    /// What the drive can do.
+    /// Limits of the drive.
     pub limits: Limits,
-    /// The fraction to which the arm's frequencies are known, for a robust move.
+    /// Fraction to which the arm's frequencies are known, for a robust move.
     pub robust: Option<f64>,
     /// h, s.
     pub tick: f64,
@@ -40,11 +40,11 @@ pub struct Request {
 pub struct Planned {
     /// The plan.
     pub plan: StillMove,
-    /// What its planner expects.
+    /// Prediction of the planner.
     pub prediction: Prediction,
     /// `2π/ω₁`, s.
     pub first_period: f64,
-    /// What the reference rod does.
+    /// Judgement by the reference rod.
     pub judgement: Judgement,
     /// Peak loads of the reference rod, over the move and a first period after it.
     pub loads: load::Peaks,
@@ -53,7 +53,7 @@ pub struct Planned {
 }
 
 impl Request {
-    /// Plans, in f32 as the target does; within the limits in truth.
+    /// Plans in f32, as the target does, within the limits on the reference rod.
     pub fn plan(&self) -> Result<Kept, Error> {
         let Self { arm, from, to, duration, limits, robust, tick } = self;
         let before = Case { arm, from: *from, steps: &[], shaper: None, tick: *tick };
@@ -61,7 +61,7 @@ impl Request {
         Asked { before, limits, from, to, duration, robust, settle: 0.0, count: 1 }.plan()
     }
 
-    /// The rod's peak loads along a plan.
+    /// Returns the rod's peak loads along a plan.
     fn loads(&self, plan: &StillMove) -> Result<load::Peaks, Error> {
         let steps = [Step { motion: plan.motion(), settle: 0.0 }];
         let (arm, from, tick) = (&self.arm, self.from, self.tick);
@@ -71,7 +71,7 @@ impl Request {
         Ok(load::fly(&case, &trajectory, &window, &load::FINE, None, &|_| ())?.0)
     }
 
-    /// Plans and judges; `tick` is called once for each of [`ERRORS`].
+    /// Plans and judges. `tick` is called once for each of [`ERRORS`].
     pub fn carry_out(&self, tick: &(dyn Fn() + Sync)) -> Result<Planned, Error> {
         let Kept { plan, prediction, first_period } = self.plan()?;
         let motion = Motion::of(self.from, plan.motion(), self.tick);
@@ -92,7 +92,7 @@ impl Request {
 }
 
 impl Planned {
-    /// Residual at a frequency error of [`ERRORS`], fraction of L.
+    /// Returns the residual at a frequency error of [`ERRORS`], fraction of L.
     pub fn residual_at(&self, error: f64) -> f64 {
         let off = |entry: &&(f64, f64)| (entry.0 - error).abs() < 1e-9;
         self.sensitivity.iter().find(off).map_or(f64::NAN, |entry| entry.1)

@@ -1,4 +1,4 @@
-//! Axes: ranges, ticks and the words at them.
+//! Axes: ranges, ticks and labels.
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
@@ -11,7 +11,7 @@ pub struct Axis {
     tight: bool,
 }
 
-/// An axis that knows its range: positions on it are linear, or decades where it is logarithmic.
+/// An axis with a known range. Positions on it are linear, or decades on a logarithmic axis.
 #[derive(Clone, Debug)]
 pub(super) struct Ruler {
     log: bool,
@@ -22,34 +22,34 @@ pub(super) struct Ruler {
 }
 
 impl Axis {
-    /// A linear axis with a little air at both ends. The label names quantity and unit.
+    /// Creates a linear axis with a margin at both ends. The label names quantity and unit.
     pub fn linear(label: impl Into<String>) -> Self {
         Self { label: label.into(), log: false, limits: None, tight: false }
     }
 
-    /// A linear axis that ends where the points end: for time.
+    /// Creates a linear axis that ends at the outermost points, for time.
     pub fn tight(label: impl Into<String>) -> Self {
         Self { tight: true, ..Self::linear(label) }
     }
 
-    /// A logarithmic axis. Points that are not positive are left out.
+    /// Creates a logarithmic axis. Points that are not positive are left out.
     pub fn log(label: impl Into<String>) -> Self {
         Self { log: true, ..Self::linear(label) }
     }
 
-    /// Fixed ends.
+    /// Fixes both ends.
     pub fn limits(mut self, low: f64, high: f64) -> Self {
         self.limits = Some((low, high));
         self
     }
 
-    /// Where a value stands on the axis; none where it has no place.
+    /// Returns the position of a value on the axis, or `None` if it has none.
     pub(super) fn place(&self, value: f64) -> Option<f64> {
         let place = if self.log { value.log10() } else { value };
         (place.is_finite() && (!self.log || value > 0.0)).then_some(place)
     }
 
-    /// The range that holds all `values`, with about `count` ticks.
+    /// Returns the range that holds all `values`, with about `count` ticks.
     pub(super) fn ruler(&self, values: impl Iterator<Item = f64>, count: usize) -> Ruler {
         let ends = match self.limits {
             Some((low, high)) => self.place(low).zip(self.place(high)),
@@ -87,12 +87,12 @@ impl Ruler {
         Self { log, low, high, ticks, decimals }
     }
 
-    /// The same ticks' spacing rule over another range.
+    /// Returns the ruler of the same kind over another range.
     pub fn stretched(&self, low: f64, high: f64, count: usize) -> Self {
         Self::new(self.log, low, high, count)
     }
 
-    /// What stands at the tick at that position.
+    /// Returns the label of the tick at that position.
     pub fn words(&self, position: f64) -> String {
         let text =
             if self.log { power(position) } else { format!("{:.*}", self.decimals, position) };
@@ -101,7 +101,7 @@ impl Ruler {
     }
 }
 
-/// Range and ticks as the axis has them, nothing left to plotters.
+/// Passes the range and ticks of the axis to plotters, which decides nothing itself.
 impl Ranged for Ruler {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
@@ -126,14 +126,14 @@ impl ValueFormatter<f64> for Ruler {
     }
 }
 
-/// 1, 2 or 5 times a power of ten, nearest above `step`.
+/// Returns 1, 2 or 5 times a power of ten, nearest above `step`.
 fn nice_step(step: f64) -> f64 {
     let power = 10f64.powf(step.log10().floor());
     let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * power >= step * (1.0 - 1e-9));
     factor.unwrap_or(10.0) * power
 }
 
-/// Positions of whole decades, of 1, 2 and 5 where there are few, of every other where many.
+/// Returns the positions of whole decades, of 1, 2 and 5 if there are few, of every other if many.
 fn decades(low: f64, high: f64, count: usize) -> Vec<f64> {
     let span = high - low;
     let within = |position: &f64| (low - 1e-9..=high + 1e-9).contains(position);
@@ -146,7 +146,7 @@ fn decades(low: f64, high: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// 10 to that power in short: plain from a thousandth to a hundred thousand.
+/// Formats 10 to that power: plain from a thousandth to a hundred thousand.
 fn power(exponent: f64) -> String {
     let value = 10f64.powf(exponent);
     if (-3.01..5.01).contains(&exponent) {

@@ -1,4 +1,4 @@
-//! Curves end at the frame of the plot.
+//! Clips curves at the frame of the plot.
 
 /// The frame, in positions on the axes.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ impl Bounds {
         within(x, self.x) && within(y, self.y)
     }
 
-    /// The pieces of a polyline that are inside.
+    /// Returns the pieces of a polyline that are inside.
     pub fn clip(&self, points: &[(f64, f64)]) -> Vec<Vec<(f64, f64)>> {
         let mut pieces: Vec<Vec<(f64, f64)>> = Vec::new();
         for pair in points.windows(2) {
@@ -32,7 +32,7 @@ impl Bounds {
         pieces
     }
 
-    /// The part of a segment that is inside (Liang and Barsky).
+    /// Returns the part of a segment that is inside (Liang and Barsky).
     fn segment(&self, a: (f64, f64), b: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
         let (dx, dy) = (b.0 - a.0, b.1 - a.1);
         let (mut enter, mut leave) = (0.0_f64, 1.0_f64);

@@ -1,4 +1,4 @@
-//! Charts to SVG through plotters.
+//! Draws charts as SVG through plotters.
 
 use std::error::Error as StdError;
 
@@ -12,21 +12,22 @@ use super::clip::Bounds;
 use super::palette::GRID;
 use super::{Chart, Colour, Dash, Marker, Series};
 
-/// Units of the picture: ours times [`FINE`].
+/// Units of the picture: the chart's units times [`FINE`].
 type BackendCoord = (i32, i32);
 
 type Fault = Box<dyn StdError>;
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Plot<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ruler, Ruler>>;
 
-/// plotters rounds to whole units; this many to one of ours keep curves smooth.
+/// Units of the picture in one of the chart's. plotters rounds to whole units; this many keep
+/// curves smooth.
 const FINE: u32 = 10;
 
-/// Sizes of text, our units.
+/// Sizes of text, units of the chart.
 const TITLE: u32 = 15;
 const TEXT: u32 = 13;
 
-/// Height of one row of the legend, and of the words above marks.
+/// Height of one row of the legend, and of the labels above marks.
 const ROW: u32 = 20;
 
 /// A colour with its place in the chart.
@@ -178,13 +179,13 @@ fn curve(
     Ok(())
 }
 
-/// Along x first, then along y, from point to point.
+/// Returns the staircase through the points: along x first, then along y, from point to point.
 fn staircase(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let stairs = points.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]);
     stairs.chain(points.last().copied()).collect()
 }
 
-/// A vertical line over the height of the plot, its words above it.
+/// Draws a vertical line over the height of the plot, with its label above it.
 fn mark(
     root: &Area<'_>,
     plot: &mut Plot<'_, '_>,
@@ -201,7 +202,7 @@ fn mark(
     Ok(())
 }
 
-/// The line of a series through points in whatever coordinates.
+/// Returns the line of a series through points in any coordinates.
 fn stroke<'b, C: Clone + 'static>(
     styled: &Styled<'_>,
     points: Vec<C>,
@@ -217,7 +218,7 @@ fn stroke<'b, C: Clone + 'static>(
     }
 }
 
-/// A marker about the origin, in the picture's own units.
+/// Returns a marker about the origin, in the picture's own units.
 fn marker<'b>(kind: Marker, colour: RGBColor) -> DynElement<'static, SVGBackend<'b>, BackendCoord> {
     let line = colour.stroke_width(2 * FINE);
     match kind {
@@ -228,19 +229,19 @@ fn marker<'b>(kind: Marker, colour: RGBColor) -> DynElement<'static, SVGBackend<
     }
 }
 
-/// A style of text in the colour of text.
+/// Returns a text style in the colour of text.
 fn words(size: u32, style: FontStyle, across: HPos, up: VPos) -> TextStyle<'static> {
     // The SVG backend writes size / 1.24.
     let font = ("sans-serif", 1.24 * f64::from(size * FINE), style).into_font();
     font.color(&Colour::Ink.rgb()).pos(Pos::new(across, up))
 }
 
-/// Our units to the picture's.
+/// Converts the chart's units to the picture's.
 fn at(x: u32, y: u32) -> BackendCoord {
     ((x * FINE) as i32, (y * FINE) as i32)
 }
 
-/// Text as an attribute's value.
+/// Escapes text for an attribute's value.
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

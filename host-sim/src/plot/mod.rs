@@ -45,7 +45,7 @@ pub struct Series {
     stairs: bool,
 }
 
-/// How a line is drawn.
+/// Style of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
     /// Without gaps.
@@ -56,7 +56,7 @@ pub enum Dash {
     Dotted,
 }
 
-/// How a point is drawn.
+/// Shape of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marker {
     /// Small and filled.
@@ -70,42 +70,42 @@ pub enum Marker {
 }
 
 impl Chart {
-    /// An empty chart, 520 × 340 units: half the width of a page.
+    /// Creates an empty chart of 520 × 340 units, half the width of a page.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
         let (series, marks) = (Vec::new(), Vec::new());
         Self { title: title.into(), x, y, size: (520, 340), series, marks, equal: false }
     }
 
-    /// Another size, units of which text is 13 to 15 high.
+    /// Sets another size, in units of which text is 13 to 15 high.
     pub fn sized(mut self, width: u32, height: u32) -> Self {
         self.size = (width, height);
         self
     }
 
-    /// One more series. Those without a colour of their own take the palette's next.
+    /// Adds a series. A series without a colour of its own takes the palette's next.
     pub fn with(mut self, series: Series) -> Self {
         self.series.push(series);
         self
     }
 
-    /// More series.
+    /// Adds several series.
     pub fn with_all(self, series: impl IntoIterator<Item = Series>) -> Self {
         series.into_iter().fold(self, Self::with)
     }
 
-    /// A vertical line at `x` with a few words above it.
+    /// Adds a vertical line at `x` with a label above it.
     pub fn mark(mut self, x: f64, label: impl Into<String>) -> Self {
         self.marks.push((x, label.into()));
         self
     }
 
-    /// One unit of `y` as long as one of `x`: for paths in the plane, linear axes.
+    /// Draws one unit of `y` as long as one of `x`, for paths in the plane. Needs linear axes.
     pub fn equal_scales(mut self) -> Self {
         self.equal = true;
         self
     }
 
-    /// The picture: one `<svg>` element that takes the width it is given.
+    /// Returns the picture: one `<svg>` element that takes the width it is given.
     pub fn svg(&self) -> Result<String, Error> {
         draw::svg(self).map_err(|error| Error::new(format_args!("{}: {error}", self.title)))
     }
@@ -125,43 +125,43 @@ impl Series {
         }
     }
 
-    /// A curve.
+    /// Creates a curve.
     pub fn line(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self { dash: Some(Dash::Solid), ..Self::new(label, points) }
     }
 
-    /// Points that are not joined.
+    /// Creates points that are not joined.
     pub fn scatter(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self { marker: Some(Marker::Dot), ..Self::new(label, points) }
     }
 
-    /// The points of a front where less is better on both axes, joined by a staircase over what
-    /// they dominate.
+    /// Creates the points of a front where less is better on both axes. A staircase joins them over
+    /// the region that they dominate.
     pub fn front(label: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let mut line = Self::line(label, points).colour(Colour::Vermilion).marker(Marker::Disc);
         line.points.sort_by(|a, b| a.0.total_cmp(&b.0));
         Self { stairs: true, ..line }
     }
 
-    /// That colour.
+    /// Sets the colour.
     pub fn colour(mut self, colour: Colour) -> Self {
         self.colour = Some(colour);
         self
     }
 
-    /// A line of that style.
+    /// Sets the style of the line.
     pub fn dash(mut self, dash: Dash) -> Self {
         self.dash = Some(dash);
         self
     }
 
-    /// A line of that width, units; 2 unless told.
+    /// Sets the width of the line, units. The default is 2.
     pub fn width(mut self, width: u32) -> Self {
         self.width = width;
         self
     }
 
-    /// A marker on every point.
+    /// Sets a marker on every point.
     pub fn marker(mut self, marker: Marker) -> Self {
         self.marker = Some(marker);
         self

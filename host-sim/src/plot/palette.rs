@@ -4,13 +4,13 @@ use plotters::style::RGBColor;
 
 /// The palette of Okabe and Ito, without its yellow, which is too pale on white paper.
 ///
-/// In SVG they stand as `#RRGGBB` in upper case; a page's style sheet can lighten them for a dark
-/// background by attribute selectors.
+/// In SVG the colours stand as `#RRGGBB` in upper case. A page's style sheet can lighten them for a
+/// dark background by attribute selectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
     /// The colour of text.
     Ink,
-    /// Rules and what should stand back.
+    /// The colour of rules and of secondary elements.
     Grey,
     /// #0072B2.
     Blue,
@@ -31,7 +31,7 @@ impl Colour {
     pub const CYCLE: [Self; 6] =
         [Self::Blue, Self::Vermilion, Self::Green, Self::Purple, Self::Orange, Self::Sky];
 
-    /// As a plotters colour.
+    /// Converts to a plotters colour.
     pub(super) fn rgb(self) -> RGBColor {
         match self {
             Self::Ink => RGBColor(0x22, 0x22, 0x22),
@@ -46,5 +46,5 @@ impl Colour {
     }
 }
 
-/// Lines of the grid.
+/// Colour of the grid's lines.
 pub(super) const GRID: RGBColor = RGBColor(0xDD, 0xDD, 0xDD);

@@ -1,5 +1,5 @@
-//! Reference solutions to judge the core by: two solvers that share no method with it, nor with
-//! each other. Only the scene and the commanded motion are common.
+//! Reference solutions that judge the core. The two solvers share no method with it, nor with each
+//! other. Only the scene and the commanded motion are common.
 //!
 //! | | [`rod`] | [`fem`] |
 //! |---|---|---|
@@ -16,12 +16,11 @@ mod schedule;
 
 /// The arm at one time of a reference solution.
 ///
-/// Where the commanded acceleration jumps, `acceleration` and `torque` are the right-hand values,
-/// except at the end of a move, where they are the left-hand ones: the values that the move itself
-/// commands last.
+/// At a jump of the commanded acceleration, `acceleration` and `torque` are the right-hand values.
+/// At the end of a move they are the left-hand ones, the values that the move itself commands last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// s.
+    /// Time, s.
     pub t: f64,
     /// θ with its whole turns, rad.
     pub angle: f64,
@@ -37,14 +36,14 @@ pub struct Sample {
     pub torque: f64,
 }
 
-/// Why there is no reference solution.
+/// Reason why there is no reference solution.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ReferenceError {
     /// The scene itself is not accepted.
     Scene(stillbeam::Error),
     /// A time is not finite, not in ascending order or outside the run.
     Time {
-        /// What was given, s.
+        /// The given time, s.
         time: f64,
         /// Length of the run, s.
         duration: f64,
@@ -53,17 +52,17 @@ pub enum ReferenceError {
     Options {
         /// Field and value.
         given: String,
-        /// What it must be.
+        /// The accepted values.
         wanted: &'static str,
     },
-    /// No stable equilibrium under gravity at the first angle: the link buckles.
+    /// The arm has no stable equilibrium under gravity at the first angle: the link buckles.
     NoEquilibrium {
         /// The first angle, rad.
         angle: f64,
     },
     /// The integrator cannot go on.
     Integration {
-        /// Where, s.
+        /// Time at which it stops, s.
         time: f64,
         /// Its reason.
         reason: String,

@@ -1,26 +1,26 @@
-//! Where a solver has to stop, and from which side it sees the commanded motion there.
+//! Times at which a solver has to stop, and the side from which it sees the commanded motion there.
 
 use stillbeam::hub::HubState;
 
 use super::ReferenceError;
 use crate::trajectory::{Side, Trajectory};
 
-/// The sample times of a run, checked, between the breaks of its motion.
+/// The checked sample times of a run, between the breaks of its motion.
 pub(super) struct Schedule<'a> {
     trajectory: &'a Trajectory,
     times: &'a [f64],
     /// Ends of the moves, s.
     ends: Vec<f64>,
-    /// Times closer than this are one, s.
+    /// Distance below which two times count as one, s.
     close: f64,
 }
 
-/// A stretch with one formula of the motion: the integrator restarts at its beginning.
+/// A stretch with one formula of the motion. The integrator restarts at its beginning.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch<'a> {
-    /// s.
+    /// Beginning, s.
     pub begin: f64,
-    /// s.
+    /// End, s.
     pub end: f64,
     /// Sample times after `begin` up to and including `end`.
     pub times: &'a [f64],
@@ -40,12 +40,12 @@ impl<'a> Schedule<'a> {
         Ok(Self { trajectory, times, ends: trajectory.arrivals().collect(), close })
     }
 
-    /// Sample times at the very beginning.
+    /// Returns the sample times at the very beginning.
     pub fn initial(&self) -> &'a [f64] {
         &self.times[..self.count_until(0.0)]
     }
 
-    /// The stretches between the breaks, in order.
+    /// Returns the stretches between the breaks, in order.
     pub fn stretches(&self) -> Vec<Stretch<'a>> {
         let mut borders = vec![0.0];
         borders.extend(self.trajectory.breaks());
@@ -65,13 +65,13 @@ impl<'a> Schedule<'a> {
         self.times.partition_point(|&time| time <= t + self.close)
     }
 
-    /// The hub at a sample time, from the side that [`super::Sample`] promises.
+    /// Returns the hub at a sample time, from the side that [`super::Sample`] promises.
     pub fn hub(&self, t: f64) -> HubState<f64> {
         let ends = self.ends.iter().any(|end| (t - end).abs() <= self.close);
         self.trajectory.at(t, if ends { Side::Left } else { Side::Right })
     }
 
-    /// The hub at `t` inside a stretch or on its border, from within.
+    /// Returns the hub at `t` inside a stretch or on its border, from within.
     pub fn hub_within(&self, stretch: &Stretch<'_>, t: f64) -> HubState<f64> {
         let first_half = t < 0.5 * (stretch.begin + stretch.end);
         self.trajectory.at(t, if first_half { Side::Right } else { Side::Left })

@@ -47,14 +47,14 @@ fn path(run: &Run) -> Vec<(f64, f64)> {
     run.rows.iter().map(|row| (row.tip_x_m, row.tip_y_m)).collect()
 }
 
-/// The tip every 20 ms of the move.
+/// Returns the tip every 20 ms of the move.
 fn instants(run: &Run) -> Vec<(f64, f64)> {
     let every = (EVERY / run.solver.tick).round() as usize;
     let moving = run.rows.iter().step_by(every).take_while(|row| row.t_s < run.move_time() + 1e-9);
     moving.map(|row| (row.tip_x_m, row.tip_y_m)).collect()
 }
 
-/// From the axis to each of those points and back.
+/// Returns the path from the axis to each of those points and back.
 fn spokes(run: &Run) -> Vec<(f64, f64)> {
     instants(run).into_iter().flat_map(|tip| [(0.0, 0.0), tip]).collect()
 }

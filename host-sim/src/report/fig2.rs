@@ -74,7 +74,7 @@ pub(super) fn section(study: &Study) -> Result<Section, Error> {
     Ok(Section { id: "fig2", title: "Fig. 2: number of elements and mass matrix", body })
 }
 
-/// A curve a mesh, the finest broad and below the others.
+/// Adds a curve for each mesh, the finest broad and below the others.
 fn curves(
     chart: Chart,
     meshes: &[Mesh],

@@ -58,7 +58,7 @@ pub(super) fn section(study: &Study) -> Result<Section, Error> {
     Ok(Section { id: "fig5", title: "Fig. 5: length of the time step", body })
 }
 
-/// The finest run broad and below, some of the others over it.
+/// Adds the finest run broad and below, some of the others over it.
 fn curves(chart: Chart, steps: &Steps, values: fn(&Run) -> Vec<(f64, f64)>) -> Chart {
     let shown = [
         (0.01, Colour::Ink, Dash::Solid, 1),

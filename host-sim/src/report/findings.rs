@@ -1,4 +1,4 @@
-//! What was run, what came out in short, and what does not fit in the paper.
+//! The runs of the study, the findings in short, and contradictions in the paper's data.
 
 use maud::{Markup, html};
 
@@ -7,7 +7,7 @@ use super::parts::{Table, fixed, ms};
 use crate::study::link_mass::{PAPER_READ, PAPER_THEORY, Reading};
 use crate::study::{Run, Study};
 
-/// Title and conditions.
+/// Writes the title and the conditions.
 pub(super) fn head(study: &Study) -> Markup {
     let row = |what: &str, scene: &str, run: &Run| {
         vec![what.to_owned(), scene.to_owned(), run.solver.describe()]
@@ -60,13 +60,13 @@ pub(super) fn head(study: &Study) -> Markup {
     }
 }
 
-/// The findings, a line each.
+/// Lists the findings, a line each.
 pub(super) fn in_short(study: &Study) -> Markup {
     let lines = study.findings();
     html! { section { h2 { "In short" } ul { @for line in &lines { li { (line) } } } } }
 }
 
-/// The mass that does not fit.
+/// Writes the section on the link mass that contradicts the paper's period.
 pub(super) fn link_mass(study: &Study) -> Section {
     let found = &study.link_mass;
     let row = |name: &str, reading: &Reading| {

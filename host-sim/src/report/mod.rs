@@ -1,4 +1,4 @@
-//! The study as one HTML page that needs nothing but itself.
+//! The study as one self-contained HTML page.
 
 mod fig1;
 mod fig2;
@@ -16,10 +16,10 @@ use crate::error::Error;
 use crate::report::parts::page;
 use crate::study::Study;
 
-/// Words that several figures share.
+/// Labels that several figures share.
 const TIME: &str = "time, s";
 const TIP_X: &str = "tip X, m";
-/// Over the line that ends a move.
+/// Label over the line that ends a move.
 const STOP: &str = "hub stops";
 
 /// A chapter of the page.
@@ -29,7 +29,7 @@ struct Section {
     body: Markup,
 }
 
-/// The whole page. The same study gives the same text, byte for byte.
+/// Renders the whole page. The same study gives the same text, byte for byte.
 pub fn render(study: &Study) -> Result<String, Error> {
     let sections = [
         findings::link_mass(study),

@@ -5,7 +5,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use crate::error::Error;
 use crate::plot::Chart;
 
-/// A whole page that needs nothing but itself.
+/// Returns a whole self-contained page.
 pub fn page(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -22,7 +22,7 @@ pub fn page(title: &str, body: &Markup) -> String {
     page.into_string()
 }
 
-/// Charts side by side where the page is wide enough, and what to see in them.
+/// Returns charts side by side where the page is wide enough, with a caption.
 pub fn figure(charts: &[Chart], caption: &Markup, data: &str) -> Result<Markup, Error> {
     let pictures = charts.iter().map(Chart::svg).collect::<Result<Vec<_>, _>>()?;
     Ok(html! {
@@ -35,21 +35,21 @@ pub fn figure(charts: &[Chart], caption: &Markup, data: &str) -> Result<Markup, 
     })
 }
 
-/// A table of numbers, right-aligned but for the first column.
+/// A table of numbers, right-aligned except for the first column.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    /// What it shows.
+    /// Caption of the table.
     pub caption: String,
     /// Column names with units.
     pub header: Vec<&'static str>,
     /// Cells.
     pub rows: Vec<Vec<String>>,
-    /// The row to point out, if any.
+    /// Row to highlight, if any.
     pub key: Option<usize>,
 }
 
 impl Table {
-    /// As HTML.
+    /// Returns the table as HTML.
     pub fn markup(&self) -> Markup {
         html! {
             div.scroll {
@@ -69,22 +69,22 @@ impl Table {
     }
 }
 
-/// Seconds as milliseconds with that many decimals, no unit.
+/// Formats seconds as milliseconds with that many decimals, no unit.
 pub fn ms(seconds: f64, decimals: usize) -> String {
     fixed(1e3 * seconds, decimals)
 }
 
-/// A fraction as a percentage with that many decimals, with its sign.
+/// Formats a fraction as a percentage with that many decimals, with its sign.
 pub fn percent(fraction: f64, decimals: usize) -> String {
     format!("{}\u{a0}%", fixed(1e2 * fraction, decimals))
 }
 
-/// A number with that many decimals.
+/// Formats a number with that many decimals.
 pub fn fixed(value: f64, decimals: usize) -> String {
     format!("{value:.decimals$}").replace('-', "\u{2212}")
 }
 
-/// Metres over time to millimetres over time.
+/// Converts metres over time to millimetres over time.
 pub fn millimetres(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     points.into_iter().map(|(t, x)| (t, 1e3 * x)).collect()
 }

@@ -1,4 +1,4 @@
-//! Why the move is taken to be a cubic.
+//! The evidence that the paper's move is a cubic.
 
 use maud::html;
 

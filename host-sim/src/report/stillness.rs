@@ -1,4 +1,4 @@
-//! Moves that arrive still, against the usual ones in the same time.
+//! Still moves compared with the usual ones in the same time.
 
 use maud::html;
 

@@ -22,17 +22,18 @@ pub(super) struct MoveTable {
     settle: f64,
 }
 
-/// What a still move is planned with.
+/// Context in which a still move is planned.
 pub(super) struct Planning<'a> {
-    /// The moves before it.
+    /// The moves before the still move.
     pub before: Case<'a>,
     pub limits: &'a Limits,
-    /// Moves of the scene.
+    /// Number of moves in the scene.
     pub count: usize,
 }
 
 impl MoveTable {
-    /// `at` is the angle where the move before it ends, none behind a turning hub.
+    /// Builds the move. `at` is the angle where the move before it ends, `None` behind a turning
+    /// hub.
     pub(super) fn build(
         &self,
         index: usize,

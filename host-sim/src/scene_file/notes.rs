@@ -1,15 +1,15 @@
-//! What is worth a line before a run: durations that are no whole ticks, and what a shaper adds.
+//! Notes printed before a run: durations that are not whole ticks, and the time a shaper adds.
 
 use super::SceneFile;
 use crate::error::Error;
 use crate::trajectory::Trajectory;
 
-/// Lines of one kind that are printed; the rest is counted.
+/// Lines of one kind that are printed. The rest is counted.
 const MOST: usize = 4;
 
 impl SceneFile {
-    /// What rounding to whole ticks changed, and what a shaper adds. Moves that are rounded alike
-    /// share a line.
+    /// Returns notes on durations that were rounded to whole ticks and on the delay of a shaper.
+    /// Moves that are rounded alike share a line.
     pub fn roundings(&self, tick: f64) -> Result<Vec<String>, Error> {
         let trajectory = self.trajectory(tick)?;
         let mut plans = trajectory.plans().iter();
@@ -40,7 +40,7 @@ impl SceneFile {
         Ok(lines.chain(shaped).chain(self.longer_rest(&trajectory)).collect())
     }
 
-    /// A line on the rest that is added behind the moves, if any is.
+    /// Returns a line on the rest that is added behind the moves, if any is.
     fn longer_rest(&self, trajectory: &Trajectory) -> Option<String> {
         let added = trajectory.plans().get(self.motions().len())?;
         let rest = trajectory.duration() - trajectory.arrivals().last()?;
@@ -53,12 +53,12 @@ impl SceneFile {
     }
 }
 
-/// Notes on moves, those that say the same together.
+/// Notes on moves. Moves with the same note are grouped.
 #[derive(Default)]
 pub(super) struct Groups(Vec<(String, Vec<usize>)>);
 
 impl Groups {
-    /// Adds what there is to say of the move of that index.
+    /// Adds a note on the move of that index.
     pub fn add(&mut self, index: usize, text: String) {
         match self.0.iter_mut().find(|(known, _)| *known == text) {
             Some((_, moves)) => moves.push(index),
@@ -66,7 +66,8 @@ impl Groups {
         }
     }
 
-    /// A line each, which names the moves, of `count` in all; at most [`MOST`] and one that counts.
+    /// Returns a line for each note, which names its moves, of `count` in all. After [`MOST`] lines
+    /// one more counts the rest.
     pub fn lines(&self, count: usize) -> Vec<String> {
         let mut lines: Vec<String> = self
             .0
@@ -88,7 +89,7 @@ impl Groups {
     }
 }
 
-/// `moves[3], moves[7] and 38 more`.
+/// Names the moves, e.g. `moves[3], moves[7] and 38 more`.
 fn names(moves: &[usize]) -> String {
     let name = |index: &usize| super::place_of(*index);
     match moves {

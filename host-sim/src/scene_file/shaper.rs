@@ -1,4 +1,4 @@
-//! The `[shaper]` table: what the commanded motion passes.
+//! The `[shaper]` table of the commanded motion.
 
 use std::f64::consts::TAU;
 
@@ -13,11 +13,11 @@ use crate::reference::rod;
 #[serde(deny_unknown_fields)]
 pub(super) struct ShaperTable {
     kind: Option<String>,
-    /// Hz, undamped; the arm's own where there is none.
+    /// Undamped frequency, Hz. `None` takes the arm's own.
     frequency: Option<f64>,
-    /// Damping ratio; the arm's own likewise.
+    /// Damping ratio. `None` takes the arm's own.
     damping: Option<f64>,
-    /// `[amplitude, delay in s]` each.
+    /// Pulses, each `[amplitude, delay in s]`.
     pulses: Option<Vec<[f64; 2]>>,
 }
 

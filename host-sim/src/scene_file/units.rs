@@ -1,8 +1,9 @@
-//! Remarks on values that are probably in another unit. None is refused: whoever means it gets it.
+//! Remarks on values that are probably in another unit. No value is refused, because it may be
+//! meant.
 //!
-//! A value is judged by the arm it belongs to: a link is longer than thick, a section of any solid
+//! A value is judged by the arm it belongs to. A link is longer than thick, a section of any solid
 //! has a stiffness that fits its mass, damping leaves a vibration. Thresholds lie a hundred times
-//! beyond what arms have, a thousand being what a wrong prefix makes.
+//! beyond what arms have. A wrong prefix makes a factor of a thousand.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,7 +13,7 @@ use super::notes::Groups;
 use super::{File, LinkTable, MoveTable};
 use crate::reference::rod;
 
-/// Longest link, m: no robot's, and millimetres by their thousands.
+/// Longest link, m. No robot's link is longer; lengths in millimetres exceed it by far.
 const LONGEST: f64 = 30.0;
 
 /// Softest solid, Pa.
@@ -22,10 +23,10 @@ const SOFTEST: f64 = 1e6;
 /// aluminium 800, carbon 3,000; a hundredth of that for a tape, fifty times for a tube.
 const SECTION: (f64, f64) = (0.02, 5e5);
 
-/// Heaviest payload, link masses.
+/// Heaviest payload, in link masses.
 const PAYLOAD: f64 = 200.0;
 
-/// Damping ratio of the first mode beyond which nothing vibrates that a move could leave.
+/// Damping ratio of the first mode beyond which a move can leave no vibration.
 const DAMPED: f64 = 0.5;
 
 /// Fastest joint, rad/s.
@@ -35,7 +36,7 @@ const FASTEST: f64 = 50.0;
 const TICK: f64 = 0.1;
 const MOVE: f64 = 120.0;
 
-/// Everything there is to remark on in a file whose arm is `arm`; a line each.
+/// Returns all remarks on a file whose arm is `arm`, one line each.
 pub(super) fn remarks(file: &File, arm: &Scene, moves: &[MoveTable]) -> Vec<String> {
     let mut lines = link(&file.link);
     lines.extend(hub_and_payload(arm));
@@ -59,7 +60,7 @@ pub(super) fn remarks(file: &File, arm: &Scene, moves: &[MoveTable]) -> Vec<Stri
     lines
 }
 
-/// What an angle beyond two turns is remarked on with, if it is no quarter turn.
+/// Returns the remark on an angle beyond two turns, unless it is a multiple of a quarter turn.
 pub fn angle(value: f64) -> Option<String> {
     let quarters = value / FRAC_PI_2;
     let in_turns = (quarters - quarters.round()).abs() < 1e-3;
@@ -130,7 +131,7 @@ fn link(link: &LinkTable) -> Vec<String> {
     lines
 }
 
-/// A mass and a stiffness that no section of that length has together.
+/// Returns the remark on a mass and a stiffness that no section of that length has together.
 fn section(link: &LinkTable) -> Option<String> {
     let mass = link.mass?;
     let stiffness = link.bending_stiffness.or(link

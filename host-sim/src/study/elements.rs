@@ -1,4 +1,4 @@
-//! Fig. 2: how many elements, and where their mass is put.
+//! Fig. 2: the number of elements and their mass matrix.
 
 use super::{Run, tip_path};
 use crate::dispatch::first_period;
@@ -17,11 +17,11 @@ pub struct Elements {
 /// One number of elements.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    /// How many.
+    /// Number of elements.
     pub elements: usize,
-    /// Half of the element's mass at each node.
+    /// Lumped mass: half of the element's mass at each node.
     pub lumped: Variant,
-    /// Mass by the shape functions.
+    /// Consistent mass, by the shape functions.
     pub consistent: Variant,
 }
 
@@ -30,8 +30,8 @@ pub struct Mesh {
 pub struct Variant {
     /// First period, s.
     pub period: f64,
-    /// Period between zeros of the deflection in the rest after the move, s: what one reads from
-    /// the curve.
+    /// Period between zeros of the deflection in the rest after the move, s. A reader of the curve
+    /// finds this period.
     pub read: f64,
     /// The run.
     pub run: Run,
@@ -41,7 +41,7 @@ pub struct Variant {
 const LAMBDA: f64 = 1.875_104_068_711_961;
 
 impl Elements {
-    /// Member D bare, π in 0.2 s and 0.2 s of rest, at the paper's 0.4 ms.
+    /// Runs member D bare, π in 0.2 s and 0.2 s of rest, at the paper's 0.4 ms.
     pub fn compute() -> Result<Self, Error> {
         let mesh = |elements| -> Result<Mesh, Error> {
             Ok(Mesh {
@@ -72,7 +72,7 @@ fn variant(elements: usize, mass: Mass) -> Result<Variant, Error> {
     Ok(Variant { period, read: period_read(&run)?, run })
 }
 
-/// Twice the mean time between zeros of the deflection after the move.
+/// Returns twice the mean time between zeros of the deflection after the move.
 fn period_read(run: &Run) -> Result<f64, Error> {
     let rest: Vec<_> = run.rows.iter().filter(|row| row.t_s >= run.move_time()).collect();
     let zeros: Vec<f64> = rest

@@ -1,4 +1,4 @@
-//! What the study leaves behind: CSVs and the report.
+//! Files that the study writes: CSVs and the report.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::{report, table};
 /// Name of the report.
 pub const REPORT: &str = "report.html";
 
-/// Columns of numbers and where they go.
+/// Columns of numbers and the file for them.
 struct Columns {
     file: &'static str,
     header: Vec<String>,
@@ -26,7 +26,7 @@ impl Columns {
 }
 
 impl Study {
-    /// Refuses a folder that cannot be one.
+    /// Refuses a path that cannot be a folder.
     pub fn check_folder(folder: &Path) -> Result<(), Error> {
         match folder.ancestors().find(|path| path.is_file()) {
             Some(path) => Err(Error::new(format_args!(
@@ -38,8 +38,7 @@ impl Study {
         }
     }
 
-    /// Writes the CSVs and the report, all of them or none; gives back their paths, the report
-    /// first.
+    /// Writes the CSVs and the report, all of them or none. Returns their paths, the report first.
     pub fn write(&self, folder: &Path) -> Result<Vec<PathBuf>, Error> {
         Self::check_folder(folder)?;
         let page = report::render(self)?;
@@ -196,13 +195,13 @@ impl Study {
     }
 }
 
-/// A motion's name as part of a column's.
+/// Converts a motion's name to a part of a column's name.
 fn column(name: &str) -> String {
     let word = |part: &str| part.to_lowercase().replace(|c: char| !c.is_ascii_alphanumeric(), "");
     name.split([' ', ',']).map(word).filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_")
 }
 
-/// Tip X and deflection of named runs with the same ticks, two columns each.
+/// Returns tip X and deflection of named runs with the same ticks, two columns each.
 fn side_by_side(file: &'static str, runs: &[(String, &Run)]) -> Columns {
     let names = runs
         .iter()

@@ -1,10 +1,10 @@
-//! The study in a few sentences: the same on the terminal and in the report.
+//! The study in a few sentences, for the terminal and for the report.
 
 use super::Study;
 use crate::report::parts::{fixed, ms, percent};
 
 impl Study {
-    /// What came out, a sentence or two each, plain text.
+    /// Returns the findings, a sentence or two each, in plain text.
     pub fn findings(&self) -> Vec<String> {
         let mass = &self.link_mass;
         let mut lines = vec![format!(

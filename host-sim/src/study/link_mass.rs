@@ -6,18 +6,18 @@ use crate::dispatch::first_period;
 use crate::error::Error;
 use crate::solver::{Mass, SolverKeys};
 
-/// Periods of the readings of the paper's numbers.
+/// First periods by the readings of the paper's numbers.
 #[derive(Clone, Debug)]
 pub struct LinkMass {
-    /// As section 3 prints it: 0.215 kg, EI 0.46 N m².
+    /// Reading as section 3 prints it: 0.215 kg, EI 0.46 N m².
     pub printed: Reading,
-    /// As table 1(d) prints member D: 0.0224 kg, 69 GPa × 1.333e-11 m⁴.
+    /// Reading as table 1(d) prints member D: 0.0224 kg, 69 GPa × 1.333e-11 m⁴.
     pub table: Reading,
     /// Member D as the embedded scenes have it: 0.0224 kg, EI 0.46 N m².
     pub used: Reading,
 }
 
-/// One reading and what follows from it.
+/// One reading and its first period.
 #[derive(Clone, Copy, Debug)]
 pub struct Reading {
     /// The link.

@@ -11,26 +11,26 @@ use crate::solver::{Mass, SolverKeys};
 /// Runs of members A to D.
 #[derive(Clone, Debug)]
 pub struct Members {
-    /// A to D.
+    /// Members A to D.
     pub members: Vec<Member>,
 }
 
 /// One member.
 #[derive(Clone, Debug)]
 pub struct Member {
-    /// `A` to `D`.
+    /// Name, `A` to `D`.
     pub name: char,
-    /// What it is made of, in the paper's table 1.
+    /// Material in the paper's table 1.
     pub material: &'static str,
     /// First period with the 30 g, eight consistent elements, s.
     pub period: f64,
-    /// Without damping.
+    /// Run without damping.
     pub undamped: Outcome,
-    /// With [`DAMPING`].
+    /// Run with [`DAMPING`].
     pub damped: Outcome,
 }
 
-/// A run and how it ends.
+/// A run, its peak deflection and its residual vibration.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The run.
@@ -41,7 +41,7 @@ pub struct Outcome {
     pub residual: f64,
 }
 
-/// An illustration: the paper fits its damping to its experiments and does not print it.
+/// Damping for illustration. The paper fits its damping to its experiments and does not print it.
 pub const DAMPING: Damping = Damping { alpha: 0.15, beta: 0.002 };
 
 const MEMBERS: [(char, &str, &str); 4] = [
@@ -52,7 +52,7 @@ const MEMBERS: [(char, &str, &str); 4] = [
 ];
 
 impl Members {
-    /// π in 2 s and 2 s of rest, by the default solver.
+    /// Runs π in 2 s and 2 s of rest, by the default solver.
     pub fn compute() -> Result<Self, Error> {
         let member = |(name, material, file)| -> Result<Member, Error> {
             let scene = super::scene(file, SolverKeys::default())?;
@@ -69,14 +69,14 @@ impl Members {
         Ok(Self { members: MEMBERS.into_iter().map(member).collect::<Result<_, _>>()? })
     }
 
-    /// Member B, which arrives almost still without damping.
+    /// Returns member B, which arrives almost still without damping.
     pub fn quiet(&self) -> Option<&Member> {
         self.members.iter().find(|member| member.name == 'B')
     }
 }
 
 impl Member {
-    /// Duration of the move in first periods.
+    /// Returns the duration of the move in first periods.
     pub fn ratio(&self) -> f64 {
         self.undamped.run.move_time() / self.period
     }
@@ -88,7 +88,7 @@ impl Outcome {
         Ok(Self { peak: run.peak(), residual: run.residual()?, run })
     }
 
-    /// Residual over peak deflection.
+    /// Returns the residual over the peak deflection.
     pub fn ratio(&self) -> f64 {
         self.residual / self.peak
     }

@@ -24,10 +24,10 @@ use crate::solver::{Method, Solver, SolverKeys};
 use crate::table::Row;
 use crate::{compare, run, scenes};
 
-/// Everything the report shows.
+/// Results that the report shows.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// What mass the link of the paper's section 3 has.
+    /// Mass of the link of the paper's section 3.
     pub link_mass: link_mass::LinkMass,
     /// Fig. 1.
     pub tip_path: tip_path::TipPath,
@@ -37,11 +37,11 @@ pub struct Study {
     pub steps: steps::Steps,
     /// Fig. 6.
     pub members: members::Members,
-    /// Why the profile is taken to be the cubic.
+    /// Evidence that the profile is the cubic.
     pub profiles: profiles::Profiles,
     /// Setpoints of one move.
     pub setpoints: setpoints::Setpoints,
-    /// Moves that arrive still, which the paper has none of.
+    /// Moves that arrive still. The paper has none.
     pub stillness: stillness::Stillness,
 }
 
@@ -65,14 +65,14 @@ impl Study {
     }
 }
 
-/// A scene, its solver, and what came out.
+/// A scene, its solver, and the rows of its run.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// The scene, with the solver in it.
     pub scene: SceneFile,
     /// The solver.
     pub solver: Solver,
-    /// A row every tick.
+    /// Rows, one every tick.
     pub rows: Vec<Row>,
 }
 
@@ -84,48 +84,49 @@ impl Run {
         Ok(Self { scene, solver, rows })
     }
 
-    /// Runs an embedded scene; `keys` go over its own solver.
+    /// Runs an embedded scene. `keys` override its own solver.
     pub fn embedded(name: &str, keys: SolverKeys) -> Result<Self, Error> {
         Self::of(scene(name, keys)?)
     }
 
-    /// Tip X over time, (s, m).
+    /// Returns tip X over time, (s, m).
     pub fn tip_x(&self) -> Vec<(f64, f64)> {
         self.rows.iter().map(|row| (row.t_s, row.tip_x_m)).collect()
     }
 
-    /// Hub-frame deflection of the tip over time, (s, m).
+    /// Returns the hub-frame deflection of the tip over time, (s, m).
     pub fn deflection(&self) -> Vec<(f64, f64)> {
         self.rows.iter().map(|row| (row.t_s, row.deflection_m)).collect()
     }
 
-    /// Largest |deflection| of the run, fraction of L.
+    /// Returns the largest |deflection| of the run, fraction of L.
     pub fn peak(&self) -> f64 {
         let largest = self.rows.iter().map(|row| row.deflection_m.abs()).fold(0.0, f64::max);
         largest / self.scene.arm.link.length
     }
 
-    /// [`compare::residual`] of a run that ends at rest, fraction of L.
+    /// Returns the [`compare::residual`] of a run that ends at rest, fraction of L.
     pub fn residual(&self) -> Result<f64, Error> {
         compare::residual(&self.rows, &self.scene, self.solver.tick)?
             .value()
             .ok_or_else(|| Error::new(format_args!("{}: does not end at rest", self.scene.name)))
     }
 
-    /// Duration of the first move, s.
+    /// Returns the duration of the first move, s.
     pub fn move_time(&self) -> f64 {
         self.scene.moves.first().map_or(0.0, |step| step.motion.duration())
     }
 }
 
-/// An embedded scene; `keys` go over its own solver, and the paper's method is what neither names.
+/// Opens an embedded scene. `keys` override its own solver. If neither names a method, the paper's
+/// is taken.
 fn scene(name: &str, keys: SolverKeys) -> Result<SceneFile, Error> {
     let scene = scenes::open(name)?;
     let paper = SolverKeys { method: Some(Method::Newmark), ..SolverKeys::default() };
     Ok(SceneFile { solver: keys.or(scene.solver).or(paper), ..scene })
 }
 
-/// The same scene with another profile and duration in its first move.
+/// Returns the same scene with another profile and duration in its first move.
 fn reshaped(scene: &SceneFile, profile: stillbeam::Profile, duration: f64) -> SceneFile {
     let mut scene = scene.clone();
     if let Some(step) = scene.moves.first_mut()

@@ -1,4 +1,5 @@
-//! Which angle profile the paper used: what each leaves behind, over the duration of the move.
+//! The angle profile of the paper: residual vibration of each profile over the duration of the
+//! move.
 
 use std::f64::consts::PI;
 
@@ -16,7 +17,7 @@ pub struct Profiles {
     pub solver: Solver,
     /// The paper's move in first periods: 2 s over member B's.
     pub paper: f64,
-    /// One curve a profile.
+    /// Curves, one for each profile.
     pub curves: Vec<Curve>,
     /// Durations, in periods, after which a cubic leaves a linear oscillator at rest: the roots of
     /// `tan x = x` over π.
@@ -28,7 +29,7 @@ pub struct Profiles {
 pub struct Curve {
     /// The profile.
     pub profile: Profile,
-    /// (duration in first periods, residual as a fraction of L).
+    /// Points (duration in first periods, residual as a fraction of L).
     pub points: Vec<(f64, f64)>,
     /// Residual after the paper's 2 s, fraction of L.
     pub at_paper: f64,
@@ -39,7 +40,7 @@ const PAPER: u32 = 200;
 const RANGE: std::ops::RangeInclusive<u32> = 100..=330;
 
 impl Profiles {
-    /// The default solver in f64.
+    /// Runs every profile by the default solver in f64.
     pub fn compute() -> Result<Self, Error> {
         let keys = SolverKeys { scalar: Some(Scalar::F64), ..SolverKeys::default() };
         let scene = super::scene("b-tip30", keys)?;
@@ -66,7 +67,7 @@ impl Profiles {
 }
 
 impl Profiles {
-    /// The least residual of the other profiles after the paper's 2 s over the cubic's.
+    /// Returns the least residual of the other profiles after the paper's 2 s over the cubic's.
     pub fn margin(&self) -> f64 {
         let least = |cubic: bool| {
             let curves = self.curves.iter().filter(|c| (c.profile == Profile::Cubic) == cubic);
@@ -76,7 +77,8 @@ impl Profiles {
     }
 }
 
-/// The root of `tan x = x` in `kπ..(k + ½)π`, from `x = kπ + atan x`, which contracts.
+/// Returns the root of `tan x = x` in `kπ..(k + ½)π`. It iterates from `x = kπ + atan x`, which
+/// contracts.
 fn tangent_root(k: u32) -> f64 {
     let base = f64::from(k) * PI;
     (0..40).fold(base, |x, _| base + x.atan())

@@ -1,4 +1,4 @@
-//! Fig. 5: how short the step has to be.
+//! Fig. 5: the length of the step.
 
 use super::Run;
 use crate::compare::compare;
@@ -8,11 +8,11 @@ use crate::solver::{Scalar, SolverKeys};
 /// Runs of member A with 30 g over the step.
 #[derive(Clone, Debug)]
 pub struct Steps {
-    /// The judge: [`FINEST`]; of its rows every tenth is kept.
+    /// Run at [`FINEST`], by which the others are judged. Every tenth of its rows is kept.
     pub finest: Run,
-    /// Its residual vibration, fraction of L.
+    /// Residual vibration of the finest run, fraction of L.
     pub finest_residual: f64,
-    /// Longer steps, ascending.
+    /// Runs at longer steps, ascending.
     pub steps: Vec<Step>,
 }
 
@@ -23,20 +23,20 @@ pub struct Step {
     pub run: Run,
     /// Largest distance of the tip from the finest run's, fraction of L.
     pub tip_max: f64,
-    /// Root mean square of the same.
+    /// Root mean square distance of the tip from the finest run's, fraction of L.
     pub tip_rms: f64,
     /// Residual vibration, fraction of L.
     pub residual: f64,
 }
 
-/// Step of the judge, s.
+/// Step of the finest run, s.
 pub const FINEST: f64 = 0.1e-3;
 
 /// Steps of the study, s. The paper settles on 10 ms.
 const STEPS: [f64; 7] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3, 100e-3];
 
 impl Steps {
-    /// π in 2 s and 2 s of rest, undamped, one consistent element.
+    /// Runs π in 2 s and 2 s of rest, undamped, one consistent element.
     pub fn compute() -> Result<Self, Error> {
         let run = |tick| {
             let keys =

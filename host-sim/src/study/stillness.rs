@@ -1,4 +1,4 @@
-//! Moves that arrive still against the usual ones, shaped or not, in the same time.
+//! Still moves compared with the usual ones, shaped or not, in the same time.
 
 use std::f64::consts::PI;
 
@@ -13,17 +13,17 @@ use crate::scenes;
 /// Duration of every motion, delay of its shaper included, first periods.
 pub const PERIODS: f64 = 2.0;
 
-/// s.
+/// Setpoint interval, s.
 const TICK: f64 = 0.01;
 
-/// A half turn of member A with 30 g by every motion, flown by the reference rod.
+/// A half turn of member A with 30 g by every motion, simulated with the reference rod.
 #[derive(Clone, Debug)]
 pub struct Stillness {
     /// Member A with 30 g.
     pub arm: Scene,
     /// `2π/ω₁`, s.
     pub period: f64,
-    /// Of every motion, s.
+    /// Duration of every motion, s.
     pub duration: f64,
     /// The motions, as in `docs/still.md`.
     pub entries: Vec<Entry>,
@@ -32,7 +32,7 @@ pub struct Stillness {
 }
 
 impl Stillness {
-    /// Flies the rod some 250 times; `done` is called now and then.
+    /// Simulates the rod some 250 times. `done` is called now and then.
     pub fn compute(done: &(dyn Fn() + Sync)) -> Result<Self, Error> {
         let arm = scenes::open("a-tip30")?.arm;
         let period = rod::first_period(&arm)?;
@@ -42,7 +42,7 @@ impl Stillness {
         Ok(Self { arm, period, duration, entries, curves })
     }
 
-    /// The motion of that name.
+    /// Returns the motion of that name.
     pub fn entry(&self, name: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.name == name)
     }

@@ -7,9 +7,9 @@ use crate::solver::{Method, Scalar, SolverKeys};
 /// Both paths of the same move.
 #[derive(Clone, Debug)]
 pub struct TipPath {
-    /// The link does not bend.
+    /// Run of a link that does not bend.
     pub rigid: Run,
-    /// One consistent element.
+    /// Run with one consistent element.
     pub flexible: Run,
 }
 
@@ -17,7 +17,7 @@ pub struct TipPath {
 pub const TICK: f64 = 0.4e-3;
 
 impl TipPath {
-    /// Member D bare, π in 0.2 s and 0.2 s of rest.
+    /// Runs member D bare, π in 0.2 s and 0.2 s of rest.
     pub fn compute() -> Result<Self, Error> {
         let keys =
             SolverKeys { tick: Some(TICK), scalar: Some(Scalar::F64), ..SolverKeys::default() };

@@ -9,18 +9,18 @@ use stillbeam_wiring::{Configuration, Joint};
 
 use crate::error::Error;
 
-/// Segments of the queue: more than any firmware has, so that what it accepted is never refused
+/// Segments of the queue. No firmware has more, so that a move which it accepted is never refused
 /// here.
 const QUEUE: usize = 64;
 
-/// The firmware's wiring of an axis, for any method.
+/// The firmware's interface of an axis, for any method.
 pub(super) trait Arm {
     /// Carries out a command that needs no plan, the shaft being at `shaft`.
     fn carry_out(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Refusal<'static>>;
     fn stop(&mut self, cause: Cause);
     fn plan_context(&self) -> Result<PlanContext, CoreError>;
     fn take(&mut self, planned: &PlannedMove<f32>) -> Result<u32, CoreError>;
-    /// Sets the arm with another payload up and puts it in the place of the old one.
+    /// Sets up the arm with another payload and replaces the old one.
     fn reload(&mut self, payload: Payload, tick: f64) -> Result<(), Error>;
     fn heard(&mut self);
     fn missed(&mut self, ticks: u32);
@@ -32,11 +32,12 @@ pub(super) trait Arm {
     fn train(&self) -> &Drivetrain<f32>;
 }
 
-/// Builds a disabled axis with the method of that name: its hub is at angle 0 where the shaft is at
-/// `zero`, to the bit, which the configuration's zero in turns need not be.
+/// Builds a disabled axis with the method of that name. Its hub is at angle 0 when the shaft is at
+/// `zero`, to the bit. The configuration's zero in turns need not be exact to the bit.
 ///
 /// # Errors
-/// No method has the name, or the method or the axis refuses the configuration.
+/// An error is returned if no method has the name, or if the method or the axis refuses the
+/// configuration.
 pub(super) fn build(
     method: &str,
     configuration: &Configuration,
@@ -55,7 +56,7 @@ pub(super) fn build(
     })
 }
 
-/// Builds the method with the name that is looked for.
+/// Builds the method with the name that is wanted.
 struct Builder<'a> {
     method: &'a str,
     configuration: &'a Configuration,

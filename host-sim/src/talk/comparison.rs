@@ -1,4 +1,4 @@
-//! Every setpoint and every drive frame of the firmware against the host's own.
+//! Compares every setpoint and every drive frame of the firmware with the host's own.
 
 use std::collections::VecDeque;
 
@@ -11,25 +11,25 @@ use super::drive::Drive;
 use super::{Machine, Replica};
 use crate::error::Error;
 
-/// The axes on both sides.
+/// The axes of firmware and host.
 #[derive(Default)]
 pub(super) struct Comparison {
     axes: Vec<Axis>,
-    /// Ticks that came and are not compared, by axis.
+    /// Received ticks that are not yet compared, by axis.
     ticks: Vec<VecDeque<(Tick<f32>, Option<Cause>)>>,
     bus: slcan::Splitter,
     frames: VecDeque<(ClassicFrame, u16)>,
     /// Number of the next tick to be compared.
     next: u32,
-    /// Setpoints and frames that were equal.
+    /// Number of setpoints and of frames that were equal.
     equal: [usize; 2],
 }
 
-/// One axis on both sides.
+/// One axis of firmware and host.
 pub(super) struct Axis {
     pub(super) replica: Replica,
     pub(super) drive: Drive,
-    /// What was accepted, with the tick before which it was carried out.
+    /// Accepted commands, each with the tick before which it was carried out.
     accepted: VecDeque<(u32, Command)>,
     /// Ticks before which the firmware heard the host.
     heard: VecDeque<u32>,
@@ -39,7 +39,7 @@ pub(super) struct Axis {
 }
 
 impl Comparison {
-    /// One more axis, its emulated arm at 0.05, 0.1, … turns.
+    /// Adds an axis. Its emulated arm stands at 0.05, 0.1, … turns.
     pub(super) fn add(&mut self, replica: Replica) {
         let hub = Angle { turns: 0, part: 0.05 * (1 + self.axes.len()) as f32 };
         let shaft = replica.train().mapping().to_motor(hub);
@@ -48,14 +48,14 @@ impl Comparison {
         self.axes.push(Axis { replica, drive, accepted, heard, missed, history: Vec::new() });
     }
 
-    /// There are so many axes.
+    /// Notes that the firmware has at least `axes` axes.
     pub(super) fn expect(&mut self, axes: usize) {
         if self.ticks.len() < axes {
             self.ticks.resize_with(axes, VecDeque::new);
         }
     }
 
-    /// Number of axes that the firmware has.
+    /// Returns the number of axes that the firmware has.
     pub(super) fn expected(&self) -> usize {
         self.ticks.len()
     }
@@ -72,21 +72,21 @@ impl Comparison {
         self.equal
     }
 
-    /// The firmware has accepted a command, before tick `tick`.
+    /// Records that the firmware has accepted a command, before tick `tick`.
     pub(super) fn accept(&mut self, axis: u8, tick: u32, command: Command) {
         if let Some(axis) = self.axes.get_mut(usize::from(axis)) {
             axis.accepted.push_back((tick, command));
         }
     }
 
-    /// The firmware has heard the host, before tick `tick`.
+    /// Records that the firmware has heard the host, before tick `tick`.
     pub(super) fn heard(&mut self, tick: u32) {
         for axis in &mut self.axes {
             axis.heard.push_back(tick);
         }
     }
 
-    /// So many ticks will not take place before tick `tick`.
+    /// Records that `missed` ticks will not take place before tick `tick`.
     pub(super) fn miss(&mut self, tick: u32, missed: u32) {
         if missed > 0 {
             for axis in &mut self.axes {
@@ -95,13 +95,13 @@ impl Comparison {
         }
     }
 
-    /// Number of the latest tick that has come.
+    /// Returns the number of the latest tick that has come.
     pub(super) fn latest(&self) -> u32 {
         let latest = self.ticks.first().and_then(|queue| queue.back());
         latest.map_or(self.next.saturating_sub(1), |(tick, _)| tick.number)
     }
 
-    /// A setpoint has come.
+    /// Takes a setpoint that has come.
     pub(super) fn push(&mut self, axis: u8, tick: Tick<f32>, cause: Option<Cause>) {
         self.expect(usize::from(axis) + 1);
         self.ticks[usize::from(axis)].push_back((tick, cause));
@@ -133,7 +133,7 @@ impl Comparison {
         Ok(())
     }
 
-    /// A board has been running before: begins with the tick that has come first.
+    /// Begins with the tick that has come first, because a board may have been running before.
     fn join(&mut self) {
         let first =
             self.ticks.iter().filter_map(|queue| queue.front()).map(|(tick, _)| tick.number);
@@ -187,7 +187,7 @@ impl Comparison {
         if emulated { self.compare_frames(machine, number, tick) } else { Ok(()) }
     }
 
-    /// The drive frames of a tick: the setpoint, and the switch where the mode has changed.
+    /// Compares the drive frames of a tick: the setpoint, and the switch if the mode has changed.
     fn compare_frames(
         &mut self,
         machine: &mut Machine,
@@ -235,7 +235,7 @@ impl Comparison {
     }
 }
 
-/// The report's bytes: equal bytes are equal bits.
+/// Returns the report's bytes. Equal bytes are equal bits.
 fn encoded(report: &Report<'_>) -> Result<Vec<u8>, Error> {
     let mut bytes = [0; frame::MAX];
     let bytes = frame::encode(report, &mut bytes);

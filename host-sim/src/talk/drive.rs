@@ -1,24 +1,24 @@
-//! The drives on the emulated bus: they follow at once, and say where they are.
+//! Emulated drives on the bus. They follow at once and report their position.
 
 use stillbeam::Angle;
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::{EncoderEstimates, Node};
 use stillbeam_protocol::slcan;
 
-/// An ODrive whose shaft is where it was last told to be.
+/// An ODrive whose shaft is at its latest setpoint.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
     node: Node,
-    /// Turns.
+    /// Position, turns.
     position: f32,
-    /// Turns/s.
+    /// Velocity, turns/s.
     velocity: f32,
-    /// Closed-loop control.
+    /// True in closed-loop control.
     on: bool,
 }
 
 impl Drive {
-    /// Off, its shaft at `position` turns.
+    /// Creates a drive that is off, its shaft at `position` turns.
     pub fn new(node: Node, position: f32) -> Self {
         Self { node, position, velocity: 0.0, on: false }
     }
@@ -34,7 +34,7 @@ impl Drive {
         }
     }
 
-    /// Where the shaft is, as it says on the bus.
+    /// Returns the bus message with the position of the shaft.
     pub fn estimates(&self) -> Vec<u8> {
         let velocity = if self.on { self.velocity } else { 0.0 };
         let estimates = EncoderEstimates { position: self.position, velocity };
@@ -49,7 +49,7 @@ impl Drive {
         self.on
     }
 
-    /// The shaft as the firmware understands it.
+    /// Returns the shaft's angle as the firmware understands it.
     pub fn shaft(&self) -> Angle<f32> {
         Angle { turns: 0, part: 0.0 }.plus(self.position)
     }

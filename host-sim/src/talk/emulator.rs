@@ -1,5 +1,6 @@
-//! The firmware in QEMU: two serial lines over TCP, grants of time on its standard input, its log
-//! on the standard output, which is a file: a line is in it as soon as it is written.
+//! The firmware in QEMU: two serial lines over TCP, and grants of time on its standard input. Its
+//! log goes to the standard output, which is a file, so that a line can be read as soon as it is
+//! written.
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -13,7 +14,7 @@ use super::log::Log;
 use super::machine::POLL;
 use crate::error::Error;
 
-/// QEMU connects in a fraction of a second on an idle machine.
+/// Time within which QEMU must connect. It takes a fraction of a second on an idle machine.
 const CONNECT: Duration = Duration::from_secs(20);
 
 /// A running QEMU; it ends with this value.
@@ -68,15 +69,15 @@ impl Emulator {
         Ok((Self { child, grants, bus, log }, link))
     }
 
-    /// Grants one tick, once so many bytes of link and bus are in, and keeps it from running for so
-    /// many µs.
+    /// Grants one tick, once `bytes` bytes of link and bus are in, and keeps it from running for
+    /// `stall` µs.
     pub(super) fn grant(&mut self, bytes: [u8; 2], stall: u16) -> std::io::Result<()> {
         let ([link, bus], [low, high]) = (bytes, stall.to_le_bytes());
         self.grants.write_all(&[link, bus, low, high])?;
         self.grants.flush()
     }
 
-    /// How it ended, if it did, and what it said.
+    /// Returns how QEMU ended, if it did, and its messages.
     pub(super) fn epitaph(&mut self) -> String {
         match self.child.try_wait() {
             Ok(Some(status)) => format!("; QEMU ended, {status}{}", said(&mut self.child)),
@@ -131,7 +132,7 @@ fn connect(listener: &TcpListener, child: &mut Child) -> Result<TcpStream, Error
     }
 }
 
-/// What an ended child wrote to its standard error.
+/// Returns the standard error of an ended child.
 fn said(child: &mut Child) -> String {
     let mut text = String::new();
     if let Some(mut pipe) = child.stderr.take() {

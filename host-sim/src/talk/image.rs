@@ -1,4 +1,4 @@
-//! The application's image: where cargo puts it, and which board it is for.
+//! The application's image: its path, and the board it is for.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,19 +7,19 @@ use object::{Object, ObjectSymbol};
 
 use crate::error::Error;
 
-/// The board that QEMU emulates, as the firmware's feature is called.
+/// Name of the board that QEMU emulates, as the firmware's feature is called.
 const EMULATED: &str = "mps2";
 
-/// How the image of the emulated board is built.
+/// Command that builds the image of the emulated board.
 pub(super) const BUILD: &str = "cargo build -p stillbeam-firmware --bin application --features mps2 \
      --profile application --target thumbv7em-none-eabihf";
 
-/// The image below cargo's target folder.
+/// Path of the image below cargo's target folder.
 const PLACE: &str = "thumbv7em-none-eabihf/application/application";
 
-/// Where `cargo build` puts the image for whoever calls this: in the target folder that cargo
-/// names, so that `CARGO_TARGET_DIR` and cargo's configuration hold, or in `target` where it names
-/// none. A `--target-dir` of the build's own cannot be known.
+/// Returns the path to which `cargo build` writes the image. It lies in the target folder that
+/// cargo names, so that `CARGO_TARGET_DIR` and cargo's configuration hold, or in `target` if cargo
+/// names none. A `--target-dir` of the build's own cannot be known.
 pub fn default_image() -> PathBuf {
     target_folder().unwrap_or_else(|| "target".into()).join(PLACE)
 }
@@ -40,7 +40,7 @@ fn target_folder() -> Option<PathBuf> {
 /// symbol, `_board_mps2`.
 ///
 /// # Errors
-/// It is for another board, or names none.
+/// An error is returned if the image is for another board or names none.
 pub(super) fn check(path: &Path, elf: &[u8]) -> Result<(), Error> {
     let file = object::File::parse(elf).map_err(|error| Error::file(path, error))?;
     let board = file.symbols().find_map(|symbol| {

@@ -7,20 +7,20 @@ use defmt_decoder::{DecodeError, Table};
 
 use crate::error::Error;
 
-/// Lines as they come, from a file that grows.
+/// Lines of the log, read from a file that grows.
 pub struct Log {
     table: Table,
     file: File,
     bytes: Vec<u8>,
-    /// Lines that were handed out.
+    /// Number of lines that were handed out.
     given: usize,
 }
 
 impl Log {
-    /// The log of an image, in `file`.
+    /// Opens the log of an image, in `file`.
     ///
     /// # Errors
-    /// The image has no defmt strings.
+    /// An error is returned if the image has no defmt strings.
     pub fn new(elf: &[u8], file: File) -> Result<Self, Error> {
         let table = Table::parse(elf)
             .map_err(|error| Error::new(format_args!("image: {error}")))?
@@ -30,8 +30,8 @@ impl Log {
         Ok(Self { table, file, bytes: Vec::new(), given: 0 })
     }
 
-    /// What was logged before tick `tick` was made and not handed out yet: with the number of ticks
-    /// made until then.
+    /// Returns the lines that were logged before tick `tick` was made and not handed out yet, each
+    /// with the number of ticks made until then.
     pub fn before(&mut self, tick: u32) -> Vec<(u32, String)> {
         // What cannot be read is not shown.
         let _ = self.file.read_to_end(&mut self.bytes);

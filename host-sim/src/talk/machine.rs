@@ -1,4 +1,4 @@
-//! Where the firmware runs: bytes there and back, and how time passes.
+//! The machine that runs the firmware: carries bytes both ways and lets time pass.
 
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read, Write};
@@ -8,22 +8,22 @@ use std::time::{Duration, Instant};
 use super::Emulator;
 use crate::error::Error;
 
-/// Bytes of one line that a tick is granted with at most; the board's buffer holds them.
+/// Most bytes of one line that are sent with a tick. The board's buffer holds them.
 const CHUNK: usize = 120;
 
-/// How long one read waits.
+/// Time limit of one read.
 pub(super) const POLL: Duration = Duration::from_millis(20);
 
-/// Time without a byte after which the firmware is given up.
+/// Time without a byte after which the firmware is taken for dead.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A running firmware.
 pub struct Machine {
     link: Box<dyn Line>,
     emulator: Option<Emulator>,
-    /// What waits for the next grants: of the link, of the bus.
+    /// Bytes that wait for the next grants: of the link, of the bus.
     outbox: [VecDeque<u8>; 2],
-    /// µs for which the next tick is kept from running.
+    /// Time for which the next tick is kept from running, µs.
     stall: u16,
     heard: Instant,
 }
@@ -36,7 +36,7 @@ impl Machine {
     /// Starts an image in QEMU.
     ///
     /// # Errors
-    /// QEMU or the image is missing, or the two do not connect.
+    /// An error is returned if QEMU or the image is missing, or if the two do not connect.
     pub fn emulate(image: &Path) -> Result<Self, Error> {
         let (emulator, link) = Emulator::start(image)?;
         Ok(Self::new(Box::new(link), Some(emulator)))
@@ -59,12 +59,12 @@ impl Machine {
         Self { link, emulator, outbox: Default::default(), stall: 0, heard: Instant::now() }
     }
 
-    /// True if time passes only by [`Machine::grant`], and the bus can be listened to.
+    /// True if time passes only by [`Machine::grant`], and the bus can be read.
     pub fn is_emulated(&self) -> bool {
         self.emulator.is_some()
     }
 
-    /// Sends bytes to the firmware: with the next grant where time is granted, now otherwise.
+    /// Sends bytes to the firmware: with the next grant if time is granted, otherwise now.
     pub fn send(&mut self, bytes: &[u8]) -> Result<(), Error> {
         if self.is_emulated() {
             self.outbox[0].extend(bytes);
@@ -78,13 +78,13 @@ impl Machine {
         self.outbox[1].extend(bytes);
     }
 
-    /// Keeps the next tick that is granted from running for so many µs.
+    /// Keeps the next tick that is granted from running for `microseconds` µs.
     pub fn stall(&mut self, microseconds: u16) {
         self.stall = microseconds;
     }
 
-    /// Lets the next tick take place, once the bytes sent before it are in. Whether there were
-    /// none left to send after it.
+    /// Lets the next tick take place, once the bytes sent before it are in. Returns true if none
+    /// were left to send after it.
     pub fn grant(&mut self) -> Result<bool, Error> {
         let Some(emulator) = &mut self.emulator else { return Ok(true) };
         let chunk = |line: &mut VecDeque<u8>| {
@@ -99,10 +99,11 @@ impl Machine {
         Ok(self.outbox.iter().all(VecDeque::is_empty))
     }
 
-    /// What has come from the firmware; nothing after a short wait.
+    /// Returns the bytes that have come from the firmware; none after a short wait.
     ///
     /// # Errors
-    /// The line is broken, or has been silent for too long; in QEMU with what it said.
+    /// An error is returned if the line is broken or has been silent for too long. In QEMU it holds
+    /// QEMU's messages.
     pub fn receive(&mut self) -> Result<Vec<u8>, Error> {
         let mut bytes = vec![0; 4096];
         let n = match self.link.read(&mut bytes) {
@@ -120,7 +121,7 @@ impl Machine {
         Ok(bytes)
     }
 
-    /// What has come from the emulated bus; nothing after a short wait.
+    /// Returns the bytes that have come from the emulated bus; none after a short wait.
     pub fn receive_from_bus(&mut self) -> Result<Vec<u8>, Error> {
         let Some(emulator) = &mut self.emulator else { return Ok(Vec::new()) };
         let mut bytes = vec![0; 4096];
@@ -133,8 +134,8 @@ impl Machine {
         Ok(bytes)
     }
 
-    /// Lines that the firmware logged before tick `tick` and since it was last asked, each with the
-    /// number of ticks made until then.
+    /// Returns the lines that the firmware logged before tick `tick` and since the last call, each
+    /// with the number of ticks made until then.
     pub fn log(&mut self, tick: u32) -> Vec<(u32, String)> {
         self.emulator.as_mut().map(|emulator| emulator.log.before(tick)).unwrap_or_default()
     }

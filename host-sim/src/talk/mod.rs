@@ -1,8 +1,8 @@
 //! A conversation with the firmware: in QEMU, in lock-step, or on a board behind a serial port.
 //!
-//! A [`Machine`] carries bytes, a [`Session`] requests and setpoints; the host runs every axis
+//! A [`Machine`] carries bytes, a [`Session`] requests and setpoints. The host runs every axis
 //! beside it ([`Replica`]) and compares each setpoint and drive frame, bit for bit, as it comes.
-//! [`Step`]s are what a user asks for, [`page()`] draws what came back.
+//! [`Step`]s are the user's requests, [`page()`] draws the result.
 
 mod arm;
 mod comparison;

@@ -1,4 +1,4 @@
-//! What came back, drawn.
+//! Charts of the setpoints that came back.
 
 use maud::html;
 use stillbeam::Setpoint;
@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::plot::{Axis, Chart, Series};
 use crate::report::parts;
 
-/// A page with the setpoints of every axis while its drive was on.
+/// Draws a page with the setpoints of every axis while its drive was on.
 ///
 /// # Errors
 /// A chart cannot be drawn.

@@ -1,4 +1,4 @@
-//! An axis on the host, from what the firmware says it is.
+//! An axis on the host, built from the firmware's description.
 
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::drive::odrive::Node;
@@ -12,23 +12,24 @@ use stillbeam_wiring::{Configuration, Work};
 use super::arm::{self, Arm, apart};
 use crate::error::Error;
 
-/// The same axis with the same code and method, on this machine. Its queue is longer, so that what
-/// the firmware accepted is never refused here.
+/// The same axis with the same code and method, on this machine. Its queue is longer, so that a
+/// move which the firmware accepted is never refused here.
 pub struct Replica {
     axis: Box<dyn Arm>,
     tick: f64,
     node: Node,
     switch: Switch,
-    /// Set up when first asked.
+    /// Planner, set up on first use.
     planner: Option<Planner<f32, 2>>,
 }
 
 impl Replica {
-    /// The axis as described. `patient`: the host does not know when the firmware hears it, and
-    /// takes its word for a lost link.
+    /// Creates the axis as described. With `patient`, the host does not know when the firmware
+    /// hears it, and takes its word for a lost link.
     ///
     /// # Errors
-    /// The firmware runs a method that is not in the list, or says what no axis can be.
+    /// An error is returned if the firmware runs a method that is not in the list or describes an
+    /// impossible axis.
     pub fn new(description: &Description<'_>, patient: bool) -> Result<Self, Error> {
         let Description { method, scene, tick, policy, joint, direction, zero, node, .. } =
             *description;
@@ -39,7 +40,7 @@ impl Replica {
         Ok(Self { axis, tick, node, switch, planner: None })
     }
 
-    /// Carries out what the firmware has accepted.
+    /// Carries out a command that the firmware has accepted.
     ///
     /// # Errors
     /// The host's axis refuses it: the two are not in the same state.
@@ -71,7 +72,7 @@ impl Replica {
         self.axis.take(&planned?).map(drop).map_err(apart)
     }
 
-    /// A word from the host was heard.
+    /// Notes that a word from the host was heard.
     pub fn heard(&mut self) {
         self.axis.heard();
     }
@@ -86,13 +87,13 @@ impl Replica {
         self.axis.stop(cause);
     }
 
-    /// The next tick, with why it stopped.
+    /// Makes the next tick. Returns it with the cause of a stop.
     pub fn step(&mut self) -> (Tick<f32>, Option<Cause>) {
         let tick = self.axis.tick();
         (tick, self.axis.cause())
     }
 
-    /// What the drive is told at a tick: the demand while it is on, and whether it is switched.
+    /// Returns the messages to the drive at a tick: the demand while it is on, and a switch if any.
     pub fn told(&mut self, tick: &Tick<f32>) -> (Option<Demand<f32>>, Option<bool>) {
         (demand(self.axis.train(), tick), self.switch.turn(tick.mode))
     }
@@ -102,7 +103,7 @@ impl Replica {
         self.axis.mode()
     }
 
-    /// At rest, no move waiting.
+    /// True at rest with no move waiting.
     pub fn rests(&self) -> bool {
         self.axis.rests()
     }
@@ -117,7 +118,7 @@ impl Replica {
         self.tick
     }
 
-    /// Link to motor.
+    /// Returns the drivetrain from link to motor.
     pub fn train(&self) -> &Drivetrain<f32> {
         self.axis.train()
     }

@@ -1,4 +1,4 @@
-//! What a user asks of the firmware, one step a word group.
+//! Steps of a conversation with the firmware, one for each group of words.
 
 use std::fmt;
 use std::str::FromStr;
@@ -14,18 +14,18 @@ use crate::error::Error;
 pub enum Step {
     /// A request to an axis.
     Ask(u8, Command),
-    /// Go on for a time, s.
+    /// Goes on for a time, s.
     Wait(f64),
-    /// As wait, without a word to the firmware.
+    /// Goes on for a time, s, without a word to the firmware.
     Silence(f64),
-    /// Keep the firmware from its tick for a time, s.
+    /// Keeps the firmware from its tick for a time, s.
     Stall(f64),
-    /// Go on until every axis rests.
+    /// Goes on until every axis rests.
     Rest,
 }
 
-/// Every part of the policy once: both axes move, one is stopped on its way, one takes up a
-/// payload, one is asked too much, the link is lost, the drives are switched off.
+/// Demonstration of every part of the policy. Both axes move, one is stopped on its way, one takes
+/// up a payload, one gets an excessive request, the link is lost, the drives are switched off.
 pub const DEMONSTRATION: [&str; 20] = [
     "enable 0",
     "enable 1",
@@ -61,8 +61,8 @@ pub const FIRST: [&str; 8] = [
     "status 0",
 ];
 
-/// Moves after which the arm is at rest, planned by the firmware: in a given time, in the shortest,
-/// behind another move, with another payload; one too short, one beyond a limit.
+/// Still moves, planned by the firmware: in a given time, in the shortest, behind another move,
+/// with another payload. One is too short, one beyond a limit.
 pub const STILL: [&str; 13] = [
     "enable 0",
     "enable 1",
@@ -79,7 +79,7 @@ pub const STILL: [&str; 13] = [
     "status 0",
 ];
 
-/// A late tick, a missed one and too many of them, in the middle of moves.
+/// Faults in the middle of moves: a late tick, a missed one and too many of them.
 pub const FAULTS: [&str; 13] = [
     "enable 0",
     "move 0 quintic 1.7 1.57",
@@ -96,7 +96,7 @@ pub const FAULTS: [&str; 13] = [
     "status 0",
 ];
 
-/// The words that a step may be.
+/// Steps that are accepted.
 const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, still A TO \
      [DURATION], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest";
 
@@ -152,17 +152,18 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
     })
 }
 
-/// Any number; what it may be is the firmware's to say. Times of our own are checked when they
-/// pass.
+/// Parses any number. The firmware decides on its range. The times of this script are checked when
+/// they pass.
 fn number(word: Option<&str>) -> Option<f64> {
     word?.parse().ok()
 }
 
 impl Step {
-    /// Takes the step and says what came of it.
+    /// Takes the step and returns its result in words.
     ///
     /// # Errors
-    /// The firmware is gone, or does otherwise than the host. A refusal is none.
+    /// An error is returned if the firmware is gone or does otherwise than the host. A refusal is
+    /// no error.
     pub fn take(&self, session: &mut Session) -> Result<String, Error> {
         match *self {
             Self::Ask(axis, command) => session.ask(axis, command).map(|answer| said(&answer)),
@@ -186,11 +187,12 @@ impl Step {
     }
 }
 
-/// Takes steps one by one and hands out what came of each, line by line: when it began, what was
-/// asked, the answer; below it what the firmware logged.
+/// Takes steps one by one and hands out the result of each, line by line: its time, the request,
+/// the answer. The firmware's log follows below it.
 ///
 /// # Errors
-/// The first word group that is no step, before any is taken; else as [`Step::take`].
+/// An error is returned at the first word group that is no step, before any is taken. Others are
+/// those of [`Step::take`].
 pub fn converse(
     session: &mut Session,
     steps: &[&str],
@@ -259,7 +261,7 @@ fn modes(session: &Session) -> String {
     modes.collect::<Vec<_>>().join(", ")
 }
 
-/// Mode in lower case.
+/// The mode in lower case.
 struct Mode<'a>(&'a super::Replica);
 
 impl fmt::Display for Mode<'_> {

@@ -1,4 +1,4 @@
-//! Requests and answers, tick by tick, with everything that comes back compared.
+//! Requests and answers, tick by tick. Everything that comes back is compared.
 
 use std::collections::VecDeque;
 
@@ -13,7 +13,7 @@ use crate::error::Error;
 /// Time between two heartbeats, s.
 const HEARTBEAT: f64 = 0.1;
 
-/// Time within which every request is answered, s: the longest search for a still move, many times.
+/// Time within which every request is answered, s: many times the longest search for a still move.
 const LONGEST: f64 = 1_000.0;
 
 /// Time within which axes that are not told to turn on come to rest, s.
@@ -22,15 +22,15 @@ const REST: f64 = 60.0;
 /// The firmware's answer to a request.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Answer {
-    /// Carried out before the tick of that number.
+    /// The request was carried out before the tick of that number.
     Accepted(u32),
-    /// Refused, and why.
+    /// The request was refused, for that reason.
     Refused(String),
-    /// How it is.
+    /// The status of the axis.
     Status(Status),
 }
 
-/// A request on its way.
+/// A request that was sent.
 #[derive(Clone, Copy, Debug)]
 pub struct Posted {
     sequence: u16,
@@ -47,20 +47,21 @@ pub struct Session {
     open: VecDeque<u16>,
     answers: VecDeque<(u16, Answer)>,
     comparison: Comparison,
-    /// Number of the next tick to be made, where time is granted.
+    /// Number of the next tick to be made, if time is granted.
     upcoming: u32,
     silent: bool,
     /// The tick after which a heartbeat was last sent.
     beaten: u32,
-    /// Something was sent that the firmware has not heard.
+    /// True if something was sent that the firmware has not heard.
     unheard: bool,
 }
 
 impl Session {
-    /// Asks every axis what it is. The emulated arms stand at 0.05, 0.1, … turns.
+    /// Asks every axis for its description. The emulated arms stand at 0.05, 0.1, … turns.
     ///
     /// # Errors
-    /// The firmware does not answer, or is none that this host can run along with.
+    /// An error is returned if the firmware does not answer, or if this host cannot run along with
+    /// it.
     pub fn begin(machine: Machine) -> Result<Self, Error> {
         let mut session = Self {
             machine,
@@ -91,17 +92,17 @@ impl Session {
     /// takes.
     ///
     /// # Errors
-    /// The firmware is gone, or does otherwise than the host.
+    /// An error is returned if the firmware is gone or does otherwise than the host.
     pub fn ask(&mut self, axis: u8, command: Command) -> Result<Answer, Error> {
         let posted = self.post(axis, command)?;
         self.answer(posted)
     }
 
-    /// Sends a request, for [`Session::answer`]. In between others may be asked; if a move is
+    /// Sends a request, for [`Session::answer`]. In between others may be asked. If a move is
     /// accepted meanwhile, the host learns it too late to run along.
     ///
     /// # Errors
-    /// The line is broken.
+    /// An error is returned if the line is broken.
     pub fn post(&mut self, axis: u8, command: Command) -> Result<Posted, Error> {
         self.send(axis, command).map(|sequence| Posted { sequence, axis, command })
     }
@@ -135,7 +136,7 @@ impl Session {
         Ok(answer)
     }
 
-    /// Goes on for so many ticks, heard by the firmware.
+    /// Goes on for `ticks` ticks while the firmware hears heartbeats.
     ///
     /// # Errors
     /// Errors are those of [`Session::ask`].
@@ -150,7 +151,7 @@ impl Session {
         Ok(())
     }
 
-    /// As [`Session::wait`], without a word.
+    /// Goes on as [`Session::wait`] does, without a word to the firmware.
     ///
     /// # Errors
     /// Errors are those of [`Session::ask`].
@@ -161,10 +162,11 @@ impl Session {
         outcome
     }
 
-    /// Keeps the firmware from its tick for a time, s, as a fault of it would: in QEMU alone.
+    /// Keeps the firmware from its tick for a time, s, as a fault of it would. Only QEMU can do
+    /// this.
     ///
     /// # Errors
-    /// As [`Session::ask`]; a board, or a time beyond 0 to 65 ms.
+    /// Errors are those of [`Session::ask`]. A board, or a time beyond 0 to 65 ms, is refused too.
     pub fn stall(&mut self, seconds: f64) -> Result<(), Error> {
         let refused = |why| {
             Error::new(format_args!("stall = {seconds} s: must be 0 to 0.065 s in QEMU{why}"))
@@ -185,7 +187,8 @@ impl Session {
     /// Goes on until every axis rests.
     ///
     /// # Errors
-    /// As [`Session::ask`], or no rest within a minute.
+    /// Errors are those of [`Session::ask`]. An error is also returned if there is no rest within a
+    /// minute.
     pub fn rest(&mut self) -> Result<(), Error> {
         for _ in 0..self.ticks(REST) {
             if self.comparison.axes().iter().all(|axis| axis.replica.rests()) {
@@ -198,10 +201,10 @@ impl Session {
         )))
     }
 
-    /// Sends anything at all to the firmware, as a bad line would.
+    /// Sends arbitrary bytes to the firmware, as a bad line would.
     ///
     /// # Errors
-    /// The line is broken.
+    /// An error is returned if the line is broken.
     pub fn disturb(&mut self, bytes: &[u8]) -> Result<(), Error> {
         self.machine.send(bytes)
     }
@@ -241,14 +244,14 @@ impl Session {
         self.comparison.axes().first().map_or(0.0, |axis| axis.replica.tick())
     }
 
-    /// A time in ticks, to the nearest, one at least.
+    /// Converts a time to ticks, to the nearest, at least one.
     fn ticks(&self, seconds: f64) -> u32 {
         (seconds / self.tick()).round().max(1.0) as u32
     }
 
-    /// Lines that the firmware logged before the latest tick and since it was last asked, each with
-    /// the number of ticks made until then. What it logs after a tick's setpoints shows with the
-    /// next.
+    /// Returns the lines that the firmware logged before the latest tick and since the last call,
+    /// each with the number of ticks made until then. A line that it logs after a tick's setpoints
+    /// shows with the next tick.
     pub fn log(&mut self) -> Vec<(u32, String)> {
         self.machine.log(self.comparison.next())
     }
@@ -265,7 +268,7 @@ impl Session {
         Ok(self.sequence)
     }
 
-    /// A word to the firmware every [`HEARTBEAT`], unless silence is asked for.
+    /// Sends a heartbeat to the firmware every [`HEARTBEAT`], unless silence is asked for.
     fn beat(&mut self) -> Result<(), Error> {
         let latest = self.comparison.latest();
         if !self.silent && latest.wrapping_sub(self.beaten) >= self.ticks(HEARTBEAT) {
@@ -275,7 +278,7 @@ impl Session {
         Ok(())
     }
 
-    /// One more tick, and all that comes with it.
+    /// Makes one more tick and takes in everything that comes with it.
     fn exchange(&mut self) -> Result<(), Error> {
         if !self.machine.is_emulated() {
             return self.take_in();
@@ -304,7 +307,7 @@ impl Session {
         Ok(self.comparison.expected() as u8)
     }
 
-    /// Takes in what has come over the link.
+    /// Takes in the bytes that have come over the link.
     fn take_in(&mut self) -> Result<(), Error> {
         for byte in self.machine.receive()? {
             let Some(frame) = self.link.push(byte) else { continue };

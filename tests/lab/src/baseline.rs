@@ -1,7 +1,8 @@
-//! The same time marching written the way a textbook has it: matrices of a size known at run time,
-//! assembled from the elements at every step, the effective matrix factored at every step.
+//! The same time marching as a textbook writes it: matrices of a size known at run time, assembled
+//! from the elements at every step, the effective matrix factored at every step.
 //!
-//! A baseline for the time that the core saves by doing this once; the results are the same.
+//! It is the baseline for the time that the core saves by doing this once. The results are the
+//! same.
 
 use nalgebra::{DMatrix, DVector, Matrix4, RowVector4};
 use stillbeam::Scene;
@@ -16,7 +17,7 @@ pub struct Textbook {
     scene: Scene,
     elements: usize,
     tick: f64,
-    /// As assembled at the latest step.
+    /// Matrices as assembled at the latest step.
     system: System,
     /// `b = M⁻¹F`.
     turn: DVector<f64>,
@@ -44,7 +45,7 @@ struct System {
 }
 
 impl Textbook {
-    /// At rest in the undeformed state; `tick` in s, `elements` at least 1.
+    /// Creates the arm at rest in the undeformed state; `tick` in s, `elements` at least 1.
     pub fn new(scene: &Scene, elements: usize, tick: f64) -> Self {
         let elements = elements.max(1);
         let zero = DVector::zeros(2 * elements);
@@ -54,7 +55,7 @@ impl Textbook {
         Self { scene: *scene, elements, tick, system, turn, q, v, a }
     }
 
-    /// Static equilibrium with the hub at rest.
+    /// Moves to the static equilibrium with the hub at rest.
     pub fn settle(&mut self, hub: &HubState<f64>) {
         let System { stiffness, tension, weight, .. } = &self.system;
         self.q = solve(stiffness - tension * hub.sin, &(weight * -hub.cos));
@@ -83,7 +84,7 @@ impl Textbook {
         self.q = q + 0.25 * h * h * &self.a;
     }
 
-    /// Hub torque and tip, to second order in the deflections.
+    /// Returns hub torque and tip, to second order in the deflections.
     pub fn response(&self, hub: &HubState<f64>) -> Response<f64> {
         let scene = &self.scene;
         let system = &self.system;
@@ -158,7 +159,7 @@ impl System {
     }
 }
 
-/// `A⁻¹ b` by Gauss elimination; not a number where `A` is singular.
+/// Returns `A⁻¹ b` by Gauss elimination. The result is not a number if `A` is singular.
 fn solve(a: DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     a.lu().solve(b).unwrap_or_else(|| DVector::repeat(b.len(), f64::NAN))
 }
@@ -181,8 +182,8 @@ fn consistent_mass(rho_a: f64, l: f64) -> Matrix4<f64> {
     Matrix4::from_fn(|i, j| rows[i][j]) * (rho_a * l / 420.0)
 }
 
-/// `∫ P(ξ) N'N'ᵀ dx` for a force that is a polynomial of second degree in `ξ = x/ℓ`, by four
-/// Gauss points.
+/// Returns `∫ P(ξ) N'N'ᵀ dx` for a force that is a polynomial of second degree in `ξ = x/ℓ`, by
+/// four Gauss points.
 fn axial(l: f64, p: impl Fn(f64) -> f64) -> Matrix4<f64> {
     let (near, far) = ((3.0 - 2.0 * 1.2_f64.sqrt()) / 7.0, (3.0 + 2.0 * 1.2_f64.sqrt()) / 7.0);
     let (heavy, light) = ((18.0 + 30_f64.sqrt()) / 36.0, (18.0 - 30_f64.sqrt()) / 36.0);

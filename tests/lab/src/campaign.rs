@@ -9,18 +9,18 @@ use rayon::prelude::*;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::progress;
 
-/// Cases whose results are in memory at a time, where a campaign only counts them.
+/// Cases whose results are in memory at a time if a campaign only counts them.
 pub const CHUNK: u64 = 10_000;
 
-/// A case takes some milliseconds, and some seconds where `auto` tries a stiff arm for ten thousand
-/// ticks. One that takes this long hangs.
+/// Time after which a case is taken to hang. A case takes some milliseconds, and some seconds if
+/// `auto` tries a stiff arm for ten thousand ticks.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// Runs the cases of those numbers on all cores and returns what they give, in the order of the
+/// Runs the cases of those numbers on all cores and returns their results, in the order of the
 /// numbers. `one` must depend on its number alone, so that the results do not depend on the
 /// threads.
 ///
-/// A case that hangs cannot be interrupted: it ends the program in one line that names it, `what`
+/// A case that hangs cannot be interrupted. It ends the program in one line that names it, `what`
 /// and its number. `done` is called after each case.
 pub fn each<R: Send>(
     what: &str,
@@ -49,7 +49,7 @@ pub fn chunks(from: u64, to: u64) -> impl Iterator<Item = Range<u64>> {
     begins.take_while(move |&at| at < to).map(move |at| at..to.min((at / CHUNK + 1) * CHUNK))
 }
 
-/// Runs a task of so many steps beside a progress bar. The task reports the steps it has made.
+/// Runs a task of `steps` steps beside a progress bar. The task reports the steps it has made.
 pub fn with_bar<R>(what: &str, steps: u64, task: impl FnOnce(&(dyn Fn(u64) + Sync)) -> R) -> R {
     let bar = progress::bar(what, steps as usize);
     let result = task(&|made| bar.inc(made));
@@ -57,10 +57,10 @@ pub fn with_bar<R>(what: &str, steps: u64, task: impl FnOnce(&(dyn Fn(u64) + Syn
     result
 }
 
-/// Runs what follows on so many threads; on one a core without a number.
+/// Sets the number of threads for all that follows. Without a number it is one a core.
 ///
 /// # Errors
-/// A number that is not 1 to 1024.
+/// An error is returned if the number is not 1 to 1024.
 pub fn on_threads(threads: Option<usize>) -> Result<(), Error> {
     let Some(threads) = threads else { return Ok(()) };
     if !(1..=1024).contains(&threads) {
@@ -71,7 +71,7 @@ pub fn on_threads(threads: Option<usize>) -> Result<(), Error> {
     })
 }
 
-/// Cases under way and since when.
+/// Cases that are running, with the time when each began.
 #[derive(Default)]
 struct Watch {
     under_way: Mutex<Vec<(u64, Instant)>>,
@@ -86,7 +86,7 @@ impl Watch {
         self.cases().retain(|(under_way, _)| *under_way != index);
     }
 
-    /// A case that has run for longer than that.
+    /// Returns a case that has run for longer than `patience`.
     fn overdue(&self, patience: Duration) -> Option<u64> {
         self.cases().iter().find(|case| case.1.elapsed() > patience).map(|case| case.0)
     }
@@ -95,7 +95,7 @@ impl Watch {
         self.under_way.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// Looks at the cases once a second while `run` runs.
+    /// Checks the cases once a second while `run` runs.
     fn over<R>(&self, what: &str, run: impl FnOnce() -> R) -> R {
         let (stop, stopped) = channel::<()>();
         std::thread::scope(|scope| {

@@ -1,5 +1,6 @@
 #![forbid(unsafe_code)]
-//! The proof behind stillbeam's pages: campaigns that no user runs, and what they write into docs/.
+//! The proof behind stillbeam's pages: campaigns that no user runs, and the blocks they write into
+//! docs/.
 //!
 //! [`sweep`] measures run time against error, beside [`baseline`]; [`stress`] runs random scenes
 //! and long runs; [`stability`] maps where the methods are stable; [`choice`] tries `auto` on

@@ -1,5 +1,5 @@
 //! Blocks of a page that a command writes: between `<!-- lab:NAME -->` and `<!-- /lab -->`, each on
-//! a line of its own. What is around them is written by hand.
+//! a line of its own. The text around them is written by hand.
 
 use stillbeam_sim::error::Error;
 
@@ -15,7 +15,7 @@ pub struct Block {
 }
 
 impl Block {
-    /// Names a text.
+    /// Creates a block of a name and a text.
     pub fn new(name: impl Into<String>, text: String) -> Self {
         Self { name: name.into(), text }
     }
@@ -26,16 +26,16 @@ impl Block {
 pub struct Difference {
     /// Number of the line, from 1.
     pub line: usize,
-    /// The line on the page; none if the page ends before it.
+    /// The line on the page; `None` if the page ends before it.
     pub old: Option<String>,
-    /// The line as it is now; none if what is written anew ends before it.
+    /// The line as it is now; `None` if the page written anew ends before it.
     pub new: Option<String>,
 }
 
 /// Returns the page with each block in its place.
 ///
 /// # Errors
-/// A block whose markers are missing or wrong, by its name.
+/// An error is returned if the markers of a block are missing or wrong. It names the block.
 pub fn fill(page: &str, blocks: &[Block]) -> Result<String, Error> {
     let mut page = page.to_owned();
     for Block { name, text } in blocks {
@@ -46,10 +46,10 @@ pub fn fill(page: &str, blocks: &[Block]) -> Result<String, Error> {
     Ok(page)
 }
 
-/// Returns what stands on the page between the markers of a block.
+/// Returns the text between the markers of a block on the page.
 ///
 /// # Errors
-/// As [`fill`].
+/// Errors are those of [`fill`].
 pub fn block<'a>(page: &'a str, name: &str) -> Result<&'a str, Error> {
     let (begin, end) = place(page, name)?;
     Ok(page[begin..end].trim_start_matches('\n'))
@@ -60,7 +60,7 @@ pub fn has(page: &str, name: &str) -> bool {
     page.contains(&start(name))
 }
 
-/// Finds the first line in which two texts differ. A text that goes on where the other has ended
+/// Finds the first line in which two texts differ. A text that goes on after the end of the other
 /// differs too.
 pub fn difference(old: &str, new: &str) -> Option<Difference> {
     let (mut olds, mut news) = (old.lines(), new.lines());
@@ -88,7 +88,7 @@ fn start(name: &str) -> String {
     format!("<!-- lab:{name} -->")
 }
 
-/// Bytes between the two markers.
+/// Returns the bytes between the two markers.
 fn place(page: &str, name: &str) -> Result<(usize, usize), Error> {
     let start = start(name);
     let missing = || {

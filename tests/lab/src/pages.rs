@@ -1,4 +1,4 @@
-//! The pages with blocks that take seconds: written, or checked, by one command.
+//! The pages with blocks that take seconds. One command writes or checks them.
 
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
@@ -13,8 +13,8 @@ use crate::sweep::row::Row;
 use crate::sweep::tables;
 use crate::{choice, still};
 
-/// A page, by its path from the root of the repository, and the blocks that are written here. Other
-/// blocks of the same page are written by campaigns.
+/// A page, by its path from the root of the repository, and its blocks that are written here.
+/// Campaigns write the other blocks of the same page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Page {
     /// Path from the root.
@@ -24,7 +24,7 @@ pub struct Page {
     source: Source,
 }
 
-/// What computes the blocks of a page.
+/// Computation of the blocks of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
     Tables,
@@ -53,7 +53,7 @@ pub const PAGES: [Page; 5] = [
 /// Finds a page by its path.
 ///
 /// # Errors
-/// A path that is no page's.
+/// An error is returned if the path is not that of a page.
 pub fn named(path: &str) -> Result<Page, Error> {
     PAGES.into_iter().find(|page| page.path == path).ok_or_else(|| {
         let known = PAGES.map(|page| page.path).join(", ");
@@ -64,17 +64,18 @@ pub fn named(path: &str) -> Result<Page, Error> {
 /// Reads a page.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// An error is returned if the file cannot be read.
 pub fn read(path: &Path) -> Result<String, Error> {
     std::fs::read_to_string(path).map_err(|cause| {
         Error::file(path, format_args!("{cause}; must be a text file that can be read"))
     })
 }
 
-/// Refuses a page without a place for these blocks: before a campaign runs for them, not after.
+/// Refuses a page without a place for these blocks. This is checked before a campaign runs for
+/// them.
 ///
 /// # Errors
-/// A block whose markers are missing, by its name.
+/// An error is returned if the markers of a block are missing. It names the block.
 pub fn has_places<'a>(
     path: &Path,
     text: &str,
@@ -88,13 +89,13 @@ pub fn has_places<'a>(
 /// Writes a page whose blocks a campaign has found.
 ///
 /// # Errors
-/// A block without a place, or a path that cannot be written.
+/// An error is returned if a block has no place or the path cannot be written.
 pub fn write(path: &Path, text: &str, blocks: &[Block]) -> Result<(), Error> {
     let filled = markers::fill(text, blocks).map_err(|error| error.within(path.display()))?;
     stillbeam_sim::output::write_whole(path, |file| file.write_all(filled.as_bytes()))
 }
 
-/// The pages below a root, with what several of them are written from.
+/// The pages below a root, with the data from which several of them are written.
 pub struct Pages {
     root: PathBuf,
     rows: OnceCell<Vec<Row>>,
@@ -102,24 +103,25 @@ pub struct Pages {
 }
 
 impl Pages {
-    /// The pages of the repository at `root`.
+    /// Creates the pages of the repository at `root`.
     pub fn at(root: &Path) -> Self {
         Self { root: root.to_owned(), rows: OnceCell::new(), findings: OnceCell::new() }
     }
 
-    /// Compares a page with what it would be if it were written now.
+    /// Compares a page with the same page written now.
     ///
     /// # Errors
-    /// A page that cannot be read or has no place for a block, or a computation that fails.
+    /// An error is returned if the page cannot be read or has no place for a block, or if a
+    /// computation fails.
     pub fn check(&self, page: &Page) -> Result<Option<Difference>, Error> {
         let (text, filled) = self.filled(page)?;
         Ok(markers::difference(&text, &filled))
     }
 
-    /// Writes a page and its pictures, all or none. Returns what was written.
+    /// Writes a page and its pictures, all or none. Returns the paths that were written.
     ///
     /// # Errors
-    /// As [`check`](Self::check), and a path that cannot be written.
+    /// Errors are those of [`check`](Self::check), and that of a path that cannot be written.
     pub fn write(&self, page: &Page) -> Result<Vec<PathBuf>, Error> {
         let (_, filled) = self.filled(page)?;
         let path = self.root.join(page.path);
@@ -140,7 +142,7 @@ impl Pages {
         files.finish()
     }
 
-    /// A page as it stands, and with its blocks as they are now.
+    /// Returns a page as it stands, and with its blocks as they are now.
     fn filled(&self, page: &Page) -> Result<(String, String), Error> {
         let path = self.root.join(page.path);
         let text = read(&path)?;

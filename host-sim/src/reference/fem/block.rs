@@ -23,8 +23,8 @@ impl Chain {
         }
     }
 
-    /// Replaces `b` by the solution, from block row `first` on; the matrix is used up. `None` if a
-    /// pivot block is singular.
+    /// Replaces `b` by the solution, from block row `first` on. The matrix is used up. Returns
+    /// `None` if a pivot block is singular.
     pub fn solve(&mut self, first: usize, b: &mut [Vector3<f64>]) -> Option<()> {
         let n = self.diagonal.len();
         for i in first..n {
@@ -43,8 +43,8 @@ impl Chain {
         Some(())
     }
 
-    /// True if the matrix, if symmetric, is positive definite from block row `first` on; it is used
-    /// up.
+    /// Returns true if the matrix, if symmetric, is positive definite from block row `first` on.
+    /// The matrix is used up.
     pub fn is_positive_definite(&mut self, first: usize) -> bool {
         for i in first..self.diagonal.len() {
             if i > first {

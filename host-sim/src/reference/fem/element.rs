@@ -66,8 +66,8 @@ impl Element {
         }
     }
 
-    /// Internal force (N, N, N m at each end) in the global frame, and its derivative along
-    /// `change`.
+    /// Returns the internal force (N, N, N m at each end) in the global frame, and its derivative
+    /// along `change`.
     pub fn force(&self, a: &Node, b: &Node, change: &Change) -> (Vector6<f64>, Matrix6<f64>) {
         let d = self.deformation(a, b);
         let (l, l0, s) = (d.chord, self.length, d.slope);

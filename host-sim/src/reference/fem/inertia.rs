@@ -29,8 +29,8 @@ impl Inertia {
         Self { matrix: matrix * (mass / 420.0), alpha }
     }
 
-    /// Inertia, drag and weight (`gravity` in m/s², along global −Y) as forces that the arm has to
-    /// supply, N, N, N m at each end, and their derivative along `change`.
+    /// Returns inertia, drag and weight (`gravity` in m/s², along global −Y) as forces that the arm
+    /// has to supply, N, N, N m at each end, and their derivative along `change`.
     pub fn force(
         &self,
         a: &Node,
@@ -80,7 +80,7 @@ impl Inertia {
     }
 }
 
-/// The payload: point mass and rotary inertia. Force as in [`Inertia::force`].
+/// Returns the force of the payload, a point mass with rotary inertia, as [`Inertia::force`] does.
 pub(super) fn payload(
     scene: &Scene,
     node: &Node,

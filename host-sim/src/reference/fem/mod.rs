@@ -23,10 +23,10 @@ use super::schedule::Schedule;
 use super::{ReferenceError, Sample};
 use crate::trajectory::Trajectory;
 
-/// How the elements are laid and stepped.
+/// Mesh and step of the solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Elements over the link, 1 to 1000.
+    /// Number of elements over the link, 1 to 1000.
     pub elements: usize,
     /// Longest step, s; `None` is a thousandth of `L²√(ρA/EI)`. The rule is not unconditionally
     /// stable on this nonlinear problem: the spin-up of `tests/truth` needs a step below twice the
@@ -35,10 +35,10 @@ pub struct Options {
     /// `EA L²/EI`, 1e2 to 1e9; 12(L/t)² for a strip of thickness t. The tip differs from an
     /// inextensible link's by up to 10/this of L in the runs of `tests/truth`.
     pub axial_stiffness: f64,
-    /// What joins axis and clamp.
+    /// Model of the stretch between axis and clamp.
     pub hub: HubModel,
-    /// Largest residual of an equilibrium, as a fraction of `EI/L²` (moments: of `EI/L`), 1e-12
-    /// to 1e-2. What rounding leaves is accepted too: some 1e-7 with the other defaults.
+    /// Largest residual of an equilibrium, as a fraction of `EI/L²` (moments: of `EI/L`), 1e-12 to
+    /// 1e-2. The residual that rounding leaves is accepted too: some 1e-7 with the other defaults.
     pub tolerance: f64,
 }
 
@@ -102,7 +102,7 @@ pub fn solve(
     solve_with(scene, trajectory, times, options, &|_| ())
 }
 
-/// [`solve`], calling `progress` with the fraction of the run that is done, 0 to 1.
+/// Solves as [`solve`] does and calls `progress` with the fraction of the run that is done, 0 to 1.
 pub fn solve_with(
     scene: &Scene,
     trajectory: &Trajectory,

@@ -12,17 +12,17 @@ use super::inertia::{Inertia, payload};
 use super::node::{Change, Deformation, Node};
 use super::{HubModel, Options};
 
-/// Elements, and the residual of the equations of motion.
+/// Elements of the arm and the residual of its equations of motion.
 pub(super) struct Model {
     pub scene: Scene,
-    /// Gravity that acts now, m/s².
+    /// Present gravity, m/s².
     pub gravity: f64,
     /// Distance of every node from the axis, undeformed, m. The first node moves with the hub.
     reach: Vec<f64>,
     elements: Vec<Element>,
-    /// Of an element of the link; the hub's element has no mass.
+    /// Inertia of an element of the link. The hub's element has no mass.
     inertia: Inertia,
-    /// Elements of the hub, 0 or 1.
+    /// Number of elements of the hub, 0 or 1.
     hub_elements: usize,
 }
 
@@ -56,7 +56,8 @@ impl Model {
         self.reach.len()
     }
 
-    /// u_m + u_d: the rigid motion with the hub, exact in time, and the deformation.
+    /// Sets the nodes to u_m + u_d: the rigid motion with the hub, exact in time, and the
+    /// deformation.
     pub fn place(&self, hub: &HubState<f64>, deformation: &Deformation, nodes: &mut [Node]) {
         // Whole turns are left out: only directions are ever taken from it.
         let angle = TAU * hub.angle.part;
@@ -73,8 +74,8 @@ impl Model {
         }
     }
 
-    /// The force (N, N, N m) that each node lacks for the equations of motion to hold, and its
-    /// derivative. That of the first node is the reaction of the hub.
+    /// Returns the force (N, N, N m) that each node lacks for the equations of motion to hold, and
+    /// its derivative. That of the first node is the reaction of the hub.
     pub fn residual(
         &self,
         nodes: &[Node],
@@ -105,14 +106,14 @@ impl Model {
         tangent.diagonal[tip] += Matrix3::from_diagonal(&mass);
     }
 
-    /// Hub torque, N m: the first node's reaction, moment and force carried to the axis, and
-    /// `J_h θ̈`.
+    /// Returns the hub torque, N m: the first node's reaction, moment and force carried to the
+    /// axis, and `J_h θ̈`.
     pub fn torque(&self, reaction: &Vector3<f64>, clamp: &Node, hub: &HubState<f64>) -> f64 {
         reaction.z + clamp.q.x * reaction.y - clamp.q.y * reaction.x
             + self.scene.hub.inertia * hub.acceleration
     }
 
-    /// What rounding of the displacements may leave of a residual, relative as in
+    /// Returns the residual that rounding of the displacements may leave, relative as in
     /// [`Self::relative`]: that of the stretch, `ε |u|/l₀`, times EA, of the stiffest element.
     pub fn rounding(&self) -> f64 {
         let link = &self.scene.link;
@@ -122,7 +123,7 @@ impl Model {
         16.0 * f64::EPSILON * stiffest * self.scene.reach() * scale
     }
 
-    /// Size of a residual against `EI/L²`, moments taken at the arm L.
+    /// Returns the size of a residual against `EI/L²`, moments taken at the arm L.
     pub fn relative(&self, residual: &[Vector3<f64>]) -> f64 {
         let link = &self.scene.link;
         let scale = link.length * link.length / link.bending_stiffness;

@@ -8,15 +8,15 @@ use super::model::Model;
 use super::node::{Change, Deformation, Node};
 use crate::reference::{ReferenceError, Sample};
 
-/// Newton steps that an equilibrium may take.
+/// Newton steps that are allowed for an equilibrium.
 const ITERATIONS: usize = 25;
 /// Load steps on the way to the static equilibrium.
 const LOAD_STEPS: u32 = 16;
 
-/// The arm at one time, and room to work.
+/// State of the arm at one time, and working storage.
 pub(super) struct March {
     model: Model,
-    /// Of a residual, relative to EI/L².
+    /// Tolerance of a residual, relative to EI/L².
     tolerance: f64,
     state: Deformation,
     next: Deformation,
@@ -26,7 +26,7 @@ pub(super) struct March {
 }
 
 impl March {
-    /// At rest, undeformed.
+    /// Creates the arm at rest, undeformed.
     pub fn new(model: Model, tolerance: f64) -> Self {
         let n = model.nodes();
         Self {
@@ -60,8 +60,9 @@ impl March {
         Ok(())
     }
 
-    /// Accelerations anew from displacements and velocities, where the commanded acceleration
-    /// jumps to that of `hub`. Carrying the old ones across would cost the rule its second order.
+    /// Recomputes the accelerations from displacements and velocities when the commanded
+    /// acceleration jumps to that of `hub`. Carrying the old ones across would cost the rule its
+    /// second order.
     pub fn restart(&mut self, hub: &HubState<f64>, time: f64) -> Result<(), ReferenceError> {
         self.next.clone_from(&self.state);
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
@@ -70,8 +71,9 @@ impl March {
         Ok(())
     }
 
-    /// A step of h s to the time at which the hub is as given: `u⁺ = u + h u̇ + ¼h²(ü + ü⁺)`,
-    /// `u̇⁺ = u̇ + ½h(ü + ü⁺)` (δ = 1/2, β = 1/4) of the deformation u_d, iterated to equilibrium.
+    /// Advances the deformation u_d by a step of h s, to the time at which the hub is as given: `u⁺
+    /// = u + h u̇ + ¼h²(ü + ü⁺)`, `u̇⁺ = u̇ + ½h(ü + ü⁺)` (δ = 1/2, β = 1/4), iterated to
+    /// equilibrium.
     pub fn step(&mut self, hub: &HubState<f64>, time: f64, h: f64) -> Result<(), ReferenceError> {
         for i in 1..self.nodes.len() {
             let (u, v, a) = (self.state.u[i], self.state.v[i], self.state.a[i]);
@@ -85,7 +87,7 @@ impl March {
         Ok(())
     }
 
-    /// Newton's method on `next`, moved along `change`.
+    /// Applies Newton's method to `next`, moved along `change`.
     fn equilibrate(
         &mut self,
         hub: &HubState<f64>,
@@ -118,7 +120,7 @@ impl March {
         Err(ReferenceError::Integration { time, reason })
     }
 
-    /// The arm as it is now, its hub as given.
+    /// Returns the present state of the arm, its hub as given.
     pub fn sample(&mut self, t: f64, hub: &HubState<f64>) -> Sample {
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
         self.model.place(hub, &self.state, &mut self.nodes);

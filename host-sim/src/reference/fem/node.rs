@@ -1,20 +1,20 @@
-//! What a node carries.
+//! State of a node.
 
 use nalgebra::Vector3;
 
-/// Displacement, velocity and acceleration of a node: global x, y (m) and rotation (rad), u_m and
-/// u_d together.
+/// Displacement, velocity and acceleration of a node: global x, y (m) and rotation (rad). They are
+/// the sums of u_m and u_d.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Node {
     /// Position x, y and rotation.
     pub q: Vector3<f64>,
     pub v: Vector3<f64>,
     pub a: Vector3<f64>,
-    /// u_d alone.
+    /// Deformation u_d alone.
     pub deformation: Vector3<f64>,
 }
 
-/// How much of a change of the unknowns reaches displacements, velocities and accelerations.
+/// Factors by which a change of the unknowns enters displacements, velocities and accelerations.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
     pub displacement: f64,

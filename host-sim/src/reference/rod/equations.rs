@@ -15,19 +15,19 @@ pub(super) struct Rod<const N: usize> {
     masses: [f64; STATIONS],
     /// `ψₖ` at the points, shape by shape.
     by_shape: [[f64; POINTS]; N],
-    /// R, what integrates values at the points from the clamp to each station, m: station by
-    /// station, and the same point by point.
+    /// Matrix R, which integrates values at the points from the clamp to each station, m: station
+    /// by station, and the same point by point.
     by_station: [[f64; POINTS]; STATIONS],
     by_point: [[f64; STATIONS]; POINTS],
-    /// `Σₛ mₛ Rₛₚ Rₛ_q`, kg m²: the inertia that the angles at the points
-    /// p and q share but for the cosine of their difference.
+    /// `Σₛ mₛ Rₛₚ Rₛ_q`, kg m²: the inertia that the angles at the points p and q share, without
+    /// the cosine of their difference.
     shared: [[f64; POINTS]; POINTS],
     /// `EI/L ∫ψₖ'²`, N m: the stiffness matrix is diagonal.
     pub stiffness: [f64; N],
 }
 
-/// Where the link is and how it moves in hub axes. One array a quantity: the loops over points and
-/// stations then run through memory in order, several at a time.
+/// Position and motion of the link in hub axes. Each quantity has its own array, so that the loops
+/// over points and stations run through memory in order, several at a time.
 pub(super) struct Configuration {
     /// Cosine and sine of φ, point by point.
     cos: [f64; POINTS],
@@ -55,7 +55,7 @@ impl<const N: usize> Rod<N> {
         Self { basis, scene: *scene, masses, by_shape, by_station, by_point, shared, stiffness }
     }
 
-    /// The link at unknowns `a` (rad) and rates `v` (rad/s).
+    /// Returns the configuration at unknowns `a` (rad) and rates `v` (rad/s).
     pub fn configuration(&self, a: &SVector<f64, N>, v: &SVector<f64, N>) -> Configuration {
         let (angle, rate) = (self.at_points(a), self.at_points(v));
         let (mut cos, mut sin) = ([0.0; POINTS], [0.0; POINTS]);
@@ -82,7 +82,7 @@ impl<const N: usize> Rod<N> {
         Configuration { cos, sin, stations }
     }
 
-    /// `Σ aₖ ψₖ` at the points.
+    /// Returns `Σ aₖ ψₖ` at the points.
     fn at_points(&self, a: &SVector<f64, N>) -> [f64; POINTS] {
         let mut sum = [0.0; POINTS];
         for k in 0..N {
@@ -93,7 +93,7 @@ impl<const N: usize> Rod<N> {
         sum
     }
 
-    /// Integral from the clamp to each station of what is `slope` at the points.
+    /// Integrates `slope`, given at the points, from the clamp to each station.
     fn integral(&self, slope: &[f64; POINTS]) -> [f64; STATIONS] {
         let mut sum = [0.0; STATIONS];
         for (q, slope) in slope.iter().enumerate() {
@@ -104,7 +104,8 @@ impl<const N: usize> Rod<N> {
         sum
     }
 
-    /// `M(a)`, kg m²: `Mᵢⱼ = Σ ψᵢ(p) ψⱼ(q) cos(φₚ − φ_q)` times what the points share.
+    /// Returns `M(a)`, kg m²: `Mᵢⱼ = Σ ψᵢ(p) ψⱼ(q) cos(φₚ − φ_q)` times the inertia that the points
+    /// share.
     pub fn mass_matrix(&self, at: &Configuration) -> SMatrix<f64, N, N> {
         let mut moved = [[0.0; POINTS]; N];
         for q in 0..POINTS {
@@ -131,8 +132,8 @@ impl<const N: usize> Rod<N> {
         mass
     }
 
-    /// Absolute acceleration of a station in hub axes but for what ä gives it, drag and weight
-    /// counted as accelerations, m/s².
+    /// Returns the absolute acceleration of a station in hub axes without the part due to ä, m/s².
+    /// Drag and weight count as accelerations.
     fn bias(&self, at: &Configuration, s: usize, hub: &HubState<f64>) -> [f64; 2] {
         let [x, y, xd, yd, cx, cy] = at.stations.map(|quantity| quantity[s]);
         let (rate, acceleration) = (hub.rate, hub.acceleration);
@@ -147,8 +148,8 @@ impl<const N: usize> Rod<N> {
         ]
     }
 
-    /// `ä` (rad/s²) from `∫ρA Aᵢ·a dx + m_p Aᵢ·a(L) + J_p ψᵢ(L)(…) + EI-terms = 0`. Not a number
-    /// where the state is not.
+    /// Returns `ä` (rad/s²) from `∫ρA Aᵢ·a dx + m_p Aᵢ·a(L) + J_p ψᵢ(L)(…) + EI-terms = 0`. The
+    /// result is not a number if the state is not.
     pub fn acceleration(
         &self,
         at: &Configuration,
@@ -183,17 +184,18 @@ impl<const N: usize> Rod<N> {
         }
     }
 
-    /// `αΣψⱼ(L)ȧⱼ + θ̈ + αθ̇`: the payload's angular acceleration but for ä, drag included.
+    /// Returns `αΣψⱼ(L)ȧⱼ + θ̈ + αθ̇`: the payload's angular acceleration without the part due to
+    /// ä, drag included.
     fn turning(&self, v: &SVector<f64, N>, hub: &HubState<f64>) -> f64 {
         let alpha = self.scene.damping.alpha;
         let spin: f64 = (0..N).map(|k| self.basis.tip[k] * v[k]).sum();
         alpha * (spin + hub.rate) + hub.acceleration
     }
 
-    /// Hub torque and bending moment at the clamp, N m.
+    /// Returns the hub torque and the bending moment at the clamp, N m.
     ///
-    /// Torque: `J_h θ̈` and the moment of all inertia forces, drag and weight about the axis,
-    /// `∫(X a_Y − Y a_X) dm`. Moment: the same about the clamp at `(r, 0)`, without the hub's own.
+    /// Torque: `J_h θ̈` and the moment of all inertia forces, drag and weight about the axis, `∫(X
+    /// a_Y − Y a_X) dm`. Moment: the same about the clamp at `(r, 0)`, without the hub's own.
     pub fn loads(
         &self,
         at: &Configuration,
@@ -222,13 +224,13 @@ impl<const N: usize> Rod<N> {
 }
 
 impl Configuration {
-    /// Hub-frame X and Y of the tip, m.
+    /// Returns hub-frame X and Y of the tip, m.
     pub fn tip(&self) -> [f64; 2] {
         [self.stations[0][POINTS], self.stations[1][POINTS]]
     }
 }
 
-/// The sum of the products, in four parts that do not wait for each other.
+/// Returns the sum of the products, in four partial sums that do not wait for each other.
 fn dot(x: &[f64; POINTS], y: &[f64; POINTS]) -> f64 {
     let mut sum = [0.0; 4];
     for p in 0..POINTS {

@@ -67,7 +67,7 @@ impl<const N: usize> Basis<N> {
     }
 }
 
-/// `P̃₀..P̃₁₆` at ξ, by the three-term recurrence.
+/// Returns `P̃₀..P̃₁₆` at ξ, by the three-term recurrence.
 fn legendre(x: f64) -> [f64; POINTS + 1] {
     let u = 2.0 * x - 1.0;
     let mut p = [1.0; POINTS + 1];
@@ -79,7 +79,7 @@ fn legendre(x: f64) -> [f64; POINTS + 1] {
     p
 }
 
-/// `∫₀^ξ P̃ₖ = (P̃ₖ₊₁ − P̃ₖ₋₁) / (2(2k + 1))`, and ξ for k = 0.
+/// Returns `∫₀^ξ P̃ₖ = (P̃ₖ₊₁ − P̃ₖ₋₁) / (2(2k + 1))`, and ξ for k = 0.
 fn integrals(x: f64) -> [f64; POINTS] {
     let p = legendre(x);
     std::array::from_fn(|k| match k {

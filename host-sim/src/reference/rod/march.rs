@@ -11,8 +11,8 @@ use super::{Integrator, Load, Options, Resume};
 use crate::reference::schedule::{Schedule, Stretch};
 use crate::reference::{ReferenceError, Sample};
 
-/// Unknowns in the first column, rad, and in the second their rates divided by the rod's first
-/// angular frequency, so that one tolerance fits both.
+/// State of the rod. The first column holds the unknowns, rad, the second their rates divided by
+/// the rod's first angular frequency, so that one tolerance fits both.
 type State<const N: usize> = SMatrix<f64, N, 2>;
 
 /// The rod on one stretch of the commanded motion.
@@ -39,7 +39,7 @@ fn split<const N: usize>(y: &State<N>, scale: f64) -> (SVector<f64, N>, SVector<
     (y.column(0).into_owned(), y.column(1) * scale)
 }
 
-/// The whole run with N unknowns.
+/// Solves the whole run with N unknowns.
 pub(super) fn run<const N: usize>(
     rod: &Rod<N>,
     schedule: &Schedule<'_>,
@@ -67,7 +67,7 @@ pub(super) fn run<const N: usize>(
     Ok(samples)
 }
 
-/// The rod in static equilibrium where the run begins.
+/// Returns the rod in static equilibrium at the beginning of the run.
 fn at_rest<const N: usize>(
     rod: &Rod<N>,
     schedule: &Schedule<'_>,
@@ -81,9 +81,9 @@ fn at_rest<const N: usize>(
     Ok(y)
 }
 
-/// Flies the rod from `resume`, or from rest at the run's beginning, to `until` s. `visit` sees the
-/// loads at both ends of every stretch, from within, and after every step between. Returns where it
-/// got to.
+/// Simulates the rod from `resume`, or from rest at the run's beginning, to `until` s. `visit` sees
+/// the loads at both ends of every stretch, from within, and after every step between. Returns the
+/// final state.
 pub(super) fn watch<const N: usize>(
     rod: &Rod<N>,
     schedule: &Schedule<'_>,
@@ -124,7 +124,7 @@ pub(super) fn watch<const N: usize>(
     Ok(Resume { t: until, state: y.as_slice().to_vec() })
 }
 
-/// One stretch by an integrator; see [`march`].
+/// Integrates one stretch with an integrator. See [`march`].
 fn go<const N: usize>(
     integrator: Integrator,
     tolerance: f64,
@@ -152,15 +152,16 @@ fn go<const N: usize>(
     }
 }
 
-/// Stiffness-proportional damping makes the highest polynomial decay at βω², and an explicit step
-/// is stable to about 6/βω² only. From βω = 8 on (a damping ratio of 4) the implicit method takes
-/// fewer evaluations; below, the vibration that has to be followed binds both.
+/// Chooses the integrator by the damping. Stiffness-proportional damping makes the highest
+/// polynomial decay at βω², and an explicit step is stable to about 6/βω² only. From βω = 8 on (a
+/// damping ratio of 4) the implicit method takes fewer evaluations. Below, the vibration that has
+/// to be followed binds both.
 fn choose(highest: f64, beta: f64) -> Integrator {
     if beta * highest > 8.0 { Integrator::Implicit } else { Integrator::Explicit }
 }
 
-/// Integrates one stretch and calls `visit` at its sample times, each the end of a step: no
-/// interpolation; and `each_step` after every step. Returns the state at the end.
+/// Integrates one stretch. Calls `visit` at its sample times, each the end of a step without
+/// interpolation, and `each_step` after every step. Returns the state at the end.
 fn march<const N: usize>(
     mut method: impl OrdinaryNumericalMethod<f64, State<N>>,
     motion: &Motion<'_, N>,

@@ -19,10 +19,10 @@ use super::schedule::Schedule;
 use super::{ReferenceError, Sample};
 use crate::trajectory::Trajectory;
 
-/// How the rod is solved.
+/// Options of the rod's solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Polynomials, 5 to 8.
+    /// Number of polynomials, 5 to 8.
     pub order: usize,
     /// Relative and absolute tolerance of a step, on angles in rad and on their rates over the
     /// link's first angular frequency; 1e-12 to 1e-4.
@@ -49,8 +49,8 @@ impl Default for Options {
 
 /// Solves a run of the scene and samples it at `times` (s, ascending, within the run).
 ///
-/// The arm starts from rest in static equilibrium at the first angle. Plane motion, hub frame as
-/// in [`Scene`]; errors see [`Options`].
+/// The arm starts from rest in static equilibrium at the first angle. The motion is plane, the hub
+/// frame as in [`Scene`]. See [`Options`] for errors.
 pub fn solve(
     scene: &Scene,
     trajectory: &Trajectory,
@@ -60,7 +60,7 @@ pub fn solve(
     solve_with(scene, trajectory, times, options, &|_| ())
 }
 
-/// [`solve`], calling `progress` with the fraction of the run that is done, 0 to 1.
+/// Solves as [`solve`] does and calls `progress` with the fraction of the run that is done, 0 to 1.
 pub fn solve_with(
     scene: &Scene,
     trajectory: &Trajectory,
@@ -86,33 +86,33 @@ pub fn solve_with(
     }
 }
 
-/// What the arm does to its hub at one instant of a flight.
+/// Loads at the hub at one instant of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
-    /// s.
+    /// Time, s.
     pub t: f64,
     /// τ at the hub, J_h θ̈ included, N m.
     pub torque: f64,
     /// M, bending moment at the clamp, N m.
     pub moment: f64,
-    /// True for the first of a stretch with one formula: the loads may jump before it.
+    /// True for the first instant of a stretch with one formula. The loads may jump before it.
     pub jumped: bool,
 }
 
 /// A state of the rod in the middle of a flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Resume {
-    /// s.
+    /// Time, s.
     t: f64,
     /// Unknowns and scaled rates.
     state: Vec<f64>,
 }
 
-/// Flies the arm from `resume`, or else from rest at the beginning, to `until` s, and has `visit`
-/// see the loads at every step of the integrator and on both sides of every break. The steps
-/// resolve the fastest vibration of the rod.
+/// Simulates the arm from `resume`, or else from rest at the beginning, to `until` s. `visit` sees
+/// the loads at every step of the integrator and on both sides of every break. The steps resolve
+/// the fastest vibration of the rod.
 ///
-/// Returns where the flight got to, to be resumed from with the same options.
+/// Returns the final state, from which a flight with the same options can resume.
 pub fn watch(
     scene: &Scene,
     trajectory: &Trajectory,
@@ -135,8 +135,8 @@ pub fn watch(
     }
 }
 
-/// Hub torque and bending moment at the clamp, N m, of the arm at rest under its own weight with
-/// the hub at `angle`.
+/// Returns hub torque and bending moment at the clamp, N m, of the arm at rest under its own weight
+/// with the hub at `angle`.
 pub fn rest_loads(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], ReferenceError> {
     let rod = Rod::<7>::new(&scene.validate()?);
     let (sin, cos) = angle.sin_cos();
@@ -148,13 +148,14 @@ pub fn rest_loads(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], Referenc
     Ok(rod.loads(&rod.configuration(&a, &still), &still, &still, &hub))
 }
 
-/// First natural period of the straight clamped arm, s.
+/// Returns the first natural period of the straight clamped arm, s.
 pub fn first_period(scene: &Scene) -> Result<f64, ReferenceError> {
     Ok(std::f64::consts::TAU / Rod::<7>::new(&scene.validate()?).frequencies()[0])
 }
 
-/// Hub-frame Y of the tip, m, of the arm at rest under its own weight with the hub at `angle`: what
-/// a run's residual vibration is measured from, whatever model made the run. Error below 1e-9 L.
+/// Returns the hub-frame Y of the tip, m, of the arm at rest under its own weight with the hub at
+/// `angle`. A run's residual vibration is measured from it, whatever model made the run. Error
+/// below 1e-9 L.
 pub fn rest_deflection(scene: &Scene, angle: Angle<f64>) -> Result<f64, ReferenceError> {
     let rod = Rod::<7>::new(&scene.validate()?);
     let (sin, cos) = angle.sin_cos();

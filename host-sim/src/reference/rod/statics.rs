@@ -1,16 +1,16 @@
-//! Where the rod rests, and how fast it can vibrate.
+//! Static equilibrium of the rod and its frequencies.
 
 use nalgebra::{Cholesky, DMatrix, SMatrix, SVector};
 
 use super::equations::Rod;
 
-/// Load steps on the way to the full weight: Newton's method then follows the branch that starts
-/// at the straight link.
+/// Load steps on the way to the full weight. With them Newton's method follows the branch that
+/// starts at the straight link.
 const LOAD_STEPS: u32 = 16;
 
 impl<const N: usize> Rod<N> {
-    /// The static shape under gravity at the hub angle given by its sine and cosine, rad; `None`
-    /// if it is not stable.
+    /// Returns the static shape under gravity at the hub angle given by its sine and cosine, rad.
+    /// Returns `None` if it is not stable.
     ///
     /// Minimises `½ Σ kₖ aₖ² + g ∫ M(x) sin(θ + φ) dx`, `M(x) = ρA(L − x) + m_p` the mass outboard.
     pub fn equilibrium(&self, sin: f64, cos: f64) -> Option<SVector<f64, N>> {
@@ -60,8 +60,8 @@ impl<const N: usize> Rod<N> {
         (gradient, hessian)
     }
 
-    /// Angular frequencies of the straight clamped rod, rad/s, ascending. The upper ones are those
-    /// of the polynomials, far above the link's own.
+    /// Returns the angular frequencies of the straight clamped rod, rad/s, ascending. The upper
+    /// ones are those of the polynomials, far above the link's own.
     pub fn frequencies(&self) -> SVector<f64, N> {
         let rest = SVector::zeros();
         let mass = self.mass_matrix(&self.configuration(&rest, &rest));

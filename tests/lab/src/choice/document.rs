@@ -19,7 +19,7 @@ const BORDERS: [f64; 8] = [0.0, 1e-3, 1e-2, 0.1, 0.5, 0.9, 1.0, f64::INFINITY];
 /// Points of a curve in the picture.
 const POINTS: usize = 120;
 
-/// The page, whole.
+/// Returns the whole page.
 pub fn page(seed: u64, verdicts: &[Verdict]) -> String {
     let summary = Summary::of(verdicts);
     let count = summary.arms;
@@ -37,11 +37,11 @@ pub fn page(seed: u64, verdicts: &[Verdict]) -> String {
     blocks.join("\n")
 }
 
-/// The blocks of the page that depend on the seed and the number of arms alone: what can be checked
-/// without the campaign, which takes hours. Both numbers are read from the page.
+/// Returns the blocks of the page that depend on the seed and the number of arms alone. They can be
+/// checked without the campaign, which takes hours. Both numbers are read from the page.
 ///
 /// # Errors
-/// A page that does not name its command.
+/// An error is returned if the page does not name its command.
 pub fn blocks(page: &str) -> Result<Vec<Block>, Error> {
     let written = markers::block(page, "command")?;
     let number = |option: &str| -> Result<u64, Error> {
@@ -54,7 +54,7 @@ pub fn blocks(page: &str) -> Result<Vec<Block>, Error> {
     Ok(vec![command(seed, number(" --count ")?), distribution(seed)])
 }
 
-/// A section whose text is a block.
+/// Returns a section whose text is a block.
 fn marked(heading: &str, Block { name, text }: &Block) -> String {
     format!("{heading}\n\n<!-- lab:{name} -->\n{text}<!-- /lab -->\n")
 }
@@ -205,7 +205,7 @@ fn judge(summary: &Summary) -> String {
     )
 }
 
-/// Share of the choices that err by more than so much of the tolerance.
+/// Draws the share of the choices whose error exceeds a fraction of the tolerance.
 pub fn picture(verdicts: &[Verdict]) -> Result<String, Error> {
     let curve = |of: usize| {
         let mut ratios: Vec<f64> = ratios(verdicts).map(|pair| pair[of]).collect();
@@ -229,7 +229,7 @@ pub fn picture(verdicts: &[Verdict]) -> Result<String, Error> {
     .svg()
 }
 
-/// True and expected error over tolerance of every choice.
+/// Returns true and expected error over tolerance of every choice.
 fn ratios(verdicts: &[Verdict]) -> impl Iterator<Item = [f64; 2]> {
     verdicts.iter().filter_map(|verdict| {
         let expected = verdict.choice.as_ref().ok()?.expected.excess(&verdict.tolerance);

@@ -1,4 +1,4 @@
-//! What one choice is worth: the true error of every rung.
+//! Judges one choice by the true error of every rung.
 
 use stillbeam::model::Rod;
 use stillbeam::motion::Limits;
@@ -14,41 +14,42 @@ use stillbeam_sim::reference::{Sample, rod};
 use stillbeam_sim::trajectory::Trajectory;
 
 /// Polynomials of the judge, coarsest first. An arm is judged with one more each time, until no
-/// verdict hangs on it.
+/// verdict depends on it.
 pub(super) const ORDERS: [usize; 4] = [5, 6, 7, 8];
 
-/// Least and largest tolerance of a step, rad. Most steps are bound by the highest polynomial's
-/// vibration; this is for the others.
+/// Least and largest tolerance of a step, rad. The highest polynomial's vibration binds most steps;
+/// this is for the others.
 pub(super) const TOLERANCE: (f64, f64) = (1e-11, 1e-7);
 
-/// Tolerance of a step, fraction of the angle that the arm bends by: a stiff arm bends by 1e-4, and
-/// its torque is to be right to a part in a thousand of that.
+/// Tolerance of a step, fraction of the angle by which the arm bends. A stiff arm bends by 1e-4,
+/// and its torque must be right to a part in a thousand of that.
 pub(super) const PART: f64 = 1e-5;
 
-/// Factor between a rung's error and the tolerance from which on the coarsest judge is enough: it
-/// errs by two fifths of the error where the torque rings most.
+/// Factor between a rung's error and the tolerance from which on the coarsest judge is enough.
+/// Where the torque rings most, that judge errs by two fifths of the error.
 pub(super) const FAR: f64 = 2.5;
 
 /// Largest change of a rung's error from one judge to the next, fraction of its distance from the
-/// tolerance. Each polynomial more takes half of the remaining error or less, so that what is left
+/// tolerance. Each polynomial more takes half of the remaining error or less, so that the remainder
+/// is no larger than the change.
 /// is no larger than the change.
 pub(super) const CHANGE: f64 = 0.25;
 
-/// Largest change where the error is below twice the tolerance, fraction of the tolerance.
+/// Largest change if the error is below twice the tolerance, fraction of the tolerance.
 pub(super) const NEAR: f64 = 0.03;
 
-/// The judge's judge.
+/// Options of the stricter judge that judges the judge.
 pub(super) const STRICT: rod::Options =
     rod::Options { order: 8, tolerance: 1e-11, integrator: None };
 
-/// Every so many arms the judge itself is judged.
+/// Interval of arms at which the judge itself is judged.
 pub(super) const STRICT_EACH: u64 = 50;
 
-/// Segments in a generator: all moves of a case at once.
+/// Segments in a generator's queue. It holds all moves of a case at once.
 const QUEUE: usize = 64;
 
 impl Case {
-    /// Chooses, and judges every rung over the moves and one first period after them.
+    /// Lets `auto` choose, and judges every rung over the moves and one first period after them.
     pub fn judge(&self, index: u64) -> Result<Verdict, Error> {
         let chosen =
             Auto::<f32>::choose(&self.arm, self.tick, self.from, &self.moves, &self.tolerance);
@@ -103,14 +104,14 @@ impl Case {
         Ok(rod::solve(&self.arm, trajectory, &times, options)?)
     }
 
-    /// Tip angle to expect, rad.
+    /// Returns the expected tip angle, rad.
     fn bend(&self, trajectory: &Trajectory) -> Result<f64, Error> {
         let peaks = trajectory.plans().iter().map(|plan| plan.summary.peaks.acceleration);
         Ok(Rod::<1>::new(&self.arm)?.bend(peaks.fold(0.0, f64::max)))
     }
 
-    /// Largest distance of the tip from the truth and largest difference of the torque at the ticks
-    /// that are `away` from jumps, each over its tolerance.
+    /// Returns the largest distance of the tip from the truth and the largest difference of the
+    /// torque at the ticks that are `away` from jumps, each over its tolerance.
     fn errors(
         &self,
         run: &[Move],
@@ -139,8 +140,8 @@ impl Case {
     }
 }
 
-/// By tick, true if it is one and a half ticks or more from every jump of the commanded
-/// acceleration, as `compare` has it.
+/// Returns, for each tick, true if it is more than one and a half ticks from every jump of the
+/// commanded acceleration, as `compare` has it.
 fn away(trajectory: &Trajectory, tick: f64) -> Vec<bool> {
     let jumps = compare::jumps(trajectory);
     let near = |t: f64| jumps.iter().any(|jump| (t - jump).abs() <= 1.5 * tick);
@@ -155,16 +156,16 @@ fn larger([a, b]: [f64; 2]) -> f64 {
     a.max(b)
 }
 
-/// Errors of a rung by two judges, for the rungs that a verdict hangs on: those up to the chosen
-/// one, or all where that is none or beyond its tolerances.
+/// Returns the errors by two judges of the rungs on which a verdict depends. These are the rungs up
+/// to the chosen one, or all if none is chosen or the chosen one exceeds its tolerances.
 fn pairs(a: &[[f64; 2]], b: &[[f64; 2]], chosen: Option<usize>) -> Vec<(f64, f64)> {
     let kept = |rung: &usize| larger(a[*rung]).max(larger(b[*rung])) <= 1.0;
     let count = chosen.filter(kept).map_or(a.len(), |rung| rung + 1);
     a.iter().zip(b).take(count).map(|(&a, &b)| (larger(a), larger(b))).collect()
 }
 
-/// True if an error over its tolerance, `before` and now, is known well enough to say whether it is
-/// kept.
+/// True if an error over its tolerance, `before` and now, is known well enough to decide whether
+/// the tolerance is kept.
 fn is_settled(before: f64, now: f64) -> bool {
     // Both may be infinite.
     let change = if now == before { 0.0 } else { (now - before).abs() };

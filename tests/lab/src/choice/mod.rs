@@ -1,4 +1,4 @@
-//! How good the choices of `auto` are: random arms and moves, every rung of the ladder judged by
+//! The quality of the choices of `auto`: random arms and moves, every rung of the ladder judged by
 //! the reference rod.
 
 mod document;
@@ -15,11 +15,11 @@ pub use verdict::{Doubt, Judged, Verdict};
 use crate::campaign;
 use stillbeam_sim::error::Error;
 
-/// What the arms of the documented campaign are drawn with.
+/// Seed of the arms of the documented campaign.
 pub const SEED: u64 = 20_261_122;
 
-/// Judges the first `count` arms of a seed on all cores: the same verdicts, in the same order, on
-/// any number of them.
+/// Judges the first `count` arms of a seed on all cores. The verdicts and their order do not depend
+/// on the number of cores.
 pub fn campaign(seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Result<Vec<Verdict>, Error> {
     let verdicts = campaign::each("arm", 0..count, done, |index| {
         let verdict = Case::random(seed, index).and_then(|case| case.judge(index));

@@ -1,4 +1,4 @@
-//! The random arms and moves that the choices of `auto` are judged on.
+//! Random arms and moves on which the choices of `auto` are judged.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::reference::rod;
 
-/// What [`Case::random`] draws, for the page: keep the two together.
+/// Distribution that [`Case::random`] draws, for the page. Keep the two together.
 pub const DISTRIBUTION: &[(&str, &str)] = &[
     ("link", "length 0.1 to 2 m, mass 5 g to 2 kg, first period with its payload 0.05 to 3 s"),
     (
@@ -38,7 +38,7 @@ pub const DISTRIBUTION: &[(&str, &str)] = &[
     ("tolerances", "2e-4 to 5e-2 of L, 3e-3 to 0.1 of the torque's peak"),
 ];
 
-/// An arm, what it does and what is asked of `auto`.
+/// An arm, its moves and the tolerance for `auto`.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// The arm.
@@ -49,19 +49,20 @@ pub struct Case {
     pub tick: f64,
     /// First hub angle, rad.
     pub from: f64,
-    /// From rest to rest.
+    /// Moves from rest to rest.
     pub moves: Vec<Move>,
-    /// Of the tip and of the torque.
+    /// Tolerance of the tip and of the torque.
     pub tolerance: Tolerance,
 }
 
-/// Uniform in the logarithm.
+/// Draws a value that is uniform in the logarithm.
 fn log(rng: &mut StdRng, from: f64, to: f64) -> f64 {
     from * (to / from).powf(rng.random_range(0.0..1.0))
 }
 
 impl Case {
-    /// Case `index` of the campaign with that seed: the same whatever runs before it.
+    /// Draws case `index` of the campaign with that seed. It does not depend on the cases before
+    /// it.
     pub fn random(seed: u64, index: u64) -> Result<Self, Error> {
         let mut rng = StdRng::seed_from_u64(seed ^ index.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         let rng = &mut rng;

@@ -6,10 +6,10 @@ use stillbeam::select::Rung;
 use super::judge::ORDERS;
 use super::verdict::Verdict;
 
-/// What the choices have come to.
+/// Counts over the choices of a campaign.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// Arms.
+    /// Number of arms.
     pub arms: usize,
     /// Chosen, by rung.
     pub chosen: [usize; Rung::LADDER.len()],
@@ -33,9 +33,9 @@ pub struct Summary {
     pub other: usize,
     /// Refused although a rung met the tolerance.
     pub needless: usize,
-    /// Arms by the judge that had the last word: the coarsest first.
+    /// Number of arms by the judge that decided, the coarsest first.
     pub judged: [usize; ORDERS.len()],
-    /// Arms whose errors still changed as the finest judge had been asked.
+    /// Arms whose errors still changed with the finest judge.
     pub unsettled: usize,
     /// Arms whose judge was judged.
     pub doubted: usize,
@@ -46,7 +46,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Counts.
+    /// Counts the verdicts.
     pub fn of(verdicts: &[Verdict]) -> Self {
         let count =
             |wanted: &dyn Fn(&Verdict) -> bool| verdicts.iter().filter(|v| wanted(v)).count();
@@ -93,12 +93,12 @@ impl Summary {
         }
     }
 
-    /// Choices made.
+    /// Returns the number of choices made.
     pub fn choices(&self) -> usize {
         self.chosen.iter().sum()
     }
 
-    /// Choices at most one rung above the cheapest that met the tolerance.
+    /// Returns the number of choices at most one rung above the cheapest that met the tolerance.
     pub fn at_most_one_too_dear(&self) -> usize {
         self.too_dear[0] + self.too_dear[1]
     }

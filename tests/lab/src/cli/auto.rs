@@ -1,5 +1,4 @@
-//! `auto`: how good the choices of `auto` are, every rung of the ladder judged by the reference
-//! rod.
+//! `auto`: judges the choices of `auto`, every rung of the ladder, by the reference rod.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -20,7 +19,7 @@ pub struct AutoArgs {
     /// Random arms
     #[arg(long, value_name = "N", default_value_t = 200)]
     count: u64,
-    /// What they are drawn with
+    /// Seed of the arms
     #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
 }
@@ -47,7 +46,7 @@ impl AutoArgs {
     }
 }
 
-/// A choice that errs by more than was asked for, or is two rungs too dear.
+/// True for a choice that errs by more than was asked for or is two rungs too dear.
 fn is_bad(verdict: &Verdict) -> bool {
     verdict.exceeds() || verdict.rungs_too_dear().is_some_and(|rungs| rungs > 1)
 }

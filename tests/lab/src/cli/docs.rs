@@ -1,4 +1,4 @@
-//! `docs`: every page with blocks that take seconds, written or checked.
+//! `docs`: writes or checks every page with blocks that take seconds.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -9,7 +9,7 @@ use stillbeam_sim::println;
 
 use super::verdict;
 
-/// What other commands write, for `--help`.
+/// Pages that other commands write, for `--help`.
 pub const OTHERS: &str = "\
 Written by commands of their own, because they take minutes or an emulator:
   docs/auto.md, its figures     cargo lab auto docs/auto.md --count N

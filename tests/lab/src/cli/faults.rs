@@ -1,4 +1,4 @@
-//! `faults`: what goes wrong around an axis, and what comes of it.
+//! `faults`: injects faults around an axis and counts the results.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -20,7 +20,7 @@ pub struct FaultsArgs {
     /// Runs a kind of fault, some 13 s of motion each
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     count: u64,
-    /// What they are drawn with
+    /// Seed of the runs
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
 }

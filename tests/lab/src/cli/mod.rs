@@ -1,4 +1,5 @@
-//! The lab's command line: words in, a library call, lines out. One command a file.
+//! The lab's command line: parses the words, calls the library and prints lines. One command a
+//! file.
 
 mod auto;
 mod docs;
@@ -72,7 +73,7 @@ impl Cli {
     }
 }
 
-/// Refuses a campaign without cases, or with more than a machine's life.
+/// Refuses a campaign without cases, or with too many to end.
 fn counted(count: u64) -> Result<u64, Error> {
     if (1..=100_000_000).contains(&count) {
         return Ok(count);
@@ -80,7 +81,7 @@ fn counted(count: u64) -> Result<u64, Error> {
     Err(Error::new(format_args!("--count = {count}: must be 1 to 100000000")))
 }
 
-/// Success if a campaign found nothing, else exit code 1.
+/// Returns success if a campaign found nothing, else exit code 1.
 fn verdict(holds: bool) -> ExitCode {
     if holds { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

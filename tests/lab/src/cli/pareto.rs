@@ -1,4 +1,4 @@
-//! `pareto`: error against time, drawn and in words.
+//! `pareto`: draws error against time and describes it in words.
 
 use std::io::Write;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! `reference`: the two reference solvers, converging to each other.
+//! `reference`: lets the two reference solvers converge to each other.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! `stability`: where the methods are stable and accurate, as maps.
+//! `stability`: maps where the methods are stable and accurate.
 
 use std::path::PathBuf;
 use std::process::ExitCode;

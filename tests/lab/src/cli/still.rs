@@ -1,4 +1,4 @@
-//! `still`: random still moves and random interruptions by the thousand.
+//! `still`: judges random still moves and random interruptions by the thousand.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -20,7 +20,7 @@ pub struct StillArgs {
     /// Random interruptions, a hundred an arm; a tenth as many moves from rest to rest
     #[arg(long, value_name = "N", default_value_t = 100_000)]
     count: u64,
-    /// What they are drawn with
+    /// Seed of the moves
     #[arg(long, value_name = "S", default_value_t = 20_260_101)]
     seed: u64,
 }

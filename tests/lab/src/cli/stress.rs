@@ -1,4 +1,5 @@
-//! `stress`: random scenes by the million, arms that ring on and runs as long as a machine's life.
+//! `stress`: runs random scenes by the million, arms that ring on, and runs as long as a machine's
+//! life.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -14,7 +15,7 @@ use stillbeam_sim::{output, println};
 
 use super::{counted, verdict};
 
-/// Undamped arms of the page.
+/// Number of undamped arms of the page.
 const ARMS: usize = 100;
 
 /// Ticks of each long run of the page.
@@ -25,10 +26,10 @@ pub struct StressArgs {
     /// A page to be filled with everything: the scenes, the arms that ring on, the long runs
     #[arg(value_name = "stability.md", conflicts_with_all = ["part", "csv", "scene"])]
     page: Option<PathBuf>,
-    /// How many scenes
+    /// Number of scenes
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     count: u64,
-    /// What they are drawn with
+    /// Seed of the scenes
     #[arg(long, value_name = "S", default_value_t = 8)]
     seed: u64,
     /// Keep what is done in this file, and go on from it
@@ -129,7 +130,8 @@ impl StressArgs {
     }
 }
 
-/// A scene that panics is counted; its message would hide the progress.
+/// Silences the message of a panic. A scene that panics is counted; its message would hide the
+/// progress.
 fn quiet() {
     std::panic::set_hook(Box::new(|_| ()));
 }

@@ -1,4 +1,4 @@
-//! `sweep`: run time against error, over many solvers and scenes.
+//! `sweep`: measures run time against error, over many solvers and scenes.
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -11,9 +11,9 @@ use stillbeam_sim::{console, output, println};
 
 #[derive(clap::Args)]
 pub struct SweepArgs {
-    /// What to cross, a TOML file [default: the embedded spec]
+    /// Solvers and scenes to cross, a TOML file [default: the embedded spec]
     spec: Option<PathBuf>,
-    /// Where the rows go, one a case
+    /// File for the rows, one a case
     #[arg(long, value_name = "OUT.csv")]
     csv: PathBuf,
 }
@@ -35,7 +35,7 @@ impl SweepArgs {
     }
 }
 
-/// Runs a plan into a file. A path that cannot be written is refused before the cases run.
+/// Runs a plan and writes its rows to a file. A path that cannot be written is refused first.
 fn write(plan: &Plan, path: &Path) -> Result<(), Error> {
     let mut failed = None;
     output::write_whole(path, |file| match execute::rows(plan) {

@@ -1,5 +1,6 @@
-//! The firmware around one axis: bytes in, requests carried out, a tick when it comes. The axis,
-//! the frames, the pace and the motor side are the firmware's own; what stands here is its wiring.
+//! The firmware around one axis: takes bytes, carries out requests, makes a tick when it comes. The
+//! axis, the frames, the pace and the motor side are the firmware's own; only the wiring is written
+//! here.
 
 use std::collections::VecDeque;
 
@@ -16,13 +17,13 @@ use stillbeam_wiring::{Configuration, Work};
 use super::machine::TICK;
 use stillbeam_sim::error::Error;
 
-/// Counts of the board's clock, in µs, a tick.
+/// Counts of the board's clock in a tick, µs.
 pub const PERIOD: u32 = Pace::period(TICK, 1_000_000).expect("TICK is a whole number of µs");
 
-/// Jobs that wait for the planner, as in the application; one more is refused.
+/// Jobs that can wait for the planner, as in the application. One more is refused.
 const JOBS: usize = 2;
 
-/// What the board said to a request.
+/// Answer of the board to a request.
 pub type Answer = Result<u32, Refusal<'static>>;
 
 /// One axis of the application.
@@ -30,24 +31,24 @@ pub struct Board {
     joint: Joint,
     splitter: Splitter,
     pace: Pace,
-    /// What is to be planned or set up next; every other request is carried out as it comes.
+    /// Jobs to be planned or set up next. Every other request is carried out as it comes.
     jobs: VecDeque<Work>,
     under_way: Option<UnderWay>,
-    /// Ticks that planning a move and setting an arm up take.
+    /// Ticks needed to plan a move or to set an arm up.
     takes: u32,
     /// Answers so far.
     pub answers: Vec<Answer>,
-    /// Frames that came in garbled.
+    /// Number of frames that came in garbled.
     pub garbled: u64,
-    /// Ticks that did not take place.
+    /// Number of ticks that did not take place.
     pub missed: u64,
-    /// Ticks that came before they were due, and were not made.
+    /// Number of ticks that came before they were due and were not made.
     pub early: u64,
-    /// The axis was switched on since the last tick, where the drive stands.
+    /// True if the axis was switched on since the last tick, at the position of the drive.
     begins: bool,
 }
 
-/// A job whose result is there in so many ticks.
+/// A job whose result is ready in `left` ticks.
 struct UnderWay {
     left: u32,
     result: Ready,
@@ -56,7 +57,8 @@ struct UnderWay {
 // One at a time.
 #[allow(clippy::large_enum_variant)]
 enum Ready {
-    /// `again`: where the axis' motion has changed meanwhile it is planned once more.
+    /// A planned move. With `again`, it is planned once more if the axis' motion has changed
+    /// meanwhile.
     Plan {
         motion: Move,
         planned: PlannedMove<f32>,
@@ -75,12 +77,12 @@ pub struct Step {
     pub tick: Tick<f32>,
     /// The demand on the shaft.
     pub demand: Demand<f32>,
-    /// It is the first since the axis was switched on.
+    /// True for the first tick since the axis was switched on.
     pub begins: bool,
 }
 
 impl Board {
-    /// Powers up. `takes` ticks go by while a move is planned.
+    /// Powers the board up. Planning a move takes `takes` ticks.
     pub fn new(configuration: &Configuration, takes: u32) -> Result<Self, Error> {
         Ok(Self {
             joint: Joint::new(configuration, stepper(&configuration.scene)?)?,
@@ -97,7 +99,7 @@ impl Board {
         })
     }
 
-    /// Bytes from the host.
+    /// Takes bytes from the host.
     pub fn receive(&mut self, bytes: &[u8]) {
         for &byte in bytes {
             let Some(frame) = self.splitter.push(byte) else { continue };
@@ -108,17 +110,17 @@ impl Board {
         }
     }
 
-    /// A request as if its frame had come, for those who have no use for bytes.
+    /// Takes a request as if its frame had come, without encoding it.
     pub fn ask(&mut self, command: Command) {
         self.answer(&Request { sequence: 0, axis: 0, command });
     }
 
-    /// A frame from the drive.
+    /// Takes a frame from the drive.
     pub fn hear_drive(&mut self, frame: &ClassicFrame) {
         self.joint.hear_drive(frame);
     }
 
-    /// A tick at that reading of the clock; `None` if it is not due, for then there is none.
+    /// Makes a tick at that reading of the clock. Returns `None` if it is not due.
     pub fn tick(&mut self, now: u32) -> Option<Step> {
         let timing = self.pace.arrive(now);
         let Some(tick) = self.joint.axis.tick_if_due(&timing) else {
@@ -145,7 +147,7 @@ impl Board {
         self.joint.node()
     }
 
-    /// Carries a request out, or hands it down to the planner.
+    /// Carries out a request, or hands it to the planner.
     fn answer(&mut self, request: &Request) {
         self.joint.axis.heard();
         if request.axis > 0 {
@@ -166,7 +168,7 @@ impl Board {
         }
     }
 
-    /// Does what the planner can have done by now, one job after the other.
+    /// Does the planner's work that is due by now, one job after the other.
     fn work(&mut self) {
         loop {
             if self.under_way.as_ref().is_some_and(|job| job.left > 0) {

@@ -1,4 +1,4 @@
-//! Runs of an axis under a fault, counted.
+//! Runs an axis under a fault and counts the results.
 
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
@@ -21,7 +21,7 @@ const TICKS: u32 = ticks(8.0);
 /// Counts between two ticks of a burst, 20 µs.
 const BURST: u32 = 20;
 
-/// Every kind of fault `count` times, and every stop there is, in the order of the table.
+/// Runs every kind of fault `count` times and every stop there is, in the order of the table.
 pub fn all(
     seed: u64,
     count: u64,
@@ -35,7 +35,7 @@ pub fn all(
     Ok(rows)
 }
 
-/// One kind of fault `count` times.
+/// Runs one kind of fault `count` times.
 pub fn of(fault: Fault, seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Result<Outcome, Error> {
     let mut total = Outcome::default();
     for numbers in chunks(0, count) {
@@ -46,7 +46,7 @@ pub fn of(fault: Fault, seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Resu
     Ok(total)
 }
 
-/// Run `index` of a kind of fault.
+/// Runs number `index` of a kind of fault.
 pub fn one(fault: Fault, seed: u64, index: u64) -> Result<Outcome, Error> {
     let mut rng = StdRng::seed_from_u64(seed ^ (index << 8) ^ fault as u64);
     let configuration = &CONFIGURATIONS[rng.random_range(0..CONFIGURATIONS.len())];
@@ -130,7 +130,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The drive says where it is, or what the fault makes of it.
+    /// Sends the drive's position, or the frame into which the fault turns it.
     fn report(&mut self, k: u32, rng: &mut StdRng) {
         let node = self.board.node();
         let frame = self.drive.report(node);
@@ -147,7 +147,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Counts of the clock to the next tick.
+    /// Returns the counts of the clock to the next tick.
     fn interval(&mut self, rng: &mut StdRng) -> u32 {
         if self.burst > 0 {
             self.burst -= 1;
@@ -170,7 +170,7 @@ impl<'a> Run<'a> {
         PERIOD
     }
 
-    /// A tick comes, `counts` of the clock after the one before.
+    /// Makes a tick, `counts` of the clock after the one before.
     fn tick(&mut self, counts: u32) {
         let stopped = |mode| matches!(mode, Mode::Stopping | Mode::Stopped);
         let before = self.last;
@@ -198,7 +198,7 @@ impl<'a> Run<'a> {
         self.last = Some(step.tick.mode);
     }
 
-    /// The host is silent: the axis must come to rest.
+    /// Checks that the axis comes to rest while the host is silent.
     fn in_silence(&mut self) {
         for _ in 0..SILENCE {
             self.tick(PERIOD);
@@ -209,7 +209,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The fault is over: the axis must be switched on again and follow a move.
+    /// Checks, after the fault, that the axis can be switched on again and follows a move.
     fn recovered(&mut self) {
         let frame = self.drive.report(self.board.node());
         self.board.hear_drive(&frame);
@@ -240,7 +240,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Over a sound line.
+    /// Sends a command over a line without faults.
     fn send(&mut self, command: Command) {
         let mut frame = [0; MAX];
         // Every request fits.
@@ -250,7 +250,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// Another identifier, other bytes, fewer bytes, or a request for them.
+/// Alters a frame: another identifier, other bytes, fewer bytes, or a request for them.
 fn altered(frame: &ClassicFrame, rng: &mut StdRng) -> ClassicFrame {
     use embedded_can::{Frame, StandardId};
     let id = match rng.random_range(0..3) {

@@ -1,4 +1,4 @@
-//! What hangs on the other end of the bus.
+//! The drive at the other end of the bus.
 
 use stillbeam::axis::Mode;
 use stillbeam::drive::ClassicFrame;
@@ -6,13 +6,13 @@ use stillbeam::drive::odrive::{EncoderEstimates, Node};
 
 use super::board::Step;
 
-/// A drive that does as it is told, and says where it is.
+/// A drive that follows its setpoints and reports its position.
 pub struct Drive {
     position: f32,
 }
 
 impl Drive {
-    /// Standing there, turns.
+    /// Creates a drive at rest at `position`, turns.
     pub fn at(position: f32) -> Self {
         Self { position }
     }
@@ -24,7 +24,7 @@ impl Drive {
         }
     }
 
-    /// Where the encoder is.
+    /// Returns the frame with the encoder's position.
     pub fn report(&self, node: Node) -> ClassicFrame {
         let estimates = EncoderEstimates { position: self.position, velocity: 0.0 };
         // Eight bytes are a frame.

@@ -1,4 +1,4 @@
-//! What a host sends: moves within and beyond the limits, changes of mind, and a heartbeat.
+//! Traffic of a host: moves within and beyond the limits, changes of mind, and a heartbeat.
 
 use rand::Rng;
 use rand::rngs::StdRng;
@@ -9,10 +9,10 @@ use stillbeam_protocol::Command;
 use super::Fault;
 use super::machine::ticks;
 
-/// Ticks between two heartbeats, 0.1 s; the patience is five of them.
+/// Ticks between two heartbeats, 0.1 s. The patience is five of them.
 const HEARTBEAT: u32 = ticks(0.1);
 
-/// The commands of tick `k`, and how many of them are the fault itself.
+/// Returns the commands of tick `k` and the number of them that are the fault itself.
 pub fn say(fault: Fault, limits: &Limits, k: u32, rng: &mut StdRng) -> (Vec<Command>, u64) {
     let mut commands = Vec::new();
     // A drive reports first; then the axis is switched on, and on again after stops.
@@ -50,7 +50,7 @@ pub fn say(fault: Fault, limits: &Limits, k: u32, rng: &mut StdRng) -> (Vec<Comm
     (commands, injected)
 }
 
-/// Mostly within the limits.
+/// Draws a move, mostly within the limits.
 fn motion(limits: &Limits, rng: &mut StdRng) -> Move {
     let (rate, acceleration) = (limits.rate.unwrap_or(1.0), limits.acceleration.unwrap_or(1.0));
     match rng.random_range(0..10) {
@@ -80,7 +80,7 @@ fn payload(rng: &mut StdRng) -> Payload {
     Payload { mass: value(rng), inertia: 1e-3 * value(rng) }
 }
 
-/// Values that numbers go wrong at.
+/// Values at which arithmetic tends to fail.
 pub const EDGES: [f64; 12] = [
     f64::NAN,
     f64::INFINITY,
@@ -96,7 +96,7 @@ pub const EDGES: [f64; 12] = [
     167_772.16,
 ];
 
-/// Any bits, or a value that numbers go wrong at.
+/// Draws a number of any bits, or one of [`EDGES`].
 pub fn any(rng: &mut StdRng) -> f64 {
     match rng.random_range(0..3) {
         0 => f64::from_bits(rng.random()),
@@ -105,7 +105,7 @@ pub fn any(rng: &mut StdRng) -> f64 {
     }
 }
 
-/// A command that no sound host sends.
+/// Draws a command that no sound host sends.
 fn nonsense(rng: &mut StdRng) -> Command {
     let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
     match rng.random_range(0..8) {

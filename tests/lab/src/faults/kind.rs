@@ -1,19 +1,19 @@
-//! What is injected.
+//! Kinds of faults to be injected.
 
 /// A kind of fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// Nothing: how often the same traffic is accepted without.
+    /// No fault, which shows how often the same traffic is accepted without one.
     None,
     /// Frames lose their end or are lost, and the line goes dead for up to a second.
     Cut,
-    /// Bits flip, bytes come in between.
+    /// Bits flip and bytes are inserted.
     Garbled,
     /// Frames overtake each other by up to 20 ticks.
     Reordered,
     /// Frames come up to four times, at once or later.
     Duplicated,
-    /// Frames are whole and their numbers are not: not finite, absurd, or of a still move whose
+    /// Frames are whole but their numbers are not: not finite, absurd, or of a still move whose
     /// bulge no drive could follow.
     Nonsense,
     /// Ticks come late by up to a period.
@@ -50,7 +50,7 @@ impl Fault {
         Self::Bursts,
     ];
 
-    /// In the table.
+    /// Returns the name in the table.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",

@@ -1,4 +1,4 @@
-//! A serial line that does to frames what the fault says.
+//! A serial line that applies the fault to its frames.
 
 use rand::Rng;
 use rand::rngs::StdRng;
@@ -15,12 +15,12 @@ pub struct Line {
     /// Tick up to which the line is dead.
     dead: u32,
     sequence: u16,
-    /// Frames that were cut, altered, moved or doubled.
+    /// Number of frames that were cut, altered, moved or doubled.
     pub injected: u64,
 }
 
 impl Line {
-    /// An idle line.
+    /// Creates an idle line.
     pub fn new(fault: Fault) -> Self {
         Self { fault, under_way: Vec::new(), dead: 0, sequence: 0, injected: 0 }
     }
@@ -68,7 +68,7 @@ impl Line {
         self.under_way.push((k, bytes));
     }
 
-    /// What arrives before tick `k`.
+    /// Returns the bytes that arrive before tick `k`.
     pub fn deliver(&mut self, k: u32) -> Vec<u8> {
         let (arrived, rest) =
             std::mem::take(&mut self.under_way).into_iter().partition(|f| f.0 <= k);
@@ -78,7 +78,7 @@ impl Line {
     }
 }
 
-/// Bits flipped, bytes put in, or noise.
+/// Flips bits, inserts bytes, or returns noise.
 fn garbled(mut bytes: Vec<u8>, rng: &mut StdRng) -> Vec<u8> {
     for _ in 0..rng.random_range(1..6) {
         let at = rng.random_range(0..=bytes.len());

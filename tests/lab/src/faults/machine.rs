@@ -4,14 +4,14 @@ pub use stillbeam_wiring::Configuration;
 use stillbeam_wiring::axes::PATIENCE;
 pub use stillbeam_wiring::axes::{CONFIGURATIONS, TICK};
 
-/// Time in which a stop from the greatest rate is over, s: several times what the slowest takes,
+/// Time in which a stop from the greatest rate is over, s. It is several times the slowest stop,
 /// 2.12 · 5/15 = 0.7.
 const STOP: f64 = 2.5;
 
-/// Ticks after which a silent axis must be at rest: its patience, and a stop.
+/// Ticks after which a silent axis must be at rest: its patience and a stop.
 pub const SILENCE: u32 = ticks(PATIENCE + STOP);
 
-/// A time in ticks, to the nearest.
+/// Converts a time to ticks, to the nearest.
 pub const fn ticks(seconds: f64) -> u32 {
     (seconds / TICK + 0.5) as u32
 }

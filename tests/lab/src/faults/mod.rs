@@ -1,10 +1,10 @@
-//! One axis as the firmware runs it, and everything that can go wrong around it, by the thousand.
+//! One axis as the firmware runs it, with thousands of faults injected around it.
 //!
 //! [`Board`] is the firmware's command task and tick around the core's axis and the protocol's
-//! frames, without a target. [`Fault`] says what is injected, [`mod@line`] does it to the bytes on
-//! their way, [`host`] says what a host sends. [`Watch`] judges every setpoint that a drive would
-//! follow: what is promised, whatever happens, stands in its docs. [`campaign`] runs it all and
-//! [`table`] prints what was injected, how often, and what came out.
+//! frames, without a target. [`Fault`] is the kind of fault, [`mod@line`] applies it to the bytes
+//! on their way, [`host`] makes a host's traffic. [`Watch`] judges every setpoint that a drive
+//! would follow; its docs list the promises. [`campaign`] runs it all and [`table`] prints the
+//! faults injected, their number, and the results.
 
 mod board;
 pub mod campaign;

@@ -1,4 +1,4 @@
-//! What is counted of a run.
+//! Counts of a run.
 
 use std::collections::BTreeMap;
 
@@ -6,10 +6,10 @@ use stillbeam_protocol::Refusal;
 
 use super::{Board, Excess, Watch};
 
-/// What came out, of one run or of many.
+/// Result of one run or of many.
 #[derive(Clone, Debug, Default)]
 pub struct Outcome {
-    /// Runs.
+    /// Number of runs.
     pub runs: u64,
     /// Faults injected.
     pub injected: u64,
@@ -23,14 +23,14 @@ pub struct Outcome {
     pub refused: BTreeMap<&'static str, u64>,
     /// Stops asked for, by a lost link, by missed ticks.
     pub stops: [u64; 3],
-    /// Greatest shares of what is allowed.
+    /// Greatest shares of the allowed values.
     pub worst: Excess,
-    /// What was promised and did not hold.
+    /// Promises that did not hold.
     pub broken: Vec<String>,
 }
 
 impl Outcome {
-    /// Of one run.
+    /// Returns the outcome of one run.
     pub(super) fn of(board: &Board, watch: &Watch) -> Self {
         let mut outcome = Self {
             runs: 1,
@@ -49,7 +49,7 @@ impl Outcome {
         outcome
     }
 
-    /// Both together.
+    /// Adds another outcome.
     pub fn add(&mut self, other: Self) {
         self.runs += other.runs;
         self.injected += other.injected;

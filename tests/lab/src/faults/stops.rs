@@ -1,4 +1,4 @@
-//! A stop at every tick of a move, for every cause, through the board.
+//! Stops the board at every tick of a move, for every cause.
 
 use stillbeam::axis::{Cause, Mode};
 use stillbeam::planner::{Planner, Request};
@@ -10,11 +10,11 @@ use super::machine::{CONFIGURATIONS, Configuration, TICK, ticks};
 use super::{Board, Drive, Outcome, Watch};
 use stillbeam_sim::error::Error;
 
-/// Ticks of the moves, 1.2 s, and a few after.
+/// Ticks of the moves, 1.2 s, and a few after them.
 const TICKS: u32 = ticks(1.3);
 
-/// Every profile, a spin-up and its end, and where it can be planned a still move; each with
-/// another move waiting behind it.
+/// Returns moves of every profile, a spin-up and its end, and a still move if it can be planned.
+/// Each has another move waiting behind it.
 fn moves(configuration: &Configuration) -> Result<Vec<Move>, Error> {
     let mut moves = Profile::ALL.map(|p| Move::To { profile: p, duration: 1.2, to: 1.5 }).to_vec();
     moves.push(Move::SpinUp { duration: 1.0, rate: 0.8 * 5.0 });
@@ -25,7 +25,7 @@ fn moves(configuration: &Configuration) -> Result<Vec<Move>, Error> {
     Ok(moves)
 }
 
-/// What came of all of them.
+/// Runs all stops and returns their outcome.
 pub fn all() -> Result<Outcome, Error> {
     let mut outcome = Outcome::default();
     for configuration in &CONFIGURATIONS {

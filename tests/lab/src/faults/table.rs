@@ -3,7 +3,7 @@
 use super::Outcome;
 use crate::table::{aligned, grouped};
 
-/// A line a fault, in Markdown: what was injected, how often, what came out.
+/// Formats a line for each fault, in Markdown: the fault, its number, and the result.
 pub fn markdown(rows: &[(&str, Outcome)]) -> String {
     let header = [
         "injected",
@@ -45,7 +45,7 @@ pub fn markdown(rows: &[(&str, Outcome)]) -> String {
     aligned(&lines)
 }
 
-/// The refusals, in words.
+/// Lists the refusals, in words.
 pub fn refusals(rows: &[(&str, Outcome)]) -> String {
     let mut all = Outcome::default();
     for (_, outcome) in rows {

@@ -1,4 +1,4 @@
-//! What is promised of setpoints, whatever happens.
+//! Promises that every setpoint keeps, whatever happens.
 
 use std::f64::consts::TAU;
 
@@ -23,32 +23,32 @@ pub struct Watch {
     rate: f64,
     acceleration: f64,
     tick: f64,
-    /// Hub radians a turn of the shaft.
+    /// Hub angle for a turn of the shaft, rad.
     gear: f64,
     before: Option<Step>,
-    /// Setpoints judged.
+    /// Number of setpoints judged.
     pub setpoints: u64,
-    /// Greatest of each so far, as a share of what is allowed.
+    /// Greatest shares so far.
     pub worst: Excess,
-    /// What was broken first.
+    /// First promise that was broken.
     pub broken: Option<String>,
 }
 
-/// Shares of what is allowed.
+/// Shares of the allowed values.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Excess {
-    /// By how much the angle departs from what the rates say, of `¼Ah²`.
+    /// Departure of the angle from the rates, over `¼Ah²`.
     pub angle: f64,
-    /// Change of rate, of `Ah`.
+    /// Change of rate, over `Ah`.
     pub change: f64,
-    /// Rate, of `V`.
+    /// Rate, over `V`.
     pub rate: f64,
-    /// Acceleration, of `A`.
+    /// Acceleration, over `A`.
     pub acceleration: f64,
 }
 
 impl Excess {
-    /// The greater of each.
+    /// Returns the greater of each.
     pub fn max(self, other: Self) -> Self {
         Self {
             angle: self.angle.max(other.angle),
@@ -63,7 +63,7 @@ impl Excess {
 const ROUNDING: f64 = 1e-3;
 
 impl Watch {
-    /// For an axis with these limits, of which rate and acceleration must be there to be kept.
+    /// Creates a watch for an axis with these limits, of which rate and acceleration must be there.
     pub fn new(limits: &Limits, ratio: Ratio, tick: f64) -> Self {
         Self {
             rate: limits.rate.unwrap_or(f64::INFINITY),
@@ -77,7 +77,7 @@ impl Watch {
         }
     }
 
-    /// The next tick.
+    /// Judges the next tick.
     pub fn see(&mut self, step: &Step) {
         if step.tick.mode == Mode::Disabled {
             self.before = None;

@@ -6,11 +6,11 @@ use super::truth::{Apart, Truth, difference};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::reference::{ReferenceError, Sample, fem, rod};
 
-/// Writes, line by line, how far the two solvers are from a truth and from each other over
+/// Writes, line by line, the differences of the two solvers from a truth and from each other over
 /// polynomials, steps and elements, and the order from one line to the next.
 ///
 /// # Errors
-/// The truth cannot be read, or a solver gives up.
+/// An error is returned if the truth cannot be read or a solver gives up.
 pub fn of(name: &str, say: &dyn Fn(String)) -> Result<(), Error> {
     let truth = Truth::read(name)?;
     say(format!("# {name}"));
@@ -36,7 +36,7 @@ struct Study<'a> {
 }
 
 impl Study<'_> {
-    /// Both with their defaults.
+    /// Compares both solvers with their defaults to the truth.
     fn against_truth(&self) -> Result<(), ReferenceError> {
         let truth = self.truth;
         let times = truth.times();
@@ -49,7 +49,7 @@ impl Study<'_> {
         Ok(())
     }
 
-    /// The rod by polynomials, against 8 of them, which are returned.
+    /// Solves the rod by polynomials, compares with 8 of them, and returns the solution with 8.
     fn orders(&self) -> Result<Vec<Sample>, ReferenceError> {
         let truth = self.truth;
         let solve = |order| {

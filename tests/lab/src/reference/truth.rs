@@ -1,4 +1,4 @@
-//! The scenes of `tests/truth` and their solutions, by means that share nothing with the solvers.
+//! The scenes of `tests/truth` and their solutions, by methods that share nothing with the solvers.
 
 use std::path::Path;
 
@@ -23,11 +23,12 @@ pub struct Truth {
 pub struct Apart {
     /// Distance of the tips, whole run, as a fraction of L.
     pub tip: f64,
-    /// As a fraction of the greatest torque, away from the jumps of the commanded acceleration.
+    /// Difference of the torques, as a fraction of the greatest torque, away from the jumps of the
+    /// commanded acceleration.
     pub torque: f64,
 }
 
-/// The scenes there are.
+/// Names of the scenes.
 pub const NAMES: [&str; 6] =
     ["d-fast", "a-tip30", "b-tip30", "b-tip30-damped-hub", "s-gravity", "spin-up"];
 
@@ -35,7 +36,7 @@ impl Truth {
     /// Reads an embedded scene and its solution from `tests/truth`.
     ///
     /// # Errors
-    /// What is missing there or wrong.
+    /// An error is returned if a file is missing there or wrong.
     pub fn read(name: &str) -> Result<Self, Error> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../truth");
         let file = scenes::open(name)?;
@@ -44,7 +45,7 @@ impl Truth {
         Ok(Self { scene: file.arm, trajectory, samples })
     }
 
-    /// Times of the solution, s.
+    /// Returns the times of the solution, s.
     pub fn times(&self) -> Vec<f64> {
         self.samples.iter().map(|sample| sample.t).collect()
     }
@@ -55,7 +56,7 @@ impl Truth {
     }
 }
 
-/// Largest differences of two runs at the same times.
+/// Returns the largest differences of two runs at the same times.
 pub fn difference(
     scene: &Scene,
     trajectory: &Trajectory,

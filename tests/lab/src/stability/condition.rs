@@ -1,4 +1,4 @@
-//! What f32 leaves of the effective matrix `4/h² M + K` and of `K q`.
+//! Rounding errors of f32 in the effective matrix `4/h² M + K` and in `K q`.
 
 use nalgebra::{DMatrix, DVector};
 use stillbeam::Scene;
@@ -9,26 +9,26 @@ use stillbeam_sim::dispatch::{Visitor, with_model};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::solver::Mass;
 
-/// Of one number of elements at one tick.
+/// Rounding errors for one number of elements at one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
-    /// Elements.
+    /// Number of elements.
     pub elements: usize,
     /// ω₁h.
     pub turn: f64,
     /// Condition number of the matrix as it is assembled, in m and rad.
     pub assembled: f64,
-    /// The same after scaling each degree of freedom so that the diagonal is 1.
+    /// Condition number after scaling each degree of freedom so that the diagonal is 1.
     pub scaled: f64,
-    /// Error of the tip in a solution in f32, of itself: factors of the matrix as assembled, and
+    /// Relative error of the tip in a solution in f32: with factors of the matrix as assembled, and
     /// scaled.
     pub solved: [f64; 2],
-    /// Error of `ω₁²q₁` by way of `K q` in f32, of itself, `q` the first mode: as assembled, and by
+    /// Relative error of `ω₁²q₁` by way of `K q` in f32, `q` the first mode: as assembled, and by
     /// the elements' deformations.
     pub product: [f64; 2],
 }
 
-/// All numbers of elements at some ticks, the arm of [`probe::arm`].
+/// Computes the errors for all numbers of elements at some ticks, with the arm of [`probe::arm`].
 pub fn losses(turns: &[f64]) -> Result<Vec<Loss>, Error> {
     let omega = 1.0;
     let arm = probe::arm(omega)?;
@@ -93,8 +93,8 @@ fn condition(matrix: &DMatrix<f64>) -> f64 {
     values.max() / values.min()
 }
 
-/// Errors of `qᵀK q` in f32, `q` rounded, of itself: by the rows of `K`, and by each element's two
-/// end rotations against its chord.
+/// Returns the relative errors of `qᵀK q` in f32, `q` rounded: by the rows of `K`, and by each
+/// element's two end rotations against its chord.
 fn products(
     arm: &Scene,
     elements: usize,

@@ -11,36 +11,36 @@ use crate::stress::document::ranges;
 use crate::table::aligned;
 use stillbeam_sim::error::Error;
 
-/// `ω₁h` of the table of conditions.
+/// Values of `ω₁h` in the table of conditions.
 const TURNS: [f64; 4] = [1e-3, 1e-1, 1.0, 10.0];
 
-/// What the blocks are written from.
+/// Results from which the blocks are written.
 pub struct Findings {
-    /// As [`super::map::all`] has them: six over tick and frequency, six over rates, one of the
-    /// trapezoidal rule.
+    /// Maps as [`super::map::all`] returns them: six over tick and frequency, six over rates, one
+    /// of the trapezoidal rule.
     pub maps: Vec<Map>,
-    /// What rounding leaves.
+    /// Rounding errors.
     pub losses: Vec<Loss>,
 }
 
 impl Findings {
-    /// Seconds of work on all cores.
+    /// Computes the findings, which takes seconds on all cores.
     pub fn compute(done: &(dyn Fn() + Sync)) -> Result<Self, Error> {
         let losses = condition::losses(&TURNS)?;
         Ok(Self { maps: super::map::all(done)?, losses })
     }
 
-    /// Over tick and frequency.
+    /// Returns the maps over tick and frequency.
     pub fn moving(&self) -> &[Map] {
         &self.maps[..self.maps.len() / 2]
     }
 
-    /// Over rates.
+    /// Returns the maps over rates.
     pub fn spinning(&self) -> &[Map] {
         &self.maps[self.maps.len() / 2..]
     }
 
-    /// The blocks, by name.
+    /// Returns the blocks, by name.
     pub fn blocks(&self) -> Vec<Block> {
         [
             ("ranges", ranges()),
@@ -104,7 +104,7 @@ impl Findings {
     }
 }
 
-/// With the counts of every verdict behind.
+/// Returns a table's header, with the counts of every verdict behind.
 fn header<const N: usize>(names: [&str; N]) -> Vec<String> {
     let verdicts = Verdict::ALL.map(Verdict::name);
     names.into_iter().chain(verdicts).map(str::to_owned).collect()

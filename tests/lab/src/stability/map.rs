@@ -11,15 +11,15 @@ use stillbeam_sim::solver::{Method, Quality, Scalar, Solver};
 /// Verdicts over a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// What is judged.
+    /// Title: what is judged.
     pub title: String,
-    /// A word for files.
+    /// Name in file names.
     pub name: &'static str,
-    /// `(x, y)` and the verdict there.
+    /// Cells: `(x, y)` and the verdict there.
     pub cells: Vec<(f64, f64, Verdict)>,
 }
 
-/// What is mapped: a word for files and the solver, its tick left open.
+/// Returns the mapped solvers, each with its name in file names. Their tick is left open.
 pub fn solvers() -> [(&'static str, Solver); 6] {
     let newmark = Solver { method: Method::Newmark, scalar: Scalar::F32, ..Solver::PAPER };
     let modal = Solver { method: Method::Modal, elements: 8, ..newmark };
@@ -37,7 +37,7 @@ pub fn solvers() -> [(&'static str, Solver); 6] {
 /// Steps of [`all`], for a progress bar.
 pub const STEPS: usize = 2 * 6 + 1;
 
-/// Ticks of the first kind of map, s, and first frequencies, Hz.
+/// Returns the ticks of the first kind of map, s, and, below, its first frequencies, Hz.
 fn ticks() -> Vec<f64> {
     (0..=16).map(|k| 10f64.powf(-4.0 + f64::from(k) / 4.0)).collect()
 }
@@ -46,7 +46,7 @@ fn frequencies() -> Vec<f64> {
     (0..=16).map(|k| 10f64.powf(-1.0 + f64::from(k) / 4.0)).collect()
 }
 
-/// `ω₁h` of the second kind, and rates in ω₁.
+/// Returns `ω₁h` of the second kind of map, and, below, its rates in ω₁.
 fn turns() -> Vec<f64> {
     (0..=24).map(|k| 10f64.powf(-2.0 + f64::from(k) / 8.0)).collect()
 }
@@ -55,7 +55,8 @@ fn rates() -> Vec<f64> {
     (0..=20).map(|k| 0.25 * f64::from(k)).collect()
 }
 
-/// Every map: over tick and frequency, over `ω₁h` and rate, and that of the trapezoidal rule.
+/// Computes every map: over tick and frequency, over `ω₁h` and rate, and that of the trapezoidal
+/// rule.
 pub fn all(done: &(dyn Fn() + Sync)) -> Result<Vec<Map>, Error> {
     let mut maps = Vec::new();
     for (name, solver) in solvers() {
@@ -87,7 +88,7 @@ fn describe(solver: &Solver) -> String {
     text.replace(&tick, "")
 }
 
-/// A method over frequency and tick.
+/// Maps a method over frequency and tick.
 pub fn moving(name: &'static str, solver: &Solver) -> Result<Map, Error> {
     let cells = plane(&frequencies(), &ticks(), |hertz, tick| {
         probe::judge(&Solver { tick, ..*solver }, std::f64::consts::TAU * hertz, Task::Move)
@@ -95,7 +96,7 @@ pub fn moving(name: &'static str, solver: &Solver) -> Result<Map, Error> {
     Ok(Map { title: describe(solver), name, cells })
 }
 
-/// A method over `ω₁h` and the rate that is held, in ω₁, at a tick of 10 ms.
+/// Maps a method over `ω₁h` and the rate that is held, in ω₁, at a tick of 10 ms.
 pub fn spinning(name: &'static str, solver: &Solver) -> Result<Map, Error> {
     let cells = plane(&turns(), &rates(), |turn, rate| {
         probe::judge(solver, turn / solver.tick, Task::Spin(rate))
@@ -103,8 +104,9 @@ pub fn spinning(name: &'static str, solver: &Solver) -> Result<Map, Error> {
     Ok(Map { title: describe(solver), name, cells })
 }
 
-/// The same of the trapezoidal rule (Newmark's, δ = ½, β = ¼) on corotational elements, with
-/// equilibrium iterations: by the reference solver, four elements, its own step as the tick.
+/// Maps the trapezoidal rule (Newmark's, δ = ½, β = ¼) on corotational elements, with equilibrium
+/// iterations, over the same plane. It is the reference solver's, with four elements and its own
+/// step as the tick.
 pub fn trapezoidal() -> Result<Map, Error> {
     let tick = 0.01;
     let cells = plane(&turns(), &rates(), |turn, rate| {
@@ -132,7 +134,7 @@ pub fn trapezoidal() -> Result<Map, Error> {
 }
 
 impl Map {
-    /// How many cells have that verdict.
+    /// Returns the number of cells with that verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
         self.cells.iter().filter(|cell| cell.2 == verdict).count()
     }
@@ -146,7 +148,7 @@ impl Map {
         below.filter(|&value| value < least * (1.0 - 1e-9)).fold(0.0, f64::max)
     }
 
-    /// The map, one mark a cell.
+    /// Draws the map, one mark a cell.
     pub fn chart(&self, x: Axis, y: Axis) -> Chart {
         let look = |verdict| match verdict {
             Verdict::Accurate => (Colour::Green, Marker::Disc),

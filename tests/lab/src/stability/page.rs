@@ -16,7 +16,8 @@ use stillbeam_sim::report::parts::{figure, page};
 /// Name of the table beside the page.
 const DATA: &str = "maps.csv";
 
-/// Writes `index.html`, `maps.csv` and a picture a map into a folder. Returns the page's path.
+/// Writes `index.html`, `maps.csv` and a picture for each map into a folder. Returns the page's
+/// path.
 pub fn write(folder: &Path, findings: &Findings) -> Result<PathBuf, Error> {
     let index = folder.join("index.html");
     let moving: Vec<Chart> = findings.moving().iter().map(moving_chart).collect();
@@ -58,7 +59,7 @@ pub fn write(folder: &Path, findings: &Findings) -> Result<PathBuf, Error> {
     Ok(index)
 }
 
-/// The picture of `docs/stability.md`: elastica with two modes, fast, over rates.
+/// Draws the picture of `docs/stability.md`: elastica with two modes, fast, over rates.
 pub fn picture(findings: &Findings) -> Result<String, Error> {
     let elastica = findings.spinning().iter().find(|map| map.name == "elastica-2-fast");
     let elastica = elastica.ok_or_else(|| Error::new("maps: must hold elastica-2-fast"))?;
@@ -70,13 +71,13 @@ fn moving_chart(map: &Map) -> Chart {
     map.chart(x, Axis::log("tick, s").limits(7e-5, 1.4))
 }
 
-/// Over rates.
+/// Draws a map over rates.
 fn spinning_chart(map: &Map) -> Chart {
     let x = Axis::log("\u{3c9}\u{2081}h, rad").limits(0.008, 12.5);
     map.chart(x, Axis::linear("rate that is held, \u{3c9}\u{2081}").limits(-0.2, 5.2))
 }
 
-/// Spectral radius and period error of Newmark's rule.
+/// Draws the spectral radius and the period error of Newmark's rule.
 fn rule_charts() -> Vec<Chart> {
     let turns: Vec<f64> = (0..=300).map(|k| 10f64.powf(-1.0 + f64::from(k) / 100.0)).collect();
     let label = |k: usize| {
@@ -98,13 +99,13 @@ fn rule_charts() -> Vec<Chart> {
     vec![radius, period]
 }
 
-/// Over ω₁h, for a curve.
+/// Computes the rounding errors at many values of ω₁h, for a curve.
 fn fine_losses() -> Result<Vec<Loss>, Error> {
     let turns: Vec<f64> = (0..=24).map(|k| 10f64.powf(-4.0 + f64::from(k) / 4.0)).collect();
     condition::losses(&turns)
 }
 
-/// What a solution in f32 is off by, over ω₁h.
+/// Draws the error of a solution in f32 over ω₁h.
 fn solution_chart(losses: &[Loss]) -> Chart {
     let of = |elements: usize, scaled: usize| {
         let of = losses.iter().filter(move |loss| loss.elements == elements);
@@ -122,7 +123,7 @@ fn solution_chart(losses: &[Loss]) -> Chart {
     .with(Series::line("8, scaled", of(8, 1)).dash(Dash::Dashed))
 }
 
-/// What `K q` in f32 is off by, over the number of elements.
+/// Draws the error of `K q` in f32 over the number of elements.
 fn product_chart(losses: &[Loss]) -> Chart {
     let of = |way: usize| {
         let least = losses.iter().map(|loss| loss.turn).fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-//! One run of a method, judged.
+//! Runs a method once and judges it.
 
 use stillbeam::model::Modes;
 use stillbeam::stepper::Stepper;
@@ -12,21 +12,21 @@ use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
-/// What became of it, from good to bad.
+/// Verdict on a run, from good to bad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// Deflections true to 1 % of their peak.
+    /// Deflections are true to 1 % of their peak.
     Accurate,
-    /// Not, but they do not grow.
+    /// Deflections are not accurate, but they do not grow.
     Inaccurate,
-    /// They grow after the move, or are no numbers.
+    /// Deflections grow after the move, or are not numbers.
     Unstable,
-    /// Not accepted.
+    /// The run is not accepted.
     Refused,
 }
 
 impl Verdict {
-    /// As it stands in a table.
+    /// Returns the name in a table.
     pub fn name(self) -> &'static str {
         match self {
             Self::Accurate => "accurate to 1 %",
@@ -36,11 +36,11 @@ impl Verdict {
         }
     }
 
-    /// All, in order.
+    /// All verdicts, in order.
     pub const ALL: [Self; 4] = [Self::Accurate, Self::Inaccurate, Self::Unstable, Self::Refused];
 }
 
-/// What the hub does.
+/// Motion of the hub.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Task {
     /// A quintic of three first periods, 20 ticks at least, that bends the arm by 0.1 rad; then
@@ -50,8 +50,8 @@ pub enum Task {
     Spin(f64),
 }
 
-/// Ticks at the end of a run in which nothing may grow: six first periods, at least 1,500 and at
-/// most 20,000.
+/// Returns the ticks at the end of a run in which nothing may grow: six first periods, at least
+/// 1,500 and at most 20,000.
 fn held(turn: f64) -> f64 {
     (6.0 * std::f64::consts::TAU / turn).ceil().clamp(1500.0, 20_000.0)
 }
@@ -62,8 +62,8 @@ const LENGTH: f64 = 0.5;
 /// Ticks after the move that are compared.
 const COMPARED: f64 = 60.0;
 
-/// An undamped level arm with its mass at the tip as heavy as the link and a hub of a tenth of L,
-/// of that first frequency in rad/s.
+/// Returns an undamped level arm with a mass at the tip as heavy as the link, a hub of a tenth of
+/// L, and that first frequency in rad/s.
 pub fn arm(omega: f64) -> Result<Scene, Error> {
     let unit = Scene {
         hub: Hub { radius: 0.1 * LENGTH, inertia: 0.0 },
@@ -75,7 +75,7 @@ pub fn arm(omega: f64) -> Result<Scene, Error> {
     Ok(Scene { link: Link { bending_stiffness: share * share, ..unit.link }, ..unit })
 }
 
-/// The scene of a task, ending `after` ticks after its move.
+/// Returns the scene of a task, which ends `after` ticks after its move.
 pub fn scene(arm: &Scene, omega: f64, tick: f64, task: Task, after: f64) -> SceneFile {
     let period = std::f64::consts::TAU / omega;
     let whole = |periods: f64| (periods * period / tick).ceil().max(20.0) * tick;
@@ -115,8 +115,8 @@ pub fn judge(solver: &Solver, omega: f64, task: Task) -> Result<Verdict, Error> 
     Ok(verdict(&found, &truth(&arm, solver, omega, task)?, held))
 }
 
-/// Deflections at the ticks as the same kinematics have them: three modes in f64 at ticks of a
-/// twentieth of a radian of the first, or a 64th of what is judged.
+/// Returns the deflections at the ticks by the same kinematics: three modes in f64 at ticks of a
+/// twentieth of a radian of the first, or a 64th of the judged tick.
 pub fn truth(arm: &Scene, solver: &Solver, omega: f64, task: Task) -> Result<Vec<f64>, Error> {
     let finer = (omega * solver.tick / 0.05).ceil().clamp(1.0, 64.0);
     let method = if solver.method == Method::Elastica { Method::Elastica } else { Method::Modal };
@@ -134,7 +134,7 @@ pub fn truth(arm: &Scene, solver: &Solver, omega: f64, task: Task) -> Result<Vec
         .map_or(Vec::new(), |fine| fine.into_iter().step_by(finer as usize).collect()))
 }
 
-/// Judges deflections by true ones, which may end sooner; those of the last `held` ticks must not
+/// Judges deflections by true ones, which may end sooner. Those of the last `held` ticks must not
 /// grow.
 pub fn verdict(found: &[f64], truth: &[f64], held: usize) -> Verdict {
     if found.iter().any(|w| !w.is_finite()) || grows(found, held, LENGTH) {
@@ -146,7 +146,7 @@ pub fn verdict(found: &[f64], truth: &[f64], held: usize) -> Verdict {
     if apart <= 0.01 * peak && !truth.is_empty() { Verdict::Accurate } else { Verdict::Inaccurate }
 }
 
-/// Deflection at every tick, m.
+/// Returns the deflection at every tick, m.
 pub fn deflections(scene: &SceneFile, solver: &Solver) -> Result<Vec<f64>, Error> {
     struct Deflections<'a>(&'a SceneFile);
     impl StepperVisitor for Deflections<'_> {

@@ -6,15 +6,15 @@
 /// A rule of the family.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rule {
-    /// What it is called.
+    /// Name of the rule.
     pub name: &'static str,
-    /// δ: ½ neither feeds nor damps, more damps.
+    /// δ. The value ½ neither feeds nor damps, a greater one damps.
     pub delta: f64,
     /// β.
     pub beta: f64,
 }
 
-/// The core's first, then others of the literature.
+/// Rules: the core's first, then others of the literature.
 pub const RULES: [Rule; 5] = [
     Rule { name: "constant average acceleration", delta: 0.5, beta: 0.25 },
     Rule { name: "linear acceleration", delta: 0.5, beta: 1.0 / 6.0 },
@@ -24,7 +24,7 @@ pub const RULES: [Rule; 5] = [
 ];
 
 impl Rule {
-    /// What a step makes of `(ωq, q̇)`, by `ωh`.
+    /// Returns the matrix by which a step multiplies `(ωq, q̇)`, for a given `ωh`.
     pub fn step(&self, turn: f64) -> [[f64; 2]; 2] {
         let Self { delta, beta, .. } = *self;
         let square = turn * turn;
@@ -38,7 +38,8 @@ impl Rule {
         ]
     }
 
-    /// Largest magnitude of an eigenvalue of [`Self::step`]; stable up to 1.
+    /// Returns the largest magnitude of an eigenvalue of [`Self::step`]. The rule is stable up to
+    /// 1.
     pub fn radius(&self, turn: f64) -> f64 {
         let [[a, b], [c, d]] = self.step(turn);
         let (half, determinant) = (0.5 * (a + d), a * d - b * c);
@@ -46,7 +47,8 @@ impl Rule {
         if root < 0.0 { determinant.sqrt() } else { half.abs() + root.sqrt() }
     }
 
-    /// By what share of it the period comes out too long; infinite where nothing swings.
+    /// Returns the relative error of the period, positive if it is too long. Infinite if nothing
+    /// swings.
     pub fn period_error(&self, turn: f64) -> f64 {
         let [[a, b], [c, d]] = self.step(turn);
         let (half, determinant) = (0.5 * (a + d), a * d - b * c);
@@ -54,12 +56,12 @@ impl Rule {
         if root <= 0.0 { f64::INFINITY } else { turn / root.sqrt().atan2(half) - 1.0 }
     }
 
-    /// Greatest `ωh` up to which the rule is stable; infinite for `2β ≥ δ ≥ ½`.
+    /// Returns the greatest `ωh` up to which the rule is stable; infinite for `2β ≥ δ ≥ ½`.
     pub fn stable_up_to(&self) -> f64 {
         self.up_to(|turn| self.radius(turn) <= 1.0 + 1e-9)
     }
 
-    /// Greatest `ωh` up to which period and decay a period are true to 1 %.
+    /// Returns the greatest `ωh` up to which period and decay a period are true to 1 %.
     pub fn accurate_up_to(&self) -> f64 {
         self.up_to(|turn| {
             let decay = self.radius(turn).powf(std::f64::consts::TAU / turn) - 1.0;

@@ -16,11 +16,11 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::judge::Motion;
 use stillbeam_sim::reference::rod;
 
-/// How often each refusal was given, by its kind.
+/// Number of refusals by their kind.
 pub type Refusals = BTreeMap<&'static str, usize>;
 
-/// A random arm: first period 0.1 to 2 s, payload to four link masses, hub radius to 0.3 L, half of
-/// them damped, a third under gravity that bends them by at most 5 % of L.
+/// Draws a random arm: first period 0.1 to 2 s, payload to four link masses, hub radius to 0.3 L.
+/// Half of the arms are damped, a third are under gravity that bends them by at most 5 % of L.
 fn arm(rng: &mut StdRng) -> Scene {
     let (length, mass, period) =
         (rng.random_range(0.1..2.0), rng.random_range(0.005..2.0), rng.random_range(0.1..2.0));
@@ -46,7 +46,7 @@ fn arm(rng: &mut StdRng) -> Scene {
     }
 }
 
-/// A setpoint every 10 ms, or a twentieth of a first period where that is less.
+/// Returns the setpoint interval: 10 ms, or a twentieth of a first period if that is less.
 fn tick(arm: &Scene) -> Result<f64, Error> {
     Ok(f64::min(0.01, rod::first_period(arm)? / 20.0))
 }
@@ -66,14 +66,15 @@ fn kind(error: &CoreError) -> &'static str {
 pub struct Rest {
     /// Duration in first periods.
     pub ratio: f64,
-    /// Residual of the still move, and of the linear one, by the judge; of L. None if refused.
+    /// Residuals of the still move and of the linear one, by the judge, over L. An error if
+    /// refused.
     pub residual: Result<(f64, f64), &'static str>,
-    /// True if the reference rod was the judge, else three modes in f64 at half the step.
+    /// True if the reference rod was the judge. Otherwise three modes in f64 at half the step were.
     pub by_rod: bool,
 }
 
-/// Random moves from rest to rest, 0.9 to 4 first periods; every `rod_each`-th judged by the
-/// reference rod.
+/// Plans random moves from rest to rest, 0.9 to 4 first periods. The reference rod judges every
+/// `rod_each`-th.
 pub fn rests(
     seed: u64,
     count: usize,
@@ -119,24 +120,24 @@ pub fn rests(
 /// One interrupted move.
 #[derive(Clone, Copy, Debug)]
 pub struct Interruption {
-    /// What came of it, or why it was refused.
+    /// Outcome of the interruption, or the reason of its refusal.
     pub outcome: Result<Outcome, &'static str>,
 }
 
-/// What came of an interruption.
+/// Outcome of an interruption.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome {
     /// Largest of rate and acceleration at any tick over its limit, less 1.
     pub excess: f64,
-    /// Residual that the planner stated, of L.
+    /// Residual that the planner stated, over L.
     pub stated: f64,
-    /// Residual by a finer flight in f64 from the same state, of L.
+    /// Residual by a finer simulation in f64 from the same state, over L.
     pub residual: f64,
     /// True if the hub stops on its way.
     pub by_way_of_rest: bool,
 }
 
-/// Random interruptions of random moves: a new target, a stop, another payload.
+/// Draws random interruptions of random moves: a new target, a stop, another payload.
 pub fn interruptions(
     seed: u64,
     arms: usize,
@@ -152,7 +153,7 @@ pub fn interruptions(
     Ok(all.into_iter().collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect())
 }
 
-/// An arm, as it is and with another payload.
+/// An arm, with its own payload and with another.
 struct Case {
     arm: Scene,
     tick: f64,

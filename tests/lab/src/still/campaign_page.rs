@@ -4,16 +4,16 @@ use super::campaign::{Interruption, Outcome, Refusals, Rest};
 use crate::markers::Block;
 use crate::table::quantile;
 
-/// Of the rest-to-rest moves, one in so many is judged by the reference rod.
+/// Interval at which the reference rod judges the rest-to-rest moves.
 pub const ROD_EACH: usize = 2;
 
-/// Interruptions of one arm.
+/// Number of interruptions of one arm.
 pub const EACH: usize = 100;
 
 /// Names of the blocks.
 pub const NAMES: [&str; 2] = ["campaign-rests", "campaign-interruptions"];
 
-/// What came of random moves and of interruptions, drawn with that seed.
+/// Writes the results of random moves and of interruptions, drawn with that seed.
 pub fn blocks(seed: u64, rests: &[Rest], interruptions: &[Interruption]) -> [Block; 2] {
     let [of_moves, of_others] = NAMES;
     [
@@ -22,7 +22,7 @@ pub fn blocks(seed: u64, rests: &[Rest], interruptions: &[Interruption]) -> [Blo
     ]
 }
 
-/// A quantile in a table; not a number where there is none.
+/// Returns a quantile for a table; not a number if there is none.
 fn figure(sorted: &[f64], share: f64) -> f64 {
     quantile(sorted, share).unwrap_or(f64::NAN)
 }

@@ -1,4 +1,4 @@
-//! `docs/still.md`: its tables and its picture, by a command.
+//! Writes the tables and the picture of `docs/still.md`.
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ const TICK: f64 = 0.01;
 /// Durations of the residual table, first periods.
 const RATIOS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
 
-/// Durations of the contest, first periods.
+/// Durations of the comparison of motions, first periods.
 const CONTEST: [f64; 3] = [1.5, 2.0, 3.0];
 
 /// Bands of the table of robust moves.
@@ -36,7 +36,7 @@ pub const STEPS: usize = 112;
 /// Steps of [`pictures`].
 pub const PICTURE_STEPS: usize = 28;
 
-/// Everything between markers, by name.
+/// Returns all blocks between markers, by name.
 pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<Block>, Error> {
     let mut blocks = vec![Block::new("residual", residuals(done)?)];
     let arm = arm("a-tip30")?;
@@ -105,7 +105,7 @@ fn contest_table(entries: &[Entry], duration: f64) -> String {
     aligned(&std::iter::once(header).chain(rows).collect::<Vec<_>>())
 }
 
-/// A move from 0 to π rad in `duration` s, whatever the arm deflects by.
+/// Returns a move from 0 to π rad in `duration` s, for any deflection of the arm.
 fn half_turn(duration: f64) -> Request<f32, 2> {
     Request::from_rest(0.0, PI).duration(duration).any_deflection()
 }

@@ -1,4 +1,4 @@
-//! How long motions take under the same limits.
+//! Durations of motions under the same limits.
 
 use rsruckig::prelude::*;
 use stillbeam::planner::{Planner, Request};
@@ -11,15 +11,16 @@ use stillbeam_sim::error::Error;
 pub struct Durations {
     /// The limits.
     pub limits: Limits,
-    /// The profile whose peaks they are.
+    /// Duration of the profile whose peaks are the limits.
     pub profile: f64,
-    /// The time-optimal motion of a rigid arm; none without a limit of jerk.
+    /// Duration of the time-optimal motion of a rigid arm; `None` without a limit of jerk.
     pub rigid: Option<f64>,
-    /// The still move.
+    /// Duration of the still move.
     pub still: f64,
 }
 
-/// The limits are what `profile` needs to turn by `to` rad in `duration` s.
+/// Computes the durations under the limits that `profile` needs to turn by `to` rad in `duration`
+/// s.
 pub fn durations(
     arm: &Scene,
     profile: Profile,
@@ -47,7 +48,7 @@ pub fn durations(
     Ok(Durations { limits, profile: duration, rigid, still: still.duration() })
 }
 
-/// The shortest rest-to-rest motion of one rigid axis, by Ruckig.
+/// Returns the duration of the shortest rest-to-rest motion of one rigid axis, by Ruckig.
 fn time_optimal(to: f64, rate: f64, acceleration: f64, jerk: f64) -> Result<f64, Error> {
     let mut ruckig = Ruckig::<1, ThrowErrorHandler>::new(None, 0.01);
     let mut input = InputParameter::<1>::new(None);

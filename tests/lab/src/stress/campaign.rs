@@ -1,4 +1,4 @@
-//! Scenes by the million, on all cores, the same whatever their number.
+//! Runs scenes by the million on all cores. The results do not depend on the number of cores.
 
 use std::ops::Range;
 use std::path::Path;
@@ -11,8 +11,8 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::output;
 use stillbeam_sim::solver::Solver;
 
-/// Runs `scenes` scenes of a seed. With a `part`, what is done stands in that file after every
-/// ten thousand, and a campaign that finds it goes on from there.
+/// Runs `scenes` scenes of a seed. With a `part`, the progress is saved in that file after every
+/// ten thousand scenes. A campaign that finds the file goes on from there.
 pub fn run(
     seed: u64,
     scenes: u64,

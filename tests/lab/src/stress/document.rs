@@ -16,14 +16,14 @@ fn words<const N: usize>(line: [&str; N]) -> Vec<String> {
     line.map(str::to_owned).to_vec()
 }
 
-/// What is drawn.
+/// Lists the ranges that are drawn.
 pub fn ranges() -> String {
     let mut lines = vec![words(["quantity", "drawn from"])];
     lines.extend(RANGES.map(|(quantity, range)| words([quantity, range])));
     aligned(&lines)
 }
 
-/// What came of the scenes, method by method.
+/// Lists the results of the scenes, method by method.
 pub fn scenes(summary: &Summary) -> String {
     let header = ["method", "ran", "swings up", "refused", "panics", "not finite", "off target"];
     let mut lines = vec![words(header)];
@@ -58,7 +58,7 @@ pub fn scenes(summary: &Summary) -> String {
     text
 }
 
-/// Refusals by reason, numbers left out.
+/// Lists the refusals by reason, numbers left out.
 pub fn reasons(summary: &Summary) -> String {
     let mut reasons: Vec<(&String, &u64)> = summary.reasons.iter().collect();
     reasons.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
@@ -67,7 +67,7 @@ pub fn reasons(summary: &Summary) -> String {
     aligned(&lines)
 }
 
-/// f32 against f64 by decade of condition, and the bound.
+/// Compares f32 with f64 by decade of condition, and with the bound.
 pub fn precision(summary: &Summary) -> String {
     let decades: Vec<String> = (0..8).map(|decade| format!("10^{decade}")).collect();
     let mut header = words(["method"]);
@@ -94,10 +94,10 @@ pub fn precision(summary: &Summary) -> String {
     aligned(&lines)
 }
 
-/// Edges of the ranges of `ω₁h` that the energy is told for.
+/// Edges of the ranges of `ω₁h` for which the energy is given.
 const EDGES: [f64; 4] = [0.0, 0.1, 0.5, f64::INFINITY];
 
-/// Growth and loss of the energy by method and range of `ω₁h`.
+/// Lists growth and loss of the energy by method and range of `ω₁h`.
 pub fn energy(rings: &[Ring]) -> String {
     let mut by_method: BTreeMap<&str, Vec<&Ring>> = BTreeMap::new();
     for ring in rings {
@@ -134,18 +134,18 @@ pub fn energy(rings: &[Ring]) -> String {
     aligned(&lines)
 }
 
-/// Growth of the energy that is wanted at most.
+/// Largest growth of the energy that is wanted.
 const GROWTH: f64 = 1e-3;
 
 /// First modes that ring on, rad a tick.
 const TURNS: [f64; 5] = [1e-3, 1e-2, 0.1, 1.0, 3.0];
 
-/// Ticks of [`long()`] in all.
+/// Returns the ticks of [`long()`] in all.
 pub fn long_ticks(ticks: u64) -> u64 {
     (3 + TURNS.len() as u64 + 1) * ticks
 }
 
-/// Long runs of so many ticks each.
+/// Makes long runs of `ticks` ticks each and lists their results.
 pub fn long(ticks: u64, done: &dyn Fn(u64)) -> Result<String, Error> {
     let mut lines =
         vec![words(["repeated moves", "ticks", "stops", "off the last bit", "drift, of the peak"])];

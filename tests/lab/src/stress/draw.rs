@@ -1,4 +1,4 @@
-//! Random scenes, each from its own number.
+//! Draws random scenes, each from its own number.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Mass, Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
-/// What is drawn, for a page: quantity and range.
+/// Drawn quantities and their ranges, for a page.
 pub const RANGES: [(&str, &str); 10] = [
     ("link", "length 0.03 to 10 m, mass 1 g to 100 kg"),
     ("bending stiffness", "10⁻⁶ to 10⁶ N m², or such that ω₁h is 10⁻³·⁵ to 10²"),
@@ -24,7 +24,7 @@ pub const RANGES: [(&str, &str); 10] = [
     ("after the move", "as long as the move, at most 200 ticks"),
 ];
 
-/// A scene and what runs on it.
+/// A scene and its solvers.
 #[derive(Clone, Debug)]
 pub struct Drawn {
     /// The scene; its `[solver]` table is empty.
@@ -35,7 +35,7 @@ pub struct Drawn {
     pub omega: f64,
 }
 
-/// The scene of that number under that seed.
+/// Draws the scene of that number under that seed.
 pub fn draw(seed: u64, index: u64) -> Drawn {
     let mut rng = StdRng::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index);
     let rng = &mut rng;
@@ -82,7 +82,7 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
 }
 
 impl Drawn {
-    /// What the tip would sag by with the arm level, of L.
+    /// Returns the sag of the tip with the arm level, over L.
     pub fn sag(&self) -> f64 {
         self.scene.arm.gravity / (self.omega * self.omega * self.scene.arm.link.length)
     }
@@ -96,7 +96,7 @@ fn sign(rng: &mut StdRng) -> f64 {
     if rng.random_bool(0.5) { 1.0 } else { -1.0 }
 }
 
-/// Of critical damping of the first mode, by α, by β or by both.
+/// Draws a fraction of critical damping of the first mode, by α, by β or by both.
 fn damping(rng: &mut StdRng, omega: f64) -> Damping {
     let ratio = if rng.random_bool(0.4) { 0.0 } else { decades(rng, -4.0, 1.0) };
     let share = match rng.random_range(0..3) {
@@ -107,7 +107,8 @@ fn damping(rng: &mut StdRng, omega: f64) -> Damping {
     Damping { alpha: 2.0 * ratio * omega * share, beta: 2.0 * ratio / omega * (1.0 - share) }
 }
 
-/// Half of the arms that feel gravity carry it; `softness` is what the tip sags at 1 m/s², of L.
+/// Draws gravity; half of the arms that feel it carry it. `softness` is the tip's sag at 1 m/s²,
+/// over L.
 fn gravity(rng: &mut StdRng, softness: f64) -> f64 {
     if rng.random_bool(0.4) {
         return 0.0;
@@ -116,8 +117,8 @@ fn gravity(rng: &mut StdRng, softness: f64) -> f64 {
     if rng.random_bool(0.5) { gravity.min(0.3 / softness) } else { gravity }
 }
 
-/// A move, a move and back, or a spin-up that goes on turning; each with a rest. `bends` is about
-/// the acceleration that bends the arm by a radian.
+/// Draws a move, a move and back, or a spin-up that goes on turning, each with a rest. `bends` is
+/// about the acceleration that bends the arm by a radian.
 fn moves(rng: &mut StdRng, omega: f64, tick: f64, bends: f64) -> (f64, Vec<Step>) {
     let few = rng.random_bool(0.95);
     let ticks: f64 =
@@ -158,8 +159,8 @@ fn moves(rng: &mut StdRng, omega: f64, tick: f64, bends: f64) -> (f64, Vec<Step>
     (from, vec![there])
 }
 
-/// One solver of each family; `auto` for one scene in four hundred: it runs the ladder beside the
-/// exact rod.
+/// Returns one solver of each family. `auto` is among them for one scene in four hundred, because
+/// it runs the ladder beside the exact rod.
 fn solvers(rng: &mut StdRng, tick: f64) -> Vec<Solver> {
     let base = Solver { tick, scalar: Scalar::F64, ..Solver::PAPER };
     let pick = |rng: &mut StdRng, n: usize| rng.random_range(0..n);
@@ -180,7 +181,7 @@ fn solvers(rng: &mut StdRng, tick: f64) -> Vec<Solver> {
     all
 }
 
-/// A solver without its tick and precision, e.g. `newmark, 4 consistent elements`.
+/// Returns a solver without its tick and precision, e.g. `newmark, 4 consistent elements`.
 pub fn method_name(solver: &Solver) -> String {
     match solver.method {
         Method::Rigid => "rigid".into(),

@@ -1,4 +1,4 @@
-//! Undamped arms that ring on after a move: what a method adds to their energy or takes from it.
+//! Undamped arms that ring on after a move: the energy that a method adds to them or takes away.
 
 use rayon::prelude::*;
 use stillbeam::hub::HubState;
@@ -10,13 +10,13 @@ use super::draw::draw;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::step::Step;
 
-/// How long a campaign's arms ring on.
+/// Ticks for which a campaign's arms ring on.
 pub const TICKS: u64 = 1_000_000;
 
-/// Between two looks at the energy: no multiple of a period.
+/// Ticks between two samples of the energy, not a multiple of a period.
 const STRIDE: u64 = 17;
 
-/// Looks that are averaged: the energy as the exact kinematics count it swings by what the
+/// Samples of the energy that are averaged. The energy by the exact kinematics swings by what the
 /// expansion leaves out.
 const LOOKS: u64 = 500;
 
@@ -29,14 +29,14 @@ pub struct Ring {
     pub method: String,
     /// ω₁h.
     pub turn: f64,
-    /// Largest mean energy, of that in the beginning, less 1.
+    /// Relative growth: largest mean energy over that in the beginning, less 1.
     pub growth: f64,
-    /// 1 less the last mean energy, of that in the beginning.
+    /// Relative loss: 1 less the last mean energy over that in the beginning.
     pub loss: f64,
 }
 
-/// Undamped level arms of scenes of a seed, from scene `first` on, each method that takes them in
-/// both precisions, for so many ticks.
+/// Lets undamped level arms of scenes of a seed, from scene `first` on, ring on for some ticks.
+/// Each method that takes them runs in both precisions.
 pub fn rings(
     seed: u64,
     first: u64,
@@ -67,8 +67,8 @@ struct Arm {
     bend: f64,
 }
 
-/// The scene without damping and gravity, if a tick resolves its first mode and its move bends it
-/// by a hundredth to half a radian.
+/// Returns the scene without damping and gravity, if a tick resolves its first mode and its move
+/// bends it by a hundredth to half a radian.
 fn suitable(seed: u64, index: u64) -> Option<Arm> {
     let drawn = draw(seed, index);
     let tick = drawn.solvers.first()?.tick;
@@ -148,7 +148,7 @@ fn elastica<T: Real, const K: usize>(
     })
 }
 
-/// Growth and loss of the energy over the ticks after the move; the arm is not let sleep.
+/// Returns growth and loss of the energy over the ticks after the move. The arm is kept from sleep.
 fn ring_on<S: Stepper>(
     stepper: S,
     arm: &Arm,

@@ -1,11 +1,10 @@
-//! Whether an arm that is left alone swings up.
+//! Test for an arm that swings up when it is left alone.
 
-/// Fraction of L: ten times what an arm may swing by when it is let sleep.
+/// Least swing that is judged, fraction of L: ten times the swing at which an arm is let sleep.
 pub const TOLD: f64 = 10.0 * stillbeam::stepper::SLEEP;
 
-/// True if the swing of the last part of the hold, so many ticks at the end, exceeds that of its
-/// first by a half. Swings below [`TOLD`] of the link's length are not told from rounding and
-/// sleep.
+/// True if the swing of the last part of the hold, the last `held` ticks, exceeds that of its first
+/// by a half. Swings below [`TOLD`] of the link's length cannot be told from rounding and sleep.
 pub fn grows(found: &[f64], held: usize, length: f64) -> bool {
     let held = &found[found.len().saturating_sub(held)..];
     let part = held.len() / 5;

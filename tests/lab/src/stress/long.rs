@@ -12,7 +12,7 @@ use stillbeam_sim::error::Error;
 /// h, s.
 const TICK: f64 = 0.01;
 
-/// A cycle: profile, duration in s, target in rad. Whole ticks each, no dyadic angles.
+/// A cycle: profile, duration in s, target in rad. Each takes whole ticks and no dyadic angles.
 const CYCLE: [(Profile, f64, f64); 4] = [
     (Profile::Cubic, 0.8, 1.57),
     (Profile::Quintic, 1.1, -2.3),
@@ -23,26 +23,26 @@ const CYCLE: [(Profile, f64, f64); 4] = [
 /// Rest after each move, s.
 const REST: f64 = 0.4;
 
-/// Cycles until the arm's damping has let it forget how it began.
+/// Cycles after which the arm's damping has removed the effect of its beginning.
 const SETTLED: u64 = 20;
 
-/// Of repeated moves.
+/// Result of repeated moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shuttle {
     /// The method.
     pub method: &'static str,
-    /// Ticks.
+    /// Number of ticks.
     pub ticks: u64,
-    /// Stops.
+    /// Number of stops.
     pub stops: u64,
-    /// Stops at another angle than the target rounded to f32, whatever the bit.
+    /// Stops at an angle that is not the target rounded to f32, bit for bit.
     pub missed: u64,
-    /// Largest difference of a deflection from that of the 21st cycle at the same tick, of the
+    /// Largest difference of a deflection from that of the 21st cycle at the same tick, over the
     /// peak.
     pub drift: f64,
 }
 
-/// A damped arm: 0.4 m of acrylic-like strip with 30 g, first period 0.4 s.
+/// Returns a damped arm: 0.4 m of acrylic-like strip with 30 g, first period 0.4 s.
 fn arm() -> Scene {
     Scene {
         hub: Hub { radius: 0.04, inertia: 1e-4 },
@@ -52,7 +52,7 @@ fn arm() -> Scene {
     }
 }
 
-/// Repeats a cycle of moves for so many ticks, by each method.
+/// Repeats a cycle of moves for `ticks` ticks, by each method.
 pub fn shuttles(ticks: u64, done: &dyn Fn(u64)) -> Result<Vec<Shuttle>, Error> {
     let arm = arm();
     let newmark = Newmark::<f32, 2, 2>::new(&Model::<2, 2>::consistent(&arm)?, TICK)?;
@@ -115,20 +115,20 @@ fn is_at(setpoint: &Setpoint<f32>, target: Angle<f32>) -> bool {
     angle.turns == target.turns && angle.part.to_bits() == target.part.to_bits()
 }
 
-/// Of an undamped mode that rings on.
+/// Result of an undamped mode that rings on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ringing {
     /// ω₁h.
     pub turn: f64,
     /// Ticks.
     pub ticks: u64,
-    /// Phase that f32 is ahead of the exact one in the end, rad for a rad of vibration.
+    /// Final phase lead of f32 over the exact solution, rad for a rad of vibration.
     pub slip: f64,
-    /// Amplitude that is left.
+    /// Remaining amplitude.
     pub amplitude: f64,
 }
 
-/// One undamped mode in f32, plucked, for so many ticks at each `ω₁h`.
+/// Plucks one undamped mode in f32 and lets it ring for `ticks` ticks at each `ω₁h`.
 pub fn ringing(turns: &[f64], ticks: u64, done: &dyn Fn(u64)) -> Result<Vec<Ringing>, Error> {
     turns.iter().map(|&turn| pluck(turn, ticks, done)).collect()
 }
@@ -165,7 +165,7 @@ fn pluck(turn: f64, ticks: u64, done: &dyn Fn(u64)) -> Result<Ringing, Error> {
     Ok(Ringing { turn, ticks, slip, amplitude: x.hypot(v) })
 }
 
-/// Of a hub that goes on turning.
+/// Result of a hub that goes on turning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation {
     /// Ticks.
@@ -178,7 +178,7 @@ pub struct Rotation {
     pub uneven: f64,
 }
 
-/// A hub that turns at `rate`, rad/s, for so many ticks.
+/// Turns a hub at `rate`, rad/s, for `ticks` ticks.
 pub fn rotation(rate: f64, ticks: u64, done: &dyn Fn(u64)) -> Result<Rotation, Error> {
     let mut hub = Generator::<_, 8>::new(Rigid::<f32>::new(&arm(), TICK)?, 0.3)?;
     let spin_up = hub.push(&Move::SpinUp { duration: 1.0, rate })?.ticks;

@@ -1,9 +1,9 @@
-//! The core as a hostile user would use it: random scenes far outside of what an arm is, by the
-//! million, and runs as long as a machine's life.
+//! Stress tests of the core: random scenes far outside of what an arm is, by the million, and runs
+//! as long as a machine's life.
 //!
-//! [`draw`] makes a scene of a number, [`trial`] runs a method on it in both precisions,
-//! [`campaign`] does so by the million and [`summary`] counts. [`energy`] watches undamped arms
-//! ring on for a million ticks, [`long`] moves an arm to and fro for days.
+//! [`draw`] makes a scene from a number, [`trial`] runs a method on it in both precisions,
+//! [`campaign`] does so by the million and [`summary`] counts. [`energy`] lets undamped arms ring
+//! on for a million ticks, [`long`] moves an arm to and fro for days.
 
 pub mod campaign;
 pub mod document;

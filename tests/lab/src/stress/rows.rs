@@ -1,4 +1,4 @@
-//! A row a run, for a closer look than [`summary`](super::summary) keeps.
+//! Writes a row for each run, with more detail than [`summary`](super::summary) keeps.
 
 use std::io::{self, Write};
 

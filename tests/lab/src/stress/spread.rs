@@ -1,13 +1,13 @@
-//! How a positive quantity is spread, as counts a quarter of a decade: adds up in any order.
+//! Spread of a positive quantity, as counts a quarter of a decade. Counts add up in any order.
 
 use serde::{Deserialize, Serialize};
 
-/// Bins from 10⁻¹² to 10⁴; what is less counts in the first, what is more in the last.
+/// Bins from 10⁻¹² to 10⁴. A smaller value counts in the first, a larger one in the last.
 const BINS: usize = 64;
 const LEAST: f64 = -12.0;
 const A_DECADE: f64 = 4.0;
 
-/// Counts a quarter of a decade, and the largest.
+/// Counts a quarter of a decade, and the largest value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     counts: Vec<u64>,
@@ -22,7 +22,7 @@ impl Default for Spread {
 }
 
 impl Spread {
-    /// One more value.
+    /// Adds a value.
     pub fn add(&mut self, value: f64) {
         let bin = ((value.log10() - LEAST) * A_DECADE).floor();
         // Not a number counts as large as can be.
@@ -31,12 +31,13 @@ impl Spread {
         self.most = if value.is_nan() { f64::INFINITY } else { self.most.max(value) };
     }
 
-    /// How many.
+    /// Returns the number of values.
     pub fn count(&self) -> u64 {
         self.counts.iter().sum()
     }
 
-    /// Upper edge of the bin in which that share of the values ends, at most the largest.
+    /// Returns the upper edge of the bin in which that share of the values ends, at most the
+    /// largest.
     pub fn quantile(&self, share: f64) -> f64 {
         let wanted = (share * self.count() as f64).ceil().max(1.0) as u64;
         let mut sum = 0;

@@ -1,4 +1,4 @@
-//! What a campaign has come to: counts that add up, whatever the order.
+//! Counts of a campaign. They add up in any order.
 
 use std::collections::BTreeMap;
 
@@ -9,38 +9,38 @@ use super::spread::Spread;
 use super::trial::{Run, Verdict};
 use stillbeam_sim::solver::Solver;
 
-/// Cases that are named, of each kind.
+/// Number of cases of each kind that are named.
 const NAMED: usize = 20;
 
 /// A campaign so far.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// What the scenes were drawn with.
+    /// Seed of the scenes.
     pub seed: u64,
-    /// Scenes that are done: the numbers below this.
+    /// Number of scenes that are done; their numbers are below this.
     pub scenes: u64,
-    /// Ticks, both precisions.
+    /// Number of ticks in both precisions.
     pub ticks: u64,
-    /// What failed, the first few, by its scene's number.
+    /// First few failures, by the scene's number.
     pub failures: Vec<Failure>,
-    /// By method.
+    /// Counts by method.
     pub methods: BTreeMap<String, Counts>,
-    /// How often each reason was given.
+    /// Number of refusals by reason.
     pub reasons: BTreeMap<String, u64>,
 }
 
-/// What should not have happened.
+/// An event that should not have happened.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
     /// The scene.
     pub index: u64,
     /// The method.
     pub method: String,
-    /// What.
+    /// Kind of the failure.
     pub what: String,
 }
 
-/// Of one method.
+/// Counts of one method.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Counts {
     /// Runs that were refused.
@@ -53,14 +53,14 @@ pub struct Counts {
     pub not_finite: u64,
     /// Runs that did not end at their target.
     pub off_target: u64,
-    /// Runs in which the arm swings up, see [`Run::rings_up`]: not compared.
+    /// Runs in which the arm swings up, see [`Run::rings_up`]. They are not compared.
     pub rings_up: u64,
-    /// f32 against f64, of the peak deflection, by decade of the run's condition: `3` is 10³ to
-    /// 10⁴.
+    /// Difference of f32 from f64, over the peak deflection, by decade of the run's condition: `3`
+    /// is 10³ to 10⁴.
     pub deflection: BTreeMap<String, Spread>,
-    /// Runs in which it exceeds the method's bound, see [`bound`].
+    /// Runs in which the difference exceeds the method's bound, see [`bound`].
     pub above: u64,
-    /// The same of the torque, all decades.
+    /// Difference of the torque in f32 from f64, all decades.
     pub torque: Spread,
 }
 
@@ -68,7 +68,7 @@ pub struct Counts {
 const ON_TARGET: f64 = 4e-7;
 
 impl Summary {
-    /// None yet.
+    /// Creates an empty summary.
     pub fn new(seed: u64) -> Self {
         Self { seed, ..Self::default() }
     }
@@ -102,12 +102,12 @@ impl Summary {
         self.scenes += 1;
     }
 
-    /// Of all methods.
+    /// Sums a count over all methods.
     pub fn total(&self, of: impl Fn(&Counts) -> u64) -> u64 {
         self.methods.values().map(of).sum()
     }
 
-    /// Whatever should not have happened.
+    /// Returns the number of events that should not have happened.
     pub fn faults(&self) -> u64 {
         self.total(|counts| counts.panicked + counts.not_finite + counts.off_target + counts.above)
     }
