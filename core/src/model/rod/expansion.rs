@@ -24,27 +24,27 @@ const MAX_QUANTITIES: usize = 15;
 const SAMPLES: [f64; 5] = [-0.951, -0.588, 0.0, 0.588, 0.951];
 const HALF_SAMPLES: [f64; 4] = [0.195, 0.556, 0.831, 0.981];
 
-/// What one even monomial multiplies.
+/// Coefficients of one even monomial in each even quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Even<T, const K: usize> {
-    /// Of `C`.
+    /// Coefficients in `C`.
     pub c: [[T; K]; K],
-    /// Of `d`.
+    /// Coefficients in `d`.
     pub d: [T; K],
-    /// Of `e`.
+    /// Coefficient in `e`.
     pub e: T,
-    /// Of `∫ρA X dx + m_p X_L`.
+    /// Coefficient in `∫ρA X dx + m_p X_L`.
     pub moment: T,
-    /// Of the tip's X.
+    /// Coefficient in the tip's X.
     pub tip: T,
 }
 
-/// What one odd monomial multiplies.
+/// Coefficients of one odd monomial in each odd quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Odd<T> {
-    /// Of `∫ρA Y dx + m_p Y_L`.
+    /// Coefficient in `∫ρA Y dx + m_p Y_L`.
     pub moment: T,
-    /// Of the tip's Y.
+    /// Coefficient in the tip's Y.
     pub tip: T,
 }
 

@@ -10,12 +10,12 @@ pub(crate) struct Table<const N: usize> {
     exponents: [Exponents; N],
 }
 
-/// Of what is even in `a`.
+/// Monomials of the quantities that are even in `a`.
 pub(crate) const EVEN: Table<MAX_EVEN> =
     Table { exponents: [[2, 0, 0], [1, 1, 0], [0, 2, 0], [1, 0, 1], [0, 1, 1], [4, 0, 0]] };
 pub(crate) const MAX_EVEN: usize = 6;
 
-/// Of what is odd in `a`, beyond the linear.
+/// Monomials of the quantities that are odd in `a`, beyond the linear.
 pub(crate) const ODD: Table<MAX_ODD> =
     Table { exponents: [[3, 0, 0], [2, 1, 0], [1, 2, 0], [0, 3, 0], [2, 0, 1], [5, 0, 0]] };
 pub(crate) const MAX_ODD: usize = 6;

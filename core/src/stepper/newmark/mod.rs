@@ -114,7 +114,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
 }
 
 impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W, false> {
-    /// As [`Newmark::new`], in the nodes' own coordinates.
+    /// Factors the model as [`Newmark::new`] does, in the nodes' own coordinates.
     pub fn nodal<P: Scalar>(model: &Model<N, W, P>, tick: f64) -> Result<Self, Error> {
         Self::set_up(model, tick)
     }
