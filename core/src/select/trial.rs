@@ -34,7 +34,7 @@ const JUMP: f64 = 1e-4;
 /// Ticks between two looks at whether the arm has come to rest.
 const LOOK: u64 = 16;
 
-/// What steppers are tried on.
+/// Arm and motion on which steppers are tried.
 pub(super) struct Trial<'a> {
     exact: Exact<f32, MODES>,
     motion: &'a dyn Commanded,
