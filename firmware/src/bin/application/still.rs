@@ -53,7 +53,7 @@ mod planner {
 
     use crate::shared::Outcome;
 
-    /// None is built in.
+    /// Stands for the planner in a build without one.
     pub enum Planner {}
 
     impl Planner {

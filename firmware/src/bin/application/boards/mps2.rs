@@ -33,7 +33,7 @@ use serial::{Receiver, Transmitter, UARTS};
 use stillbeam_firmware::exit;
 use time::time;
 
-/// What [`cost`] counts.
+/// Unit of [`cost`].
 pub const UNIT: &str = "instructions";
 /// Rate of [`counts`].
 pub const COUNTS_PER_SECOND: u32 = 25_000_000;
