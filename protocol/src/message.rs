@@ -7,7 +7,7 @@ use stillbeam::{Angle, Move, Payload, Scene};
 
 use crate::Refusal;
 
-/// From the host.
+/// A request from the host.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Request {
     /// Chosen by the host; comes back in the answer.
@@ -48,7 +48,7 @@ pub enum Command {
     Status,
 }
 
-/// From the firmware.
+/// A report from the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Report<'a> {
     /// The request is carried out, between two ticks. A move begins with this tick, or behind the

@@ -43,7 +43,7 @@ impl<const N: usize> Table<N> {
 /// Highest exponent.
 const DEGREE: usize = 5;
 
-/// Is it a monomial of the first `K` modes?
+/// True if it is a monomial of the first `K` modes.
 #[inline(always)]
 const fn of_modes<const K: usize>(e: Exponents) -> bool {
     (K > 1 || e[1] == 0) && (K > 2 || e[2] == 0)

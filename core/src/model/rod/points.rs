@@ -197,7 +197,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         points
     }
 
-    /// Of each point, what all the others and the clamp put on it; and the mass matrix.
+    /// Returns the force at each point by all the others and the clamp, and the mass matrix.
     #[inline(always)]
     fn forces(&self, points: &Points<T>) -> ([T; POINTS], Band<T, K, K>) {
         let Points { sin, cos, spin, turn, root } = points;

@@ -203,7 +203,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         hub.cos * (self.moment_at_rest + along.value) - hub.sin * self.moment.1.value(shape)
     }
 
-    /// `ṫ + αt` but for what is proportional to `θ̈`, and what is.
+    /// Returns `ṫ + αt` without its part proportional to `θ̈`, and the factor of `θ̈` in that part.
     ///
     /// `t = d·z − ωe` changes with `ṗ`, `v̇₂`, `v̇₃`, and these with `Ṗ`: the levers `M⁻¹h` of the
     /// momenta, last mode first, gather both.

@@ -46,7 +46,7 @@ impl<T: Scalar, const K: usize> NumericalDamping<T, K> {
         }
     }
 
-    /// The first mode's offset that bends the tip by so many rad.
+    /// Returns the offset of the first mode that bends the tip by `bend` rad.
     pub(super) fn offset(&self, bend: f64) -> T {
         T::from_f64(bend / sqrt(self.bend.to_f64()))
     }
