@@ -7,9 +7,9 @@
 //! `v₁ = ∂R/∂p`, `ṗ = −∂R/∂a₁`, `Pₖ = −∂R/∂vₖ`, `Ṗₖ = −∂R/∂aₖ`,
 //!
 //! and `t = −∂R/∂ω = dᵀz − ωe` is the angular momentum about the axis. Written with `M`, `h`,
-//! `T_θθ`: `C₁₁ = 1/M₁₁`, `Cₖ₁ = −Mₖ₁/M₁₁`, `Cₖⱼ = −(Mₖⱼ − Mₖ₁M₁ⱼ/M₁₁)`, `d₁ = h₁/M₁₁`, `dₖ = hₖ −
-//! Mₖ₁h₁/M₁₁`, `e = h₁²/M₁₁ − T_θθ`. `C`, `d`, `e` and `X` are even in `a`, `Y` is odd. No
-//! coefficient has a small denominator where the link is bent far, as `M⁻¹` has with a heavy
+//! `T_θθ`: `C₁₁ = 1/M₁₁`, `Cₖ₁ = −Mₖ₁/M₁₁`, `Cₖⱼ = −(Mₖⱼ − Mₖ₁M₁ⱼ/M₁₁)`, `d₁ = h₁/M₁₁`,
+//! `dₖ = hₖ − Mₖ₁h₁/M₁₁`, `e = h₁²/M₁₁ − T_θθ`. `C`, `d`, `e` and `X` are even in `a`, `Y` is odd.
+//! No coefficient has a small denominator where the link is bent far, as `M⁻¹` has with a heavy
 //! payload: the polynomials converge up to bends of 1.5 rad.
 
 use super::Rod;
