@@ -4,7 +4,7 @@ use cortex_m::asm;
 
 /// A free-running counter.
 pub trait Counter {
-    /// What it counts, as printed in the tables.
+    /// Unit of its counts, as printed in the tables.
     const UNIT: &'static str;
 
     /// Starts it.
@@ -101,7 +101,7 @@ impl<C: Counter> Stopwatch<C> {
         watch
     }
 
-    /// What `work` returns, and its cost.
+    /// Returns the result of `work`, and its cost.
     #[inline(always)]
     pub fn count<R>(&self, work: impl FnOnce() -> R) -> (R, u32) {
         let from = self.counter.read();

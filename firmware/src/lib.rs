@@ -1,6 +1,6 @@
 #![no_std]
-//! What the programs on the target share: counter, stack paint, the way out. No arithmetic of its
-//! own.
+//! Shared parts of the programs on the target: counter, stack paint, the way out. No arithmetic of
+//! its own.
 
 pub mod counter;
 #[cfg(not(feature = "_no-host"))]

@@ -15,7 +15,7 @@ pub trait Method: 'static {
     const METHOD: &'static str;
     /// Elements or modes; 0 where there are none.
     const SIZE: u32;
-    /// What tells methods of one family and size apart: `consistent` or `lumped` mass, …
+    /// Property that tells methods of one family and size apart: `consistent` or `lumped` mass, …
     const QUALITY: &'static str;
     /// Terms that the method itself leaves out: `no-spin` or nothing.
     const SKIP: &'static str;

@@ -44,7 +44,7 @@ pub fn encode<'a>(message: &impl Serialize, frame: &'a mut [u8; MAX]) -> Result<
 /// The message in a frame, with or without its closing zero. Decodes in place.
 ///
 /// # Errors
-/// What is wrong with it. Never panics.
+/// Returns the fault of the frame. Never panics.
 pub fn decode<'a, M: Deserialize<'a>>(frame: &'a mut [u8]) -> Result<M, Garbled> {
     let length = frame.iter().position(|&byte| byte == 0).unwrap_or(frame.len());
     if length > MAX {

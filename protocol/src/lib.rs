@@ -1,6 +1,6 @@
 #![no_std]
 #![forbid(unsafe_code)]
-//! What a host and the firmware say to each other over a serial line.
+//! Messages between a host and the firmware over a serial line.
 //!
 //! A [`Request`] or a [`Report`] in [postcard](https://postcard.jamesmunns.com/wire-format), its
 //! CRC-32 behind it, both COBS-encoded, a zero byte at the end: [`frame`]. A frame has at most

@@ -7,18 +7,18 @@ use stillbeam::{Angle, Move, Payload, Scene};
 
 use crate::Refusal;
 
-/// From the host.
+/// A request from the host.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Request {
     /// Chosen by the host; comes back in the answer.
     pub sequence: u16,
-    /// Which axis, from 0.
+    /// Number of the axis, from 0.
     pub axis: u8,
-    /// What to do.
+    /// Command to carry out.
     pub command: Command,
 }
 
-/// What an axis can be asked.
+/// Commands to an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Command {
     /// Nothing. Any request, to any axis, shows all of them that the host is alive.
@@ -48,7 +48,7 @@ pub enum Command {
     Status,
 }
 
-/// From the firmware.
+/// A report from the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Report<'a> {
     /// The request is carried out, between two ticks. A move begins with this tick, or behind the
@@ -63,7 +63,7 @@ pub enum Report<'a> {
     Refused {
         /// The request's.
         sequence: u16,
-        /// Why.
+        /// Reason for the refusal.
         #[serde(borrow)]
         refusal: Refusal<'a>,
     },
@@ -71,7 +71,7 @@ pub enum Report<'a> {
     Description {
         /// The request's.
         sequence: u16,
-        /// What the axis is.
+        /// Description of the axis.
         #[serde(borrow)]
         description: Description<'a>,
     },
@@ -79,16 +79,16 @@ pub enum Report<'a> {
     Status {
         /// The request's.
         sequence: u16,
-        /// How it is.
+        /// State of the axis and the firmware.
         status: Status,
     },
     /// A setpoint, as it goes to the drive.
     Tick {
-        /// Which axis.
+        /// Number of the axis.
         axis: u8,
         /// Number, mode, setpoint.
         tick: Tick<f32>,
-        /// Why the axis stopped, if it did.
+        /// Reason for which the axis stopped, if it did.
         cause: Option<Cause>,
     },
 }
@@ -108,7 +108,7 @@ pub struct Description<'a> {
     pub policy: Policy,
     /// Gear and motor.
     pub joint: Joint<f64>,
-    /// Which way the motor turns.
+    /// Sense of rotation of the motor against the hub.
     pub direction: Direction,
     /// The shaft's angle where the hub's is 0.
     pub zero: Angle<f32>,
@@ -116,16 +116,16 @@ pub struct Description<'a> {
     pub node: u8,
 }
 
-/// How an axis and the firmware are.
+/// State of an axis and of the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Status {
     /// The axis' mode.
     pub mode: Mode,
-    /// Why it stopped, if it did.
+    /// Reason for which it stopped, if it did.
     pub cause: Option<Cause>,
     /// Number of the next tick.
     pub clock: u32,
-    /// Where the drive says the shaft is.
+    /// Angle of the shaft as the drive reports it.
     pub measured: Angle<f32>,
     /// Cost of the latest tick of all axes, in the board's counts (instructions or cycles).
     pub cost: u32,

@@ -1,5 +1,5 @@
-//! Why a request is refused: the field, its value and what it must be, without text formatting on
-//! the target.
+//! Refusals of requests: the field, its value and what it must be, without text formatting on the
+//! target.
 
 use core::fmt;
 
@@ -14,7 +14,7 @@ pub enum Refusal<'a> {
     Range {
         /// The field, e.g. `move.duration`, or the limit, e.g. `limits.rate`.
         parameter: &'a str,
-        /// What was given or is needed.
+        /// Value that was given or is needed.
         value: f64,
         /// Least accepted.
         min: f64,

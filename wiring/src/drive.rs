@@ -1,4 +1,4 @@
-//! What a drive is told at a tick.
+//! Commands to a drive at a tick.
 
 use stillbeam::axis::{Cause, Mode, Tick};
 use stillbeam::motor::{Demand, Drivetrain};

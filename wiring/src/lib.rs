@@ -1,7 +1,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
-//! How an axis is wired, in one place for everyone who runs one: the firmware in its tasks, the
-//! host beside the firmware, and the campaign of faults.
+//! Wiring of an axis, in one place for everyone who runs one: the firmware in its tasks, the host
+//! beside the firmware, and the campaign of faults.
 //!
 //! [`axes`] says what hangs on this machine, and is the file to edit for another one.
 //! [`Configuration`] is one axis of it. [`Joint`] is an axis at work: arm, policy, gear and

@@ -20,7 +20,7 @@ pub enum Error {
     OutOfRange {
         /// The field, e.g. `link.length`.
         parameter: &'static str,
-        /// What was given.
+        /// Value that was given.
         value: f64,
         /// Least accepted value.
         min: f64,

@@ -105,7 +105,8 @@ impl<T: Scalar> Current<T> {
         self.k = k;
     }
 
-    /// Puts an arm to sleep that no longer vibrates. Calls `is_settled` only if the arm is ringing.
+    /// Puts an arm to sleep that no longer vibrates. `is_settled` is called only in the ringing
+    /// phase.
     #[inline(always)]
     pub(super) fn sleep_if(&mut self, is_settled: impl FnOnce() -> bool) {
         if self.phase == Phase::Ringing && is_settled() {

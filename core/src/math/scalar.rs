@@ -148,7 +148,7 @@ const fn quarter<const N: usize>(mut c: [f64; N], first: u32) -> [f64; N] {
     c
 }
 
-/// As [`quarter`], in `f32`.
+/// Converts as [`quarter`] does, in `f32`.
 const fn quarter_f32<const N: usize>(c: [f32; N], first: u32) -> [f32; N] {
     let mut scaled = c;
     let mut k = 0;

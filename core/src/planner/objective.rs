@@ -1,4 +1,4 @@
-//! What a move keeps small.
+//! Objective of a still move.
 
 /// The quantity that a move keeps small, of all moves that bring the arm to rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! What is asked of the planner.
+//! Requests to the planner.
 
 use super::{Objective, Prediction};
 use crate::hub::{Angle, HubState};
@@ -27,7 +27,7 @@ pub struct Request<T, const K: usize> {
     pub from: HubState<f64>,
     /// State of the arm where the move begins. `None`: static equilibrium at the hub's angle.
     pub arm: Option<ArmState<T, K>>,
-    /// Where the move ends.
+    /// End of the move.
     pub target: Target,
     /// Duration in s, rounded to whole ticks. `None`: the shortest that the planner finds.
     pub duration: Option<f64>,
@@ -36,13 +36,13 @@ pub struct Request<T, const K: usize> {
     /// Greatest deflection of the tip, of L, by simulation. 0.7 by default: beyond it the arm may
     /// bend back on itself. `None`: the deflection is not looked at, which saves a simulation.
     pub deflection: Option<f64>,
-    /// What the move keeps small.
+    /// Quantity that the move keeps small.
     pub objective: Objective,
     /// Model that the move is planned by.
     pub kinematics: Kinematics,
 }
 
-/// Where a move ends.
+/// End of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// At this hub angle, rad, −1e6 to 1e6.

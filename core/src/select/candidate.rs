@@ -10,7 +10,7 @@ use crate::stepper::{AnyMotion, KinkMoments, Response, Stepper};
 /// Segments that wait in the candidate's generator: two of the longest moves.
 const QUEUE: usize = 2 * MAX_SEGMENTS;
 
-/// What happens to the hub from one tick to the next.
+/// Motion of the hub from one tick to the next.
 pub(super) struct Tick {
     /// The tick that ends it.
     pub number: u64,
@@ -48,7 +48,7 @@ pub(super) struct Candidate<S: Stepper> {
     /// Differences of the torque at the latest two ticks, the later one last: a jump may still
     /// follow that is too close.
     pending: [f64; 2],
-    /// Why it cannot follow.
+    /// Reason why it cannot follow.
     pub error: Option<Error>,
 }
 

@@ -14,7 +14,7 @@ use crate::{Error, Scene};
 /// Rungs that are tried at once: half of the ladder, so that the exact rod flies twice at most.
 const AT_ONCE: usize = 4;
 
-/// Why there is no choice.
+/// Reason why there is no choice, and the nearest rung.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoChoice {
     /// [`Error::Tolerance`] with the error of the finest rung, or why the finest cannot be set up

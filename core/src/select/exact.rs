@@ -17,12 +17,13 @@ const STEPS: f64 = 60_000.0;
 /// Steps a tick that are affordable however long the flight.
 const FEWEST: f64 = 32.0;
 
-/// What a step may turn a mode by, rad, and decay it by: the method bears 2.8. The second highest
-/// of six modes is held to it; the third then turns by 0.4, and its phase errs by 1e-4 of that.
+/// Largest turn of a mode in a step, rad, and largest decay; the method tolerates 2.8. The second
+/// highest of six modes is held to it; the third then turns by 0.4, and its phase errs by 1e-4 of
+/// that.
 const MOST: f64 = 1.5;
 
-/// What a step may turn a mode by, rad, so that its ringing is followed rather than damped away: it
-/// then keeps 0.998 of itself.
+/// Largest turn of a mode in a step, rad, with which its ringing is followed rather than damped
+/// away: it then keeps 0.998 of itself.
 const RESOLVED: f64 = 0.8;
 
 /// Distance from rest, fraction of L, below which an arm whose hub rests is left as it is.
@@ -77,7 +78,7 @@ pub(super) struct Exact<T, const MODES: usize> {
     unresolved: f64,
 }
 
-/// What acts on the arm at one instant.
+/// Loads on the arm at one instant.
 #[derive(Clone, Copy)]
 pub(super) struct Load<T> {
     /// Hub torque, N m.
@@ -97,7 +98,7 @@ struct Forces<T, const MODES: usize> {
     moving: [[T; MODES]; 2],
 }
 
-/// What is integrated along the rod, at the Gauss points.
+/// Integrands along the rod, at the Gauss points.
 struct Integrands<T, const MODES: usize> {
     /// `∂X/∂a` and `∂Y/∂a`.
     x_slope: [[T; POINTS]; MODES],
@@ -177,7 +178,7 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         self.unresolved
     }
 
-    /// Evaluates what is integrated along the rod, at the Gauss points.
+    /// Evaluates the integrands along the rod, at the Gauss points.
     #[inline(always)]
     fn integrands(&self, shape: &Shape<T, MODES>) -> Integrands<T, MODES> {
         let Shape { a, v } = shape;

@@ -68,7 +68,7 @@ impl fmt::Display for Rung {
     }
 }
 
-/// What is asked of a choice: errors that it may make.
+/// Largest errors that a choice may make.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Largest distance of the tip from the real one, fraction of L, 1e-6 to 1.
@@ -131,7 +131,7 @@ impl Assessment {
     }
 }
 
-/// What a choice came to.
+/// Result of a choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Choice {
@@ -143,7 +143,7 @@ pub struct Choice {
     pub bend: f64,
 }
 
-/// What was seen of a stepper beside the exact rod.
+/// Differences of a stepper from the exact rod in a trial.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outcome {
     /// Largest distance between the two tips, fraction of L; infinite where one of them has none.

@@ -22,7 +22,7 @@ use crate::{Error, Scene};
 
 /// One of the steppers of [`Rung::ladder`], known at run time only.
 ///
-/// It takes the room of the largest; a firmware that knows its arm links the stepper itself.
+/// Its size is that of the largest; a firmware that knows its arm links the stepper itself.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)] // The steppers' own names.
 #[allow(clippy::large_enum_variant)] // There is no heap to put one on.

@@ -34,7 +34,7 @@ const JUMP: f64 = 1e-4;
 /// Ticks between two looks at whether the arm has come to rest.
 const LOOK: u64 = 16;
 
-/// What steppers are tried on.
+/// Arm and motion on which steppers are tried.
 pub(super) struct Trial<'a> {
     exact: Exact<f32, MODES>,
     motion: &'a dyn Commanded,
@@ -48,7 +48,7 @@ pub(super) struct Trial<'a> {
 struct Flight<'t, 'a, 'c, S: Stepper> {
     trial: &'t Trial<'a>,
     candidates: &'c mut [Candidate<S>],
-    /// Candidates further than that from the exact rod are given up, fraction of L.
+    /// Distance from the exact rod beyond which a candidate is given up, fraction of L.
     most: f64,
     shape: Option<Shape<f32, MODES>>,
     /// The coming tick.
@@ -60,7 +60,7 @@ struct Flight<'t, 'a, 'c, S: Stepper> {
     broken: bool,
     /// The arm and the hub rest, until the stretch ends.
     still: bool,
-    /// Up to that tick torques are not compared.
+    /// Tick up to which torques are not compared.
     blocked: f64,
     steps: u32,
     deflection: f64,

@@ -1,4 +1,4 @@
-//! What a mode gains from a kink of the motion inside a tick.
+//! Response of a mode to a kink of the motion inside a tick.
 
 use super::oscillator::pulled_back;
 use crate::math::{Matrix2, Scalar, phi_functions, product};
@@ -17,8 +17,8 @@ pub(super) struct Kicks<T>([[T; 2]; ORDERS]);
 const LARGEST_NORM: f64 = 60.0;
 
 impl<T: Scalar> Kicks<T> {
-    /// Of the mode `ẏ = A y − (0, b θ̈)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`, over steps of `h` s.
-    /// The state is `(ωa, ȧ)`.
+    /// Computes the changes of the mode `ẏ = A y − (0, b θ̈)`, `A = [0, ω; −ω, −c]`, `c = α + βω²`,
+    /// over steps of `h` s. The state is `(ωa, ȧ)`.
     pub(super) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
         let z = [[0.0, omega * h], [-omega * h, -(alpha + beta * omega * omega) * h]];
         let [whole, ..] = phi_functions(&z);
@@ -35,7 +35,7 @@ impl<T: Scalar> Kicks<T> {
         Self(self.0.map(|[a, p]| [a, scale * p]))
     }
 
-    /// What to add to the state before the tick.
+    /// Returns the change to add to the state before the tick.
     pub(super) fn of(&self, kink: &Kink<T>) -> [T; 2] {
         let mut sum = [T::ZERO; 2];
         for (kick, moment) in self.0.iter().zip(kink.excess()) {

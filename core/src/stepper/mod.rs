@@ -1,6 +1,6 @@
-//! What advances the arm by one tick. A stepper is immutable once built: factors and constants for
-//! one tick length. Its state is separate and small, so that a restart is a new state and two runs
-//! can share one stepper.
+//! Steppers: methods that advance the arm by one tick. A stepper is immutable once built: factors
+//! and constants for one tick length. Its state is separate and small, so that a restart is a new
+//! state and two runs can share one stepper.
 
 mod aliases;
 mod elastica;
@@ -49,7 +49,7 @@ pub trait Stepper {
     /// The scalar of the tick.
     type Scalar: Scalar;
 
-    /// What changes from tick to tick.
+    /// State of the arm: all that changes from tick to tick.
     type State: Copy;
 
     /// The motions that [`Self::step`] has code of its own for.

@@ -24,7 +24,7 @@ pub(crate) struct Oscillator<T> {
     correction: [[T; 2]; 2],
 }
 
-/// What drives the modes within a step: a parabola with these values at the beginning and at the
+/// Forcing of the modes within a step: a parabola with these values at the beginning and at the
 /// end, and this mean.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Forcing<T> {
@@ -124,7 +124,7 @@ impl<T: Scalar> Oscillator<T> {
         [a + (versine * off + sin * v), v + (back * off + forth * v)]
     }
 
-    /// What to add for a load that changes by `change` over the step.
+    /// Returns the correction for a load that changes by `change` over the step.
     #[inline(always)]
     pub(super) fn ramp(&self, r: usize, change: T) -> T {
         self.slope[r][1] * change
@@ -146,8 +146,8 @@ impl<T: Scalar> Oscillator<T> {
         })
     }
 
-    /// What to add to the prediction once `n` at the end is known: `excess` is its change less the
-    /// expected one.
+    /// Returns the prediction, corrected once `n` at the end is known: `excess` is its change less
+    /// the expected one.
     #[inline(always)]
     pub(crate) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
         [0, 1].map(|r| y[r] + self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1])
@@ -159,7 +159,7 @@ impl<T: Scalar> Oscillator<T> {
         [0, 1].map(|r| self.free(r, y, forcing) + self.constant[r][1] * force)
     }
 
-    /// What to add to that once the change of `n` over the step is known.
+    /// Returns that state, corrected once the change of `n` over the step is known.
     #[inline(always)]
     pub(super) fn correct_forced(&self, y: [T; 2], change: T) -> [T; 2] {
         [0, 1].map(|r| y[r] + self.slope[r][1] * change)
@@ -207,9 +207,9 @@ pub(super) fn check_turns(
     Error::check("solver.tick", tick, 1e-6, MOST_TURNS / fastest, "s").map(drop)
 }
 
-/// What a step needs added to the state before it, per unit of the moment by which `u` departs from
-/// its parabola, see [`Segment`](crate::motion::Segment): the cubic `60 m s(1 − s)(1 − 2s)` has
-/// that moment, no mean and no ends. Zero for modes that the step damps out.
+/// Change to add to the state before a step, per unit of the moment by which `u` departs from its
+/// parabola, see [`Segment`](crate::motion::Segment): the cubic `60 m s(1 − s)(1 − 2s)` has that
+/// moment, no mean and no ends. Zero for modes that the step damps out.
 pub(super) fn kick<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> [T; 2] {
     let [e, _, p2, p3, p4] = phi_of(omega, alpha, beta, h);
     let end = [0, 1].map(|r| -60.0 * b * h * (p2[r][1] - 6.0 * p3[r][1] + 12.0 * p4[r][1]));
@@ -229,7 +229,7 @@ pub(super) fn pulled_back(e: &[[f64; 2]; 2], end: [f64; 2]) -> [f64; 2] {
     ]
 }
 
-/// Where the determinant falls short of 1 by more than this it is not held down.
+/// Largest shortfall of the determinant from 1 at which it is held down.
 const DAMPED: f64 = 1e-3;
 
 /// Rounds `F = exp(hA) − I` so that the determinant of `I + F` does not exceed the true one.

@@ -1,11 +1,11 @@
-//! What is known of the hub's motion within a tick, as types: a step is written once, and what its
+//! Knowledge of the hub's motion within a tick, as types: a step is written once, and what its
 //! motion does not need folds away when it is compiled.
 
 use crate::math::Scalar;
 use crate::motion::Kink;
 
-/// What is known of the hub's motion within a tick. The constants are those of the type, so that a
-/// branch on them costs nothing.
+/// Kind of the hub's motion within a tick. The constants are those of the type, so that a branch on
+/// them costs nothing.
 pub trait HubMotion: sealed::Sealed {
     /// θ̈ is a straight line from the beginning of the tick to its end.
     const LINEAR: bool;

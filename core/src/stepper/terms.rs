@@ -1,4 +1,4 @@
-//! What a scene asks of a tick.
+//! Terms of a tick that a scene needs.
 
 use crate::Scene;
 use crate::math::Scalar;

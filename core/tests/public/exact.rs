@@ -31,7 +31,8 @@ fn target<T: Scalar>(to: f64) -> Angle<T> {
     Angle::from_radians(to).cast()
 }
 
-/// Of a turn by 1 in a time of 1, at the beginning; at the end it is as much less.
+/// Jump of the acceleration at the beginning of a turn by 1 in a time of 1; at the end it is the
+/// negative of that.
 fn jump(profile: Profile) -> f64 {
     match profile {
         Profile::Cubic => 6.0,

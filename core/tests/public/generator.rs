@@ -183,8 +183,8 @@ fn an_arm_at_rest_sleeps_and_wakes() {
     assert!(second.angle != first.angle && second.tip != first.tip, "awake");
 }
 
-/// What the tick evaluates is planned in the tick's precision: the angle is as exact as one f32
-/// polynomial of the move's turn, rate and acceleration are as exact as their peaks.
+/// The segments that a tick evaluates are planned in the tick's precision: the angle is as exact as
+/// one f32 polynomial of the move's turn, rate and acceleration are as exact as their peaks.
 #[test]
 fn a_plan_in_single_precision_is_exact_to_its_rounding() {
     let scene = scene();

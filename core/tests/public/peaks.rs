@@ -26,9 +26,9 @@ fn dense(plan: &Plan, tick: f64) -> Peaks {
     most
 }
 
-/// Of a segment between two instants, in ticks, by looking far more often than every tick. Its jerk
-/// is the change of the acceleration from look to look, and what a straight line through the outer
-/// two of those says of the ends.
+/// Greatest magnitudes of a segment between two instants, in ticks, sampled far more often than
+/// every tick. Its jerk is the change of the acceleration from look to look, and what a straight
+/// line through the outer two of those says of the ends.
 fn within(segment: &Segment<f64>, begin: f64, end: f64, tick: f64) -> Peaks {
     let step = (end - begin) / f64::from(LOOKS);
     // Just inside, as an end is stored apart and would be a step in the jerk.

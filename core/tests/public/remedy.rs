@@ -1,4 +1,4 @@
-//! What a refusal says would do does, and a tick less does not.
+//! The duration that a remedy names keeps the limits, and a tick less does not.
 
 use proptest::prelude::*;
 use stillbeam::hub::Angle;

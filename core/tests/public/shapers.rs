@@ -153,7 +153,7 @@ fn one_pulse_gives_the_moments_of_the_segments() {
     assert!(shaped.kink(first - 1).is_none(), "the end is a tick");
 }
 
-/// Where a copy begins or ends on a tick, the two sides differ and nothing is left inside.
+/// A copy that begins or ends on a tick makes its two sides differ and leaves nothing inside.
 #[test]
 fn jumps_on_a_tick_are_of_its_sides() {
     let motion = Move::To { profile: Profile::Cubic, duration: 0.2, to: 1.0 };

@@ -1,4 +1,4 @@
-//! What planning a still move costs: outside the tick, at any time. Set-up is the planner's.
+//! Cost of planning a still move, outside the tick. Set-up is the planner's.
 
 use core::fmt::Write;
 use core::hint::black_box;
@@ -36,7 +36,7 @@ fn half_turn(duration: f64) -> Request<f32, 2> {
 
 type Plan = fn(&Planner) -> Result<StillMove, Error>;
 
-/// What is planned: name, arm, spread of its frequency, plan.
+/// Plans to be counted: name, arm, spread of its frequency, plan.
 const PLANS: [(&str, &Scene, f64, Plan); 6] = [
     ("d-fast", &D, 0.0, |planner| planner.plan(&half_turn(0.2))),
     ("a-tip30", &A, 0.0, |planner| planner.plan(&half_turn(2.0))),

@@ -1,7 +1,7 @@
 //! The least that a user needs: set-up, one move, the ticks of it. Its sections are the flash and
 //! RAM of the tables; it prints the worst stack as four bytes.
 //!
-//! Which method is linked is chosen when this is built, by the environment variable
+//! The method to be linked is chosen when this is built, by the environment variable
 //! `STILLBEAM_METHOD` (a name in the list of methods, or `Still2`: elastica with a planner of still
 //! moves).
 #![no_std]

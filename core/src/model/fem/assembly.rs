@@ -27,7 +27,7 @@ pub(crate) struct Assembly<T, const D: usize> {
     pub weight: [T; D],
 }
 
-/// How an element's mass is spread over its nodes.
+/// Distribution of an element's mass over its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MassMatrix {
     Consistent,

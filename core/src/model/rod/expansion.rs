@@ -9,7 +9,7 @@
 //! and `t = −∂R/∂ω = dᵀz − ωe` is the angular momentum about the axis. Written with `M`, `h`,
 //! `T_θθ`: `C₁₁ = 1/M₁₁`, `Cₖ₁ = −Mₖ₁/M₁₁`, `Cₖⱼ = −(Mₖⱼ − Mₖ₁M₁ⱼ/M₁₁)`, `d₁ = h₁/M₁₁`,
 //! `dₖ = hₖ − Mₖ₁h₁/M₁₁`, `e = h₁²/M₁₁ − T_θθ`. `C`, `d`, `e` and `X` are even in `a`, `Y` is odd.
-//! None of them has a small denominator where the link is bent far, as `M⁻¹` has with a heavy
+//! No coefficient has a small denominator where the link is bent far, as `M⁻¹` has with a heavy
 //! payload: the polynomials converge up to bends of 1.5 rad.
 
 use super::Rod;
@@ -24,27 +24,27 @@ const MAX_QUANTITIES: usize = 15;
 const SAMPLES: [f64; 5] = [-0.951, -0.588, 0.0, 0.588, 0.951];
 const HALF_SAMPLES: [f64; 4] = [0.195, 0.556, 0.831, 0.981];
 
-/// What one even monomial multiplies.
+/// Coefficients of one even monomial in each even quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Even<T, const K: usize> {
-    /// Of `C`.
+    /// Coefficients in `C`.
     pub c: [[T; K]; K],
-    /// Of `d`.
+    /// Coefficients in `d`.
     pub d: [T; K],
-    /// Of `e`.
+    /// Coefficient in `e`.
     pub e: T,
-    /// Of `∫ρA X dx + m_p X_L`.
+    /// Coefficient in `∫ρA X dx + m_p X_L`.
     pub moment: T,
-    /// Of the tip's X.
+    /// Coefficient in the tip's X.
     pub tip: T,
 }
 
-/// What one odd monomial multiplies.
+/// Coefficients of one odd monomial in each odd quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Odd<T> {
-    /// Of `∫ρA Y dx + m_p Y_L`.
+    /// Coefficient in `∫ρA Y dx + m_p Y_L`.
     pub moment: T,
-    /// Of the tip's Y.
+    /// Coefficient in the tip's Y.
     pub tip: T,
 }
 
@@ -65,7 +65,7 @@ pub(crate) struct Expansion<const K: usize> {
 }
 
 impl<const K: usize> Even<f64, K> {
-    /// One after the other, for the fit.
+    /// Returns the coefficients one after the other, for the fit.
     fn flat(&self) -> [f64; MAX_QUANTITIES] {
         let entries = self.c.iter().flatten().chain(&self.d);
         let mut flat = [0.0; MAX_QUANTITIES];
@@ -77,7 +77,7 @@ impl<const K: usize> Even<f64, K> {
         flat
     }
 
-    /// Back from [`Self::flat`].
+    /// Inverse of [`Self::flat`].
     fn from_flat(flat: [f64; MAX_QUANTITIES]) -> Self {
         let scalars = K * K + K;
         Self {

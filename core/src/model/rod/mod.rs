@@ -45,7 +45,7 @@ pub struct Rod<const K: usize> {
     running: [[f64; POINTS]; POINTS],
 }
 
-/// What integrals over the link are made of: see [`Rod::rule`].
+/// Slopes and weights for integrals over the link: see [`Rod::rule`].
 pub(crate) struct Rule<'a, const K: usize> {
     pub slope: &'a [[f64; POINTS]; K],
     pub weights: &'a [f64; POINTS],

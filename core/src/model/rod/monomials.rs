@@ -10,12 +10,12 @@ pub(crate) struct Table<const N: usize> {
     exponents: [Exponents; N],
 }
 
-/// Of what is even in `a`.
+/// Monomials of the quantities that are even in `a`.
 pub(crate) const EVEN: Table<MAX_EVEN> =
     Table { exponents: [[2, 0, 0], [1, 1, 0], [0, 2, 0], [1, 0, 1], [0, 1, 1], [4, 0, 0]] };
 pub(crate) const MAX_EVEN: usize = 6;
 
-/// Of what is odd in `a`, beyond the linear.
+/// Monomials of the quantities that are odd in `a`, beyond the linear.
 pub(crate) const ODD: Table<MAX_ODD> =
     Table { exponents: [[3, 0, 0], [2, 1, 0], [1, 2, 0], [0, 3, 0], [2, 0, 1], [5, 0, 0]] };
 pub(crate) const MAX_ODD: usize = 6;
@@ -43,7 +43,7 @@ impl<const N: usize> Table<N> {
 /// Highest exponent.
 const DEGREE: usize = 5;
 
-/// Is it a monomial of the first `K` modes?
+/// True if it is a monomial of the first `K` modes.
 #[inline(always)]
 const fn of_modes<const K: usize>(e: Exponents) -> bool {
     (K > 1 || e[1] == 0) && (K > 2 || e[2] == 0)

@@ -19,7 +19,7 @@ const HALF_RULE: [(f64, f64); POINTS / 2] = [
     (0.932_469_514_203_152, 0.171_324_492_379_170_4),
 ];
 
-/// What does not depend on the stiffness of a rod in `K` modes.
+/// Constants of a rod in `K` modes that do not depend on its stiffness.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RodPoints<T, const K: usize> {
     /// `W_pq`, `q ≤ p`.
@@ -52,7 +52,7 @@ struct Points<T> {
     root: [T; 2],
 }
 
-/// What the arm does to its hub.
+/// Loads of the arm on its hub, and its tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Load<T> {
     /// Hub torque, N m.
@@ -197,7 +197,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         points
     }
 
-    /// Of each point, what all the others and the clamp put on it; and the mass matrix.
+    /// Returns the force at each point by all the others and the clamp, and the mass matrix.
     #[inline(always)]
     fn forces(&self, points: &Points<T>) -> ([T; POINTS], Band<T, K, K>) {
         let Points { sin, cos, spin, turn, root } = points;

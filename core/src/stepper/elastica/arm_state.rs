@@ -1,4 +1,4 @@
-//! How the arm bends and moves, apart from any stepper.
+//! Shape and motion of the arm, independent of any stepper.
 
 use super::{Elastica, ElasticaState};
 use crate::hub::HubState;
@@ -23,7 +23,7 @@ impl<T: Scalar, const K: usize> ArmState<T, K> {
 const ROUNDS: usize = 16;
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
-    /// How the arm of a state bends and moves, the hub as it was at that instant.
+    /// Returns shape and motion of the arm in `state`. `hub` is the hub at the same instant.
     pub fn arm_state(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> ArmState<T, K> {
         let value = self.nonlinear.evaluate::<true, true>(&state.y, hub);
         ArmState {
@@ -32,7 +32,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         }
     }
 
-    /// The state of an arm that bends and moves so, e.g. as measured, on a hub that is as given.
+    /// Returns the state of an arm with this shape and motion, e.g. as measured, on the given hub.
     /// Set-up only.
     pub fn state_of(&self, flex: &ArmState<T, K>, hub: &HubState<T>) -> ElasticaState<T, K> {
         let mut y: [[T; 2]; K] =

@@ -86,7 +86,7 @@ pub struct Elastica<T, const K: usize> {
     /// Changes of `ωa` and `p̃` per first moment of a kink, see [`kick`].
     kink: [[T; 2]; K],
     tick: f64,
-    /// What the range admits: see [`Rod::bend`].
+    /// Largest tip angle that moves may bend the link by, rad: see [`Rod::bend`].
     bend: f64,
     sag: f64,
     flexibility: f64,

@@ -113,7 +113,7 @@ impl<T: Scalar> Mode<T> {
         [y[0] + (turned[0] - drift[0]), y[1] + (damped - drift[1])]
     }
 
-    /// How far an undamped mode is from the centre that it turns about in the mean.
+    /// Returns the distance of an undamped mode from the mean centre that it turns about.
     #[inline(always)]
     pub(super) fn off(&self, y: [T; 2], offset: [T; 2], drift: [T; 2]) -> [T; 2] {
         [

@@ -1,4 +1,4 @@
-//! What the exact kinematics add to the linear oscillators, as the centres that these turn about.
+//! Nonlinear terms of the exact kinematics, as the centres that the linear oscillators turn about.
 
 use super::polynomial::{Axial, Even, Local, Odd, Order, Shape};
 use super::reach::Reach;
@@ -14,7 +14,7 @@ pub(super) struct Nonlinear<T, const K: usize> {
     c: [Even<T, K>; K],
     d: [Even<T, K>; K],
     e: Even<T, K>,
-    /// `Cₖ₂` likewise, `k > 1`.
+    /// `Cₖ₂` without its value at rest, `k > 1`.
     second: [Axial<T>; K],
     /// `b = d(0)`, `J_h − e(0)` and `J_h`.
     coupling: [T; K],
@@ -43,7 +43,7 @@ pub(super) struct Value<T, const K: usize> {
     pub offset: [[T; 2]; K],
     /// `ṫ + αt + ∂V/∂θ + J_h θ̈` but for what is proportional to θ̈.
     pub torque: T,
-    /// What is.
+    /// Inertia: the factor of θ̈ in that torque, kg m².
     pub inertia: T,
 }
 
@@ -56,7 +56,7 @@ struct Forms<T, const K: usize> {
     second: [(T, T); K],
 }
 
-/// How the arm moves.
+/// Momentum and velocities of the arm.
 struct Flow<T, const K: usize> {
     omega: T,
     /// `p` and `v₂`: the third mode's velocity acts on nothing.
@@ -203,7 +203,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         hub.cos * (self.moment_at_rest + along.value) - hub.sin * self.moment.1.value(shape)
     }
 
-    /// `ṫ + αt` but for what is proportional to `θ̈`, and what is.
+    /// Returns `ṫ + αt` without its part proportional to `θ̈`, and the factor of `θ̈` in that part.
     ///
     /// `t = d·z − ωe` changes with `ṗ`, `v̇₂`, `v̇₃`, and these with `Ṗ`: the levers `M⁻¹h` of the
     /// momenta, last mode first, gather both.

@@ -1,9 +1,9 @@
-//! What keeps an arm that nothing damps from gaining energy while its hub rests.
+//! Numerical damping: keeps an undamped arm from gaining energy while its hub rests.
 
 use crate::math::{Scalar, sqrt};
 use crate::model::Rod;
 
-/// Energy gained a step, of itself, per `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in
+/// Relative energy growth per step, divided by `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in
 /// several: 9e-4 to 1.1e-3 of small bends as measured on bare and loaded links from ω₁h = 0.03 to
 /// 3; of one mode up to 3.5e-3 at one radian, where others take energy from it.
 const ENERGY_GROWTH: [f64; 2] = [3.5e-3, 1.2e-3];
@@ -46,7 +46,7 @@ impl<T: Scalar, const K: usize> NumericalDamping<T, K> {
         }
     }
 
-    /// The first mode's offset that bends the tip by so many rad.
+    /// Returns the offset of the first mode that bends the tip by `bend` rad.
     pub(super) fn offset(&self, bend: f64) -> T {
         T::from_f64(bend / sqrt(self.bend.to_f64()))
     }

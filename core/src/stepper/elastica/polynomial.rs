@@ -22,7 +22,7 @@ impl<T: Scalar, const K: usize> Shape<T, K> {
     }
 }
 
-/// How often a factor of a mode beyond the first may occur in a monomial of a quantity.
+/// Highest degree in the modes beyond the first of the monomials of a quantity.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Order {
     Second,
@@ -119,7 +119,7 @@ impl<T: Scalar> Axial<T> {
 pub(super) struct Odd<T, const K: usize> {
     linear: [T; K],
     square: [T; K],
-    /// Of `x₁x₂²` and `x₂³`.
+    /// Coefficients of `x₁x₂²` and `x₂³`.
     second: [T; 2],
     fifth: T,
 }

@@ -9,7 +9,7 @@ use crate::math::Scalar;
 /// `|ωa| + |p̃|` reaches `(1 + 3√2)c`, 2.6 ranges. What is fitted is therefore left as it is.
 const REACH: f64 = 3.0;
 
-/// How much further, in their own ranges, the other modes may go. What they reach is less well
+/// Factor by which the other modes may go further, in their own ranges. Their reach is less well
 /// known, and their polynomials are of second degree only.
 const LOOSER: f64 = 4.0;
 
@@ -114,7 +114,7 @@ mod tests {
         }
     }
 
-    /// What an argument alone is clipped to is the bound, not less: just beyond it and far out.
+    /// An argument alone is clipped to the bound, not to less: just beyond it and far out.
     #[test]
     fn far_out_an_argument_alone_is_at_its_bound() {
         let reach = Reach::<f32, 3>::new(&OMEGA, &RANGE);

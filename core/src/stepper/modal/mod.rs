@@ -22,7 +22,7 @@ use crate::motion::Peaks;
 /// with `Γ = ΦᵀGΦ`, `Π = ΦᵀK_PΦ`, `b = ΦᵀF`, `f = Φᵀf_g`. Exact for any tick where the right-hand
 /// side's last three terms, the force, vanish and `θ̈` is a parabola; the force is taken along as a
 /// straight line to its value at the end, of second order, in linear ticks at the predicted end.
-/// What remains is the small-deflection model's own error, about 0.1 (w/L)².
+/// The remaining error is that of the small-deflection model, about 0.1 (w/L)².
 ///
 /// The tick works with `ωa`, `ωȧ` and the force over `ω`: a mode then rests at its force, and the
 /// coupling matrices stay symmetric.

@@ -17,12 +17,12 @@
 //!
 //! which needs neither h nor `v` itself, and no difference of large numbers.
 //!
-//! Where the matrices are full (one or two elements, lumped mass), `q` is taken along the principal
-//! axes of `G` in the metric of `K`: `K` is then the identity and `G` a diagonal, and only the
-//! solve with the mass is left to couple the coordinates. The scheme is the same, at a third less
-//! work with one element. Not modes: with `K` exact on the diagonal the lowest of them loses
-//! nothing to rounding, and the spin terms stay off the coupling. Banded matrices would fill; they
-//! keep the nodes' `q`.
+//! With full matrices (one or two elements, lumped mass), `q` is taken along the principal axes of
+//! `G` in the metric of `K`: `K` is then the identity and `G` a diagonal, and only the solve with
+//! the mass is left to couple the coordinates. The scheme is the same, at a third less work with
+//! one element. Not modes: with `K` exact on the diagonal the lowest of them loses nothing to
+//! rounding, and the spin terms stay off the coupling. Banded matrices would fill; they keep the
+//! nodes' `q`.
 
 mod respond;
 mod setup;
@@ -114,7 +114,7 @@ impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W> {
 }
 
 impl<T: Scalar, const N: usize, const W: usize> Newmark<T, N, W, false> {
-    /// As [`Newmark::new`], in the nodes' own coordinates.
+    /// Factors the model as [`Newmark::new`] does, in the nodes' own coordinates.
     pub fn nodal<P: Scalar>(model: &Model<N, W, P>, tick: f64) -> Result<Self, Error> {
         Self::set_up(model, tick)
     }

@@ -1,4 +1,4 @@
-//! What the state means to the hub and at the tip.
+//! Torque at the hub and position of the tip, from the state.
 
 use super::{Newmark, NewmarkState};
 use crate::hub::HubState;

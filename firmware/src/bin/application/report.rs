@@ -10,7 +10,7 @@ use crate::{board, shared};
 // The log is kept in ticks, as everything else.
 defmt::timestamp!("{=u32}", MADE.load(Ordering::Relaxed));
 
-/// What a tick costs, whether ticks come in time, how the axes are.
+/// Reports the cost of a tick, the ticks that did not come in time, and the state of the axes.
 #[embassy_executor::task]
 pub async fn run() {
     let mut ticker = Ticker::every(Duration::from_secs(1));

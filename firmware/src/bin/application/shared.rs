@@ -1,5 +1,5 @@
-//! What the tick shares with the tasks below it. Whoever looks at it masks the tick for as long: a
-//! copy in, a copy out, no planning.
+//! State that the tick shares with the tasks below it. Access masks the tick for as long: a copy
+//! in, a copy out, no planning.
 
 use core::cell::RefCell;
 

@@ -37,7 +37,7 @@ mod planner {
             planner.as_ref().ok_or(stillbeam_protocol::Refusal::NoPlanner)
         }
 
-        /// The arm is another.
+        /// Drops the planner of an axis whose arm has changed.
         pub fn forget(&mut self, axis: usize) {
             if let Some(planner) = self.0.get_mut(axis) {
                 *planner = None;
@@ -53,7 +53,7 @@ mod planner {
 
     use crate::shared::Outcome;
 
-    /// None is built in.
+    /// Stands for the planner in a build without one.
     pub enum Planner {}
 
     impl Planner {

@@ -33,7 +33,7 @@ use serial::{Receiver, Transmitter, UARTS};
 use stillbeam_firmware::exit;
 use time::time;
 
-/// What [`cost`] counts.
+/// Unit of [`cost`].
 pub const UNIT: &str = "instructions";
 /// Rate of [`counts`].
 pub const COUNTS_PER_SECOND: u32 = 25_000_000;
@@ -129,8 +129,8 @@ unsafe impl InterruptNumber for Irq {
     }
 }
 
-/// Of the tick, above the lines, below the alarm; of the tasks, below those; of the plans, below
-/// all.
+/// Priorities of the interrupts: the tick is above the lines and below the alarm, the tasks are
+/// below those, the plans below all.
 const PRIORITIES: [(Irq, u8); 6] = [
     (Irq::Alarm, 0x20),
     (Irq::Tick, 0x40),

@@ -31,7 +31,7 @@ use stillbeam::drive::ClassicFrame;
 
 use crate::tick::MICROSECONDS;
 
-/// What [`cost`] counts.
+/// Unit of [`cost`].
 pub const UNIT: &str = "cycles";
 /// Rate of [`counts`]: the core's clock.
 pub const COUNTS_PER_SECOND: u32 = 170_000_000;
@@ -162,7 +162,7 @@ unsafe fn USART3() {
 /// Starts the tasks that only this board has: none.
 pub fn more(_: Spawner) {}
 
-/// Nothing is pended: sleep.
+/// Sleeps until an interrupt is pended.
 pub fn idle() {
     cortex_m::asm::wfi();
 }
