@@ -1,5 +1,5 @@
-//! The scenes that the target runs, as Rust constants: written from the scene files by a command,
-//! checked by a test. A build script would compile the whole simulation for every target folder.
+//! The scenes that the target runs, as Rust constants. A command writes them from the scene files,
+//! a test checks them. A build script would compile the whole simulation for every target folder.
 
 use std::fmt::Write;
 
@@ -7,14 +7,14 @@ use stillbeam_sim::scenes;
 
 use crate::root;
 
-/// The file of the constants, from the workspace's root.
+/// Path of the file of the constants, from the workspace's root.
 pub const PATH: &str = "tests/golden/src/embedded.in";
 
-/// The constants of every embedded scene. `Debug` writes these types as Rust does, and every bit of
-/// a number.
+/// Returns the constants of every embedded scene. `Debug` writes these types as Rust does, and
+/// every bit of a number.
 ///
 /// # Errors
-/// What is wrong with a scene file.
+/// An error is returned if a scene file is wrong.
 pub fn constants() -> Result<String, String> {
     let mut text = String::from("&[\n");
     for (name, _) in scenes::list() {
@@ -38,7 +38,7 @@ pub fn constants() -> Result<String, String> {
 /// Writes the constants.
 ///
 /// # Errors
-/// What is wrong with a scene file, or why the file cannot be written.
+/// An error is returned if a scene file is wrong or the constants' file cannot be written.
 pub fn write() -> Result<(), String> {
     let text = constants()?;
     std::fs::write(root().join(PATH), text).map_err(|error| format!("{PATH}: {error}"))

@@ -8,21 +8,21 @@ use std::time::Duration;
 
 use wait_timeout::ChildExt;
 
-/// How time passes in the emulator.
+/// Clock of the emulator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clock {
-    /// As on the host: fastest.
+    /// The host's time, the fastest.
     Host,
     /// 1,024 ns an instruction, so that the target can count its instructions.
     Instructions,
 }
 
-/// A board that QEMU emulates; their maps of memory and devices are the same.
+/// A board that QEMU emulates. Their maps of memory and devices are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Board {
     /// Cortex-M4F, with an FPU for single precision.
     An386,
-    /// Cortex-M3, without one.
+    /// Cortex-M3, without an FPU.
     An385,
 }
 
@@ -32,7 +32,8 @@ pub const LIMIT: Duration = Duration::from_secs(120);
 /// Runs `image` on the Cortex-M4F and returns what it printed.
 ///
 /// # Errors
-/// QEMU is missing, the image fails (with its exit code and messages), or the time is over.
+/// An error is returned if QEMU is missing, the image fails (with its exit code and messages), or
+/// the time is over.
 pub fn run(image: &Path, clock: Clock, limit: Duration) -> Result<Vec<u8>, String> {
     run_on(Board::An386, image, clock, limit)
 }
@@ -40,7 +41,7 @@ pub fn run(image: &Path, clock: Clock, limit: Duration) -> Result<Vec<u8>, Strin
 /// Runs `image` on a board and returns what it printed.
 ///
 /// # Errors
-/// As [`run`].
+/// Errors are those of [`run`].
 pub fn run_on(
     board: Board,
     image: &Path,
@@ -91,7 +92,7 @@ pub fn run_on(
     }
 }
 
-/// Reads a pipe to its end beside the run: a full pipe would stop the emulator.
+/// Reads a pipe to its end beside the run, because a full pipe would stop the emulator.
 fn collect(pipe: Option<impl Read + Send + 'static>) -> thread::JoinHandle<Vec<u8>> {
     thread::spawn(move || {
         let mut bytes = Vec::new();

@@ -8,17 +8,17 @@ use std::{env, fs};
 
 use crate::root;
 
-/// The target that the images are built for.
+/// Target for which the images are built.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
-/// A processor without floating-point unit, for the bench.
+/// Target of a processor without floating-point unit, for the bench.
 pub const SOFT_TARGET: &str = "thumbv7m-none-eabi";
 
-/// An image, or what cargo said.
+/// Path of an image, or cargo's messages.
 type Built = Result<PathBuf, String>;
 
-/// The images that this process has built, by the name that each is kept under. Images are built
-/// one after the other: cargo gives variants of a program the same file name.
+/// Images that this process has built, by the name under which each is kept. Images are built one
+/// after the other, because cargo gives variants of a program the same file name.
 static IMAGES: Mutex<BTreeMap<String, Built>> = Mutex::new(BTreeMap::new());
 
 /// Builds the image `name` unless this process has built it before.
@@ -35,7 +35,7 @@ fn once(name: String, build: impl FnOnce(&str) -> Built) -> Built {
 /// Builds the program `bin` and returns its image.
 ///
 /// # Errors
-/// What cargo said, or which target to install.
+/// An error is returned with cargo's messages or with the target to install.
 pub fn build(bin: &str) -> Built {
     build_variant(TARGET, bin, None)
 }
@@ -43,7 +43,7 @@ pub fn build(bin: &str) -> Built {
 /// Builds the program `bin` for a processor without floating-point unit.
 ///
 /// # Errors
-/// As [`build`].
+/// Errors are those of [`build`].
 pub fn build_soft(bin: &str) -> Built {
     build_variant(SOFT_TARGET, bin, None)
 }
@@ -51,7 +51,7 @@ pub fn build_soft(bin: &str) -> Built {
 /// Builds `bin` with one environment variable, on which the program's source depends.
 ///
 /// # Errors
-/// As [`build`].
+/// Errors are those of [`build`].
 pub fn build_with(bin: &str, variable: &str, value: &str) -> Built {
     build_variant(TARGET, bin, Some((variable, value)))
 }
@@ -59,7 +59,7 @@ pub fn build_with(bin: &str, variable: &str, value: &str) -> Built {
 /// Builds the application for a board, by the board's feature and others behind it.
 ///
 /// # Errors
-/// As [`build`].
+/// Errors are those of [`build`].
 pub fn application(features: &str) -> Built {
     once(application_name(features), |name| as_application("application", features, None, name))
 }
@@ -68,7 +68,7 @@ pub fn application(features: &str) -> Built {
 /// built.
 ///
 /// # Errors
-/// As [`build`].
+/// Errors are those of [`build`].
 pub fn fit(method: &str) -> Built {
     let variable = Some(("STILLBEAM_METHOD", method));
     once(format!("fit-{method}"), |name| as_application("fit", "mps2", variable, name))
@@ -78,7 +78,8 @@ pub fn fit(method: &str) -> Built {
 /// file itself stays. The image's name ends with `name`.
 ///
 /// # Errors
-/// As [`build`]; `from` does not stand in `axes.rs` exactly once.
+/// Errors are those of [`build`]. An error is also returned if `from` does not stand in `axes.rs`
+/// exactly once.
 pub fn changed_application(board: &str, name: &str, [from, to]: [&str; 2]) -> Built {
     let path = root().join("wiring/src/axes.rs");
     let axes = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
@@ -131,7 +132,7 @@ fn build_variant(target: &str, bin: &str, variable: Option<(&str, &str)>) -> Bui
     })
 }
 
-/// Variants share a file name: each is kept under one of its own.
+/// Keeps an image under a name of its own, because variants share a file name.
 fn keep(folder: &Path, target: &str, profile: &str, bin: &str, name: &str) -> Built {
     let built = folder.join(target).join(profile).join(bin);
     let kept = folder.join("images").join(name);
@@ -141,8 +142,8 @@ fn keep(folder: &Path, target: &str, profile: &str, bin: &str, name: &str) -> Bu
     Ok(kept)
 }
 
-/// Cargo in the workspace's root, free of what the cargo that runs the tests has set: flags from
-/// the environment would replace those of `.cargo/config.toml`.
+/// Returns cargo in the workspace's root, without the environment that the cargo of the tests has
+/// set. Flags from the environment would replace those of `.cargo/config.toml`.
 pub fn cargo() -> Command {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(root());
@@ -155,7 +156,7 @@ pub fn cargo() -> Command {
 /// Runs a command to its end.
 ///
 /// # Errors
-/// The command and what it printed, if it failed.
+/// An error is returned if the command fails. It holds the command and its output.
 pub fn run(command: &mut Command) -> Result<String, String> {
     let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
     if output.status.success() {
@@ -166,10 +167,10 @@ pub fn run(command: &mut Command) -> Result<String, String> {
     }
 }
 
-/// True if the compiler has the target's core library.
+/// Checks that the compiler has the target's core library.
 ///
 /// # Errors
-/// How to install it.
+/// An error is returned if it is missing. It tells how to install it.
 pub fn require_target(target: &str) -> Result<(), String> {
     let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let folder = run(Command::new(rustc).current_dir(root()).args([

@@ -1,5 +1,5 @@
-//! The numbers in `docs/firmware.md` and the transcript in `README.md`: written by a command,
-//! checked by a test.
+//! The numbers in `docs/firmware.md` and the transcript in `README.md`. A command writes them, a
+//! test checks them.
 
 use std::fmt::Write;
 
@@ -17,8 +17,7 @@ use crate::{firmware, image};
 const INSTRUCTIONS: u32 = 156_250;
 const SHARE: u32 = INSTRUCTIONS / 2;
 
-/// The methods in the table of axes: how the page names them, and their names in the list of
-/// methods.
+/// Methods in the table of axes: their names on the page and in the list of methods.
 pub const FITTED: [(&str, &str); 17] = [
     ("rigid", "RigidArm"),
     ("newmark 1 consistent", "Newmark1"),
@@ -42,14 +41,14 @@ pub const FITTED: [(&str, &str); 17] = [
 /// Instructions of a tick of two axes in the application's profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fit {
-    /// Worst while both move.
+    /// Worst tick while both move.
     pub moving: u32,
-    /// Worst of all: both plan their stop in it.
+    /// Worst tick of all, in which both plan their stop.
     pub worst: u32,
 }
 
 impl Fit {
-    /// How many axes the tick has time for.
+    /// Returns the number of axes for which the tick has time.
     pub fn axes(&self) -> u32 {
         2 * SHARE / self.worst
     }
@@ -58,7 +57,7 @@ impl Fit {
 /// Runs the demonstrations and measures the application's images.
 ///
 /// # Errors
-/// What is missing, or does not build or run.
+/// An error is returned if something is missing, or does not build or run.
 pub fn blocks() -> Result<Vec<Block>, String> {
     let whole = talk("mps2", &DEMONSTRATION, "stillbeam-sim talk")?;
     let first = talk("mps2", &FIRST, &spelled(&FIRST))?;
@@ -77,7 +76,7 @@ pub fn blocks() -> Result<Vec<Block>, String> {
 /// Returns the page with those of the blocks that it has a place for.
 ///
 /// # Errors
-/// A block begins and does not end.
+/// An error is returned if a block begins and does not end.
 pub fn replace(page: &str, blocks: &[Block]) -> Result<String, String> {
     let own = blocks.iter().filter(|block| markers::has(page, &block.name)).cloned();
     markers::fill(page, &own.collect::<Vec<_>>()).map_err(|error| error.to_string())
@@ -86,11 +85,11 @@ pub fn replace(page: &str, blocks: &[Block]) -> Result<String, String> {
 /// A conversation with the emulated board.
 struct Talk {
     transcript: String,
-    /// Deepest, bytes.
+    /// Deepest stack, bytes.
     stack: u32,
 }
 
-/// The command that takes these steps.
+/// Returns the command that takes these steps.
 fn spelled(steps: &[&str]) -> String {
     let quoted = steps.iter().map(|step| match step.contains(' ') {
         true => format!("\"{step}\""),
@@ -145,7 +144,7 @@ fn sizes(stack: u32, still: u32) -> Result<String, String> {
 /// Builds and runs the image of two axes with one method, by its name in the list of methods.
 ///
 /// # Errors
-/// What is missing, or what the build, the emulator or the image said.
+/// An error is returned if something is missing or fails: the build, the emulator or the image.
 pub fn fit(id: &str) -> Result<Fit, String> {
     let printed = emulator::run(&firmware::fit(id)?, Clock::Instructions, LIMIT)?;
     let printed = String::from_utf8_lossy(&printed);
@@ -156,10 +155,10 @@ pub fn fit(id: &str) -> Result<Fit, String> {
     }
 }
 
-/// How many axes fit, by what a tick of two costs with each method.
+/// Returns the number of axes that fit, by the cost of a tick of two with each method.
 ///
 /// # Errors
-/// As [`fit`].
+/// Errors are those of [`fit`].
 pub fn axes() -> Result<Block, String> {
     let mut text = "| method | two axes moving | worst tick of two | axes in half of 10 ms |\n\
                     |---|---|---|---|\n"
@@ -170,7 +169,7 @@ pub fn axes() -> Result<Block, String> {
     Ok(Block::new("axes", text))
 }
 
-/// A line of the table of axes.
+/// Formats a line of the table of axes.
 pub fn row(name: &str, fit: &Fit) -> String {
     format!("| {name} | {} | {} | {} |\n", fit.moving, fit.worst, fit.axes())
 }

@@ -1,4 +1,4 @@
-//! What an image takes of the target's memory.
+//! Memory that an image takes on the target.
 
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ pub struct Footprint {
 /// Reads the sections of an ELF image.
 ///
 /// # Errors
-/// The file is missing or not an image for the target.
+/// An error is returned if the file is missing or not an image for the target.
 pub fn footprint(image: &Path) -> Result<Footprint, String> {
     let bytes = read(image)?;
     let mut footprint = Footprint { flash: 0, ram: 0 };
@@ -38,10 +38,10 @@ pub fn footprint(image: &Path) -> Result<Footprint, String> {
     Ok(footprint)
 }
 
-/// Names of the functions in an image, mangled.
+/// Returns the names of the functions in an image, mangled.
 ///
 /// # Errors
-/// As [`footprint`].
+/// Errors are those of [`footprint`].
 pub fn functions(image: &Path) -> Result<Vec<String>, String> {
     let bytes = read(image)?;
     let elf = parse(image, &bytes)?;

@@ -1,15 +1,15 @@
-//! The instruction table: what the bench counted, as CSV and as the page in `docs/`.
+//! The instruction table: the counts of the bench, as CSV and as the page in `docs/`.
 
 use std::collections::BTreeMap;
 
 use crate::emulator::{self, Board, Clock, LIMIT};
 use crate::{firmware, image};
 
-/// Columns of the CSV: what a row is about, then the worst tick of each path.
+/// Columns of the CSV: the key of a row, then the worst tick of each path.
 pub const HEADER: &str = "method,size,quality,skip,tick,next_segment,next_segment_still,landing,landing_still,cruise,\
      at_rest,asleep";
 
-/// The bench's words for the paths, in the order of the columns.
+/// Names of the paths in the bench's output, in the order of the columns.
 pub const PATHS: [&str; 8] = [
     "",
     "next-segment",
@@ -21,7 +21,7 @@ pub const PATHS: [&str; 8] = [
     "at-rest asleep",
 ];
 
-/// What makes a row: method, size, quality, skip.
+/// Key of a row: method, size, quality, skip.
 pub type Key = [String; 4];
 
 /// Instructions of one path of one method.
@@ -31,18 +31,18 @@ pub struct Count {
     pub key: Key,
     /// The method's name in the list of methods.
     pub id: String,
-    /// Least of any tick.
+    /// Least instructions of any tick.
     pub least: u32,
-    /// Worst of any tick.
+    /// Worst instructions of any tick.
     pub worst: u32,
-    /// Set-up: stepper, generator and the first move's plan.
+    /// Instructions of the set-up: stepper, generator and the first move's plan.
     pub setup: u32,
 }
 
-/// One way to a sine and cosine.
+/// One implementation of sine and cosine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function {
-    /// Whose.
+    /// Name of the implementation.
     pub name: String,
     /// Least instructions for both.
     pub least: u32,
@@ -52,21 +52,21 @@ pub struct Function {
     pub error: String,
 }
 
-/// What the bench printed.
+/// Output of the bench.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bench {
-    /// Ticks.
+    /// Counts of ticks.
     pub counts: Vec<Count>,
-    /// Sines and cosines.
+    /// Counts of sines and cosines.
     pub functions: Vec<Function>,
 }
 
 /// Flash, RAM without stack and worst stack of a minimal image, bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Minimal {
-    /// Loaded bytes.
+    /// Flash: loaded bytes.
     pub flash: u64,
-    /// Statics.
+    /// RAM of statics.
     pub ram: u64,
     /// Deepest stack of set-up, one move and its ticks.
     pub stack: u32,
@@ -75,7 +75,7 @@ pub struct Minimal {
 /// Builds and runs the bench.
 ///
 /// # Errors
-/// What is missing, or what the build, the emulator or the bench said.
+/// An error is returned if something is missing or fails: the build, the emulator or the bench.
 pub fn count() -> Result<Bench, String> {
     let image = firmware::build("bench")?;
     parse(&String::from_utf8_lossy(&emulator::run(&image, Clock::Instructions, LIMIT)?))
@@ -84,7 +84,7 @@ pub fn count() -> Result<Bench, String> {
 /// Builds the bench for a processor without floating-point unit and runs it there.
 ///
 /// # Errors
-/// As [`count`].
+/// Errors are those of [`count`].
 pub fn count_soft() -> Result<Bench, String> {
     let image = firmware::build_soft("bench")?;
     let printed = emulator::run_on(Board::An385, &image, Clock::Instructions, LIMIT)?;
@@ -94,7 +94,7 @@ pub fn count_soft() -> Result<Bench, String> {
 /// Builds and runs the minimal image of one method, by its name in the list of methods.
 ///
 /// # Errors
-/// As [`count`].
+/// Errors are those of [`count`].
 pub fn minimal(id: &str) -> Result<Minimal, String> {
     let image = firmware::build_with("minimal", "STILLBEAM_METHOD", id)?;
     let footprint = image::footprint(&image)?;
@@ -106,7 +106,7 @@ pub fn minimal(id: &str) -> Result<Minimal, String> {
 /// Reads the bench's lines.
 ///
 /// # Errors
-/// The first line that is not one.
+/// An error is returned for the first line that is not one of the bench's.
 pub fn parse(lines: &str) -> Result<Bench, String> {
     let mut bench = Bench::default();
     for line in lines.lines() {
@@ -135,20 +135,20 @@ pub fn parse(lines: &str) -> Result<Bench, String> {
     if bench.counts.is_empty() { Err("the bench printed nothing".into()) } else { Ok(bench) }
 }
 
-/// The words of `skip` that say what the scene or the method leaves out, and those of the path.
+/// Splits `skip` into the words for what the scene or the method leaves out, and those of the path.
 fn split(skip: &str) -> (String, String) {
     let (terms, path): (Vec<_>, Vec<_>) =
         skip.split_whitespace().partition(|word| word.starts_with("no-"));
     (terms.join(" "), path.join(" "))
 }
 
-/// A payload and a hub radius change no operation, which a test asserts: their rows would repeat
-/// others.
+/// True if a row would repeat others. A payload and a hub radius change no operation, which a test
+/// asserts.
 fn repeats(count: &Count) -> bool {
     ["no-payload", "no-radius"].iter().any(|word| count.key[3].contains(word))
 }
 
-/// The CSV of ticks: a row for what is left out, a column a path.
+/// Returns the CSV of ticks: a row for each key, a column for each path.
 pub fn csv(bench: &Bench) -> String {
     let mut rows: Vec<(String, [String; PATHS.len()])> = Vec::new();
     for count in bench.counts.iter().filter(|count| !repeats(count)) {
@@ -166,10 +166,10 @@ pub fn csv(bench: &Bench) -> String {
     format!("{HEADER}\n{}", lines.collect::<String>())
 }
 
-/// The worst tick of each method, size, quality and skip in a CSV.
+/// Reads the worst tick of each method, size, quality and skip in a CSV.
 ///
 /// # Errors
-/// The header or the first line that is not as expected.
+/// An error is returned for the header or the first line that is not as expected.
 pub fn ticks(csv: &str) -> Result<BTreeMap<Key, u32>, String> {
     let mut lines = csv.lines();
     if lines.next() != Some(HEADER) {
@@ -191,10 +191,11 @@ pub fn ticks(csv: &str) -> Result<BTreeMap<Key, u32>, String> {
     Ok(ticks)
 }
 
-/// Ticks that grew by more than `percent` against the CSV, and rows that only one of them has.
+/// Returns the ticks that grew by more than `percent` against the CSV, and rows that only one of
+/// them has.
 ///
 /// # Errors
-/// The CSV is not one.
+/// An error is returned if the CSV is not one.
 pub fn regressions(bench: &Bench, csv: &str, percent: u32) -> Result<Vec<String>, String> {
     let mut before = ticks(csv)?;
     let mut found = Vec::new();

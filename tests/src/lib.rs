@@ -1,6 +1,6 @@
 #![forbid(unsafe_code)]
-//! What the tests share: truth files and the scenes they belong to; building the firmware, running
-//! it in QEMU, comparing its stream, the table of instructions.
+//! Code that the tests share: truth files and their scenes, building the firmware, running it in
+//! QEMU, comparing its stream, the table of instructions.
 
 pub mod embedded;
 pub mod emulator;
@@ -20,35 +20,35 @@ use stillbeam_sim::table::{self, Row};
 
 pub use stillbeam_lab::reference::truth::NAMES as TRUTH_SCENES;
 
-/// The workspace's root folder.
+/// Returns the workspace's root folder.
 pub fn root() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// A file of `tests/truth/`.
+/// Returns the path of a file of `tests/truth/`.
 pub fn truth_path(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("truth").join(file)
 }
 
-/// The scene and its truth.
+/// Reads a scene and its truth.
 ///
 /// # Panics
-/// If a committed file cannot be read.
+/// Panics if a committed file cannot be read.
 pub fn truth(name: &str) -> (SceneFile, Vec<Row>) {
     let scene = scenes::open(name).expect("an embedded scene");
     let rows = table::read(&truth_path(&format!("{name}.csv"))).expect("committed truth");
     (scene, rows)
 }
 
-/// Newmark with consistent mass.
+/// Returns Newmark with consistent mass.
 pub fn newmark(elements: usize, tick: f64, scalar: Scalar) -> Solver {
     Solver { elements, mass: Mass::Consistent, tick, scalar, ..Solver::PAPER }
 }
 
-/// Asserts `|value − expected| ≤ tolerance` and says by how much it fails.
+/// Asserts `|value − expected| ≤ tolerance`. The message gives all three.
 ///
 /// # Panics
-/// If it does not hold.
+/// Panics if it does not hold.
 #[track_caller]
 pub fn assert_near(what: &str, value: f64, expected: f64, tolerance: f64) {
     assert!(

@@ -25,13 +25,13 @@ const COLUMNS: [(&str, &[&str]); 8] = [
 /// Returns the page with its tables replaced.
 ///
 /// # Errors
-/// The markers are missing.
+/// An error is returned if the markers are missing.
 pub fn replace(page: &str, tables: &str) -> Result<String, String> {
     let block = Block::new("instructions", tables.to_owned());
     markers::fill(page, &[block]).map_err(|error| format!("docs/instructions.md: {error}"))
 }
 
-/// The tables: of the processor with an FPU, and of one without.
+/// Returns the tables of the processor with an FPU and of one without.
 pub fn tables(bench: &Bench, soft: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
     let sections = [
         methods(bench, minimal),
@@ -83,7 +83,7 @@ fn methods(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
     text
 }
 
-/// What a rigid arm's tick costs with each motion: the difference is the motion's.
+/// Returns the cost of a rigid arm's tick with each motion. The difference is the motion's.
 fn motions(bench: &Bench) -> String {
     let mut text = "### The motion's share: a rigid arm, no damping, no gravity\n\n\
                     | motion | path | least | worst |\n|---|---|---|---|\n"
@@ -100,7 +100,7 @@ fn motions(bench: &Bench) -> String {
     text
 }
 
-/// What a plan of a still move costs, once a move, outside the tick.
+/// Returns the cost of a plan of a still move, once a move, outside the tick.
 fn plans(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
     let mut text = "### A plan of a still move, once a move, outside the tick\n\n\
                     | move | instructions | set-up of the planner | flash | RAM | stack |\n\
@@ -126,8 +126,8 @@ fn functions(bench: &Bench) -> String {
     text
 }
 
-/// Ticks inside of a move, with every term and with none, where arithmetic is a call whose cost
-/// depends on its operands.
+/// Returns the ticks inside of a move, with every term and with none, without an FPU. There
+/// arithmetic is a call whose cost depends on its operands.
 pub fn without_fpu(soft: &Bench) -> String {
     let mut text = "### Without an FPU (Cortex-M3): ticks inside of a move, one path\n\n\
                     | method | size | terms | least | worst | spread |\n|---|---|---|---|---|---|\n"
@@ -156,7 +156,7 @@ fn skips(count: &Count) -> Vec<&str> {
     count.key[3].split_whitespace().collect()
 }
 
-/// A rigid arm's rows name the motion where it is not the cubic.
+/// True if a rigid arm's row names a motion, that is, one other than the cubic.
 fn motion(count: &Count) -> bool {
     count.key[0] == "rigid" && !count.key[2].is_empty()
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use stillbeam_golden::record::{self, BYTES, FIELDS};
 use stillbeam_golden::{Case, run};
 
-/// Where host and target part.
+/// First difference between host and target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mismatch {
     /// A field differs.
@@ -30,9 +30,9 @@ pub enum Mismatch {
     },
     /// The streams have different lengths.
     Length {
-        /// Bytes of the host's.
+        /// Length of the host's stream, bytes.
         host: usize,
-        /// Bytes of the target's.
+        /// Length of the target's stream, bytes.
         target: usize,
     },
 }
@@ -56,19 +56,19 @@ impl fmt::Display for Mismatch {
     }
 }
 
-/// What was compared.
+/// Amount that was compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Agreement {
-    /// Scenes with a method each.
+    /// Number of scenes with a method each.
     pub cases: u32,
-    /// Setpoints of all of them.
+    /// Number of setpoints in all of them.
     pub setpoints: usize,
 }
 
-/// The host's own stream.
+/// Returns the host's own stream.
 ///
 /// # Panics
-/// If the core refuses an embedded scene.
+/// Panics if the core refuses an embedded scene.
 pub fn host() -> Vec<u8> {
     let mut bytes = Vec::new();
     run(&mut |case, tick, setpoint| {
@@ -78,11 +78,11 @@ pub fn host() -> Vec<u8> {
     bytes
 }
 
-/// Steps every case on the host and compares it with what the target sent. The sign of a NaN,
-/// which differs between processors, is left out; every other bit of every field counts.
+/// Steps every case on the host and compares it with the target's stream. The sign of a NaN, which
+/// differs between processors, is left out. Every other bit of every field counts.
 ///
 /// # Errors
-/// The first difference.
+/// An error is returned with the first difference.
 pub fn compare(target: &[u8]) -> Result<Agreement, Mismatch> {
     let mut records = target.chunks_exact(BYTES);
     let mut setpoints = 0;

@@ -1,6 +1,6 @@
-//! Tables and numbers as the pages write them.
+//! Tables and numbers in the format of the pages.
 
-/// Markdown with columns of even width; the first to the left, numbers to the right.
+/// Formats Markdown with columns of even width, the first to the left, numbers to the right.
 pub fn aligned(lines: &[Vec<String>]) -> String {
     let columns = lines.first().map_or(0, Vec::len);
     let width = |c: usize| {
@@ -25,7 +25,7 @@ pub fn aligned(lines: &[Vec<String>]) -> String {
     text
 }
 
-/// A count with a comma between its thousands.
+/// Formats a count with a comma between its thousands.
 pub fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut text = String::new();
@@ -38,7 +38,8 @@ pub fn grouped(count: u64) -> String {
     text
 }
 
-/// The value below which a share of the rising values lies, 0 to 1; none of no values.
+/// Returns the value below which a share of the rising values lies, 0 to 1. Returns `None` without
+/// values.
 pub fn quantile<T: Copy>(sorted: &[T], share: f64) -> Option<T> {
     let last = sorted.len().checked_sub(1)?;
     sorted.get((last as f64 * share) as usize).copied()

@@ -32,7 +32,6 @@ pub(super) const FAR: f64 = 2.5;
 /// Largest change of a rung's error from one judge to the next, fraction of its distance from the
 /// tolerance. Each polynomial more takes half of the remaining error or less, so that the remainder
 /// is no larger than the change.
-/// is no larger than the change.
 pub(super) const CHANGE: f64 = 0.25;
 
 /// Largest change if the error is below twice the tolerance, fraction of the tolerance.

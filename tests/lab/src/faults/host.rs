@@ -96,7 +96,7 @@ pub const EDGES: [f64; 12] = [
     167_772.16,
 ];
 
-/// Draws a number of any bits, or one of [`EDGES`].
+/// Draws a number of any bits, one of [`EDGES`], or one from −10 to 10.
 pub fn any(rng: &mut StdRng) -> f64 {
     match rng.random_range(0..3) {
         0 => f64::from_bits(rng.random()),

@@ -107,8 +107,8 @@ fn damping(rng: &mut StdRng, omega: f64) -> Damping {
     Damping { alpha: 2.0 * ratio * omega * share, beta: 2.0 * ratio / omega * (1.0 - share) }
 }
 
-/// Draws gravity; half of the arms that feel it carry it. `softness` is the tip's sag at 1 m/s²,
-/// over L.
+/// Draws gravity. Half of the arms that feel it are given no more than they carry. `softness` is
+/// the tip's sag at 1 m/s², over L.
 fn gravity(rng: &mut StdRng, softness: f64) -> f64 {
     if rng.random_bool(0.4) {
         return 0.0;

@@ -64,7 +64,8 @@ pub struct Counts {
     pub torque: Spread,
 }
 
-/// rad: an f32's part of a turn, and an f64's angle of 10⁶ rad.
+/// Largest distance from the target that is not counted, rad: an f32's part of a turn, and an f64's
+/// angle of 10⁶ rad.
 const ON_TARGET: f64 = 4e-7;
 
 impl Summary {

@@ -1,4 +1,4 @@
-//! One method on one scene, in f64 and in f32.
+//! Runs one method on one scene, in f64 and in f32.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -13,21 +13,21 @@ use stillbeam_sim::run::each_tick;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Scalar, Solver};
 
-/// Deflections are compared relative to the peak, but at least to this fraction of L: a thousand
-/// times what an arm may still swing by when it is let sleep.
+/// Least scale of compared deflections, fraction of L. They are compared relative to the peak, but
+/// at least to this: a thousand times the swing at which an arm is let sleep.
 pub const FLOOR: f64 = 1000.0 * stillbeam::stepper::SLEEP;
 
-/// Relative change of EI that a run's condition is measured with, in f64.
+/// Relative change of EI by which a run's condition is measured, in f64.
 const NUDGE: f64 = 1e-8;
 
-/// What a run has come to.
+/// Verdict on a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// Not accepted; the reason with its numbers left out.
+    /// The run was not accepted, for this reason with its numbers left out.
     Refused(String),
-    /// The program broke off: the message.
+    /// The program panicked with this message.
     Panicked(String),
-    /// Ran to its end.
+    /// The run reached its end.
     Ran(Run),
 }
 
@@ -38,18 +38,18 @@ pub struct Run {
     pub broken: [Option<u64>; 2],
     /// Distance from the last move's target, rad, f32.
     pub off_target: f64,
-    /// Largest deflection, of L, f64.
+    /// Largest deflection, over L, f64.
     pub peak: f64,
-    /// Largest difference of deflections, of their peak, see [`FLOOR`].
+    /// Largest difference of deflections, over their peak, see [`FLOOR`].
     pub deflection: f64,
-    /// Largest difference of torques, of their peak.
+    /// Largest difference of torques, over their peak.
     pub torque: f64,
-    /// Condition of the deflection: by how much of its peak it changes for a relative change of EI,
-    /// at least 1. A vibration of N rad has ½N and more, a resonance or a step that feeds the arm
-    /// has any.
+    /// Condition of the deflection: its relative change divided by a relative change of EI, at
+    /// least 1. A vibration of N rad has ½N and more. A resonance or a step that feeds the arm has
+    /// any.
     pub condition: f64,
-    /// The arm swings up during the last rest, by its own physics or by the method's, or that of
-    /// elastica deflects by more than its length: there is nothing to compare then.
+    /// True if the arm swings up during the last rest, by its own physics or by the method's, or if
+    /// that of elastica deflects by more than its length. Such runs are not compared.
     pub rings_up: bool,
     /// Ticks.
     pub ticks: u64,
@@ -71,7 +71,7 @@ pub fn trial(drawn: &Drawn, solver: &Solver) -> Verdict {
     }
 }
 
-/// What is kept of a setpoint.
+/// Fields of a setpoint that are kept.
 #[derive(Clone, Copy)]
 struct Sample {
     deflection: f64,
@@ -161,7 +161,7 @@ fn both(drawn: &Drawn, solver: &Solver) -> Result<Run, Error> {
     })
 }
 
-/// A message with every number left out, so that equal reasons read the same.
+/// Returns a message with every number left out, so that equal reasons read the same.
 pub fn reason(message: &str) -> String {
     let mut text = String::new();
     let mut inside = false;

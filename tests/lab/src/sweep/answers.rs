@@ -1,4 +1,4 @@
-//! What a choice costs, everything else equal: pairs of rows that differ in one key.
+//! Costs of a choice, everything else equal: pairs of rows that differ in one key.
 
 use super::row::Row;
 use stillbeam_sim::solver::{Mass, Scalar, Solver, SolverKeys};
@@ -6,7 +6,7 @@ use stillbeam_sim::table::significant;
 
 /// A choice that a reader has to make.
 pub struct Question {
-    /// In words.
+    /// The question in words.
     pub text: &'static str,
     names: [&'static str; 2],
     set: [fn(&mut SolverKeys); 2],
@@ -41,7 +41,7 @@ pub const QUESTIONS: [Question; 5] = [
     },
 ];
 
-/// One question on one scene around one solver.
+/// Answer to one question on one scene around one solver.
 pub struct Answer<'a> {
     /// The question.
     pub question: &'static Question,
@@ -49,14 +49,15 @@ pub struct Answer<'a> {
     pub rows: [&'a Row; 2],
 }
 
-/// The solvers around which the questions are asked: the paper's, where the tick is long and the
-/// mesh coarse, and its opposite, where neither hides what the other choices do.
+/// Returns the solvers around which the questions are asked. One is the paper's, with a long tick
+/// and a coarse mesh. The other is its opposite, where neither hides the effect of the other
+/// choices.
 pub fn bases() -> [SolverKeys; 2] {
     let coarse = SolverKeys::from(Solver::PAPER).relevant();
     [coarse, SolverKeys { elements: Some(4), tick: Some(0.001), ..coarse }]
 }
 
-/// The questions that the rows can answer on a scene around `base`.
+/// Answers the questions that the rows can answer on a scene around `base`.
 pub fn answers<'a>(rows: &'a [Row], scene: &str, base: SolverKeys) -> Vec<Answer<'a>> {
     let find = |set: fn(&mut SolverKeys)| {
         let mut keys = base;
@@ -73,7 +74,7 @@ pub fn answers<'a>(rows: &'a [Row], scene: &str, base: SolverKeys) -> Vec<Answer
 }
 
 impl Answer<'_> {
-    /// The difference in a sentence with its numbers.
+    /// Returns the difference in a sentence with its numbers.
     pub fn sentence(&self) -> String {
         let [a, b] = self.question.names;
         let [x, y] = self.rows.map(|row| row.errors);
@@ -100,7 +101,7 @@ impl Answer<'_> {
     }
 }
 
-/// Which of two errors is the larger, and how much.
+/// Names the larger of two errors and their ratio.
 fn compare(a: &str, b: &str, x: f64, y: f64) -> String {
     let ratio = x.max(y) / x.min(y);
     let larger = if x > y { a } else { b };
@@ -117,13 +118,13 @@ fn compare(a: &str, b: &str, x: f64, y: f64) -> String {
     }
 }
 
-/// A fraction as percent, three digits.
+/// Formats a fraction as percent, three digits.
 pub fn percent(fraction: f64) -> String {
     let unit = if fraction.is_finite() { " %" } else { "" };
     format!("{}{unit}", short(100.0 * fraction))
 }
 
-/// Three significant digits, plain where that is short; what is infinite has diverged.
+/// Formats three significant digits, plain if that is short. An infinite value has diverged.
 pub fn short(x: f64) -> String {
     let x = significant(x, 3);
     let digits = if x == 0.0 { 0 } else { 2 - x.abs().log10().floor() as i32 };

@@ -1,4 +1,4 @@
-//! What a case costs: time and memory on the machine at hand, one case at a time on one thread.
+//! Cost of a case: time and memory on the machine at hand, one case at a time on one thread.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -13,7 +13,7 @@ use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::SolverKeys;
 use stillbeam_sim::table::significant;
 
-/// Set-ups that are timed.
+/// Number of set-ups that are timed.
 const SETUPS: usize = 31;
 
 /// Runs are repeated until this many ticks are timed, at least and at most so often.
@@ -23,8 +23,8 @@ const RUNS: std::ops::RangeInclusive<usize> = 7..=50;
 /// Measures a case.
 ///
 /// A tick is one call of `Generator::tick`: motion, step and response. It is timed by itself, less
-/// what an empty measurement takes; of the repeated runs each tick keeps its fastest time, so that
-/// the slowest tick is one that computes more, not one that the machine interrupted.
+/// the time of an empty measurement. Of the repeated runs each tick keeps its fastest time. So the
+/// slowest tick is one that computes more, not one that the machine interrupted.
 pub fn cost(scene: &SceneFile, keys: SolverKeys) -> Result<Cost, Error> {
     let solver = keys.resolve()?;
     let mut sizes = (0, 0);
@@ -63,7 +63,7 @@ struct Ticks<'a> {
 impl StepperVisitor for Ticks<'_> {
     type Output = Vec<f64>;
 
-    /// Fastest time of each tick of the scene, s.
+    /// Returns the fastest time of each tick of the scene, s.
     fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Vec<f64>, Error> {
         let empty = empty_measurement();
         let mut fastest: Vec<f64> = Vec::new();
@@ -84,7 +84,7 @@ impl StepperVisitor for Ticks<'_> {
     }
 }
 
-/// What timing nothing takes.
+/// Returns the time of an empty measurement.
 fn empty_measurement() -> Duration {
     let empty = || {
         let start = Instant::now();

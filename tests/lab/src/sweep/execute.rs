@@ -8,12 +8,13 @@ use super::{cost, measure};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::progress;
 
-/// The rows of a plan with errors and costs, in the order of its cases.
+/// Computes the rows of a plan with errors and costs, in the order of its cases.
 ///
-/// Costs are measured one case at a time: nothing else should run meanwhile.
+/// Costs are measured one case at a time. Nothing else should run meanwhile.
 ///
 /// # Errors
-/// A reference solution or a case that fails, by its number and scene.
+/// An error is returned if a reference solution or a case fails. It names the case's number and
+/// scene.
 pub fn rows(plan: &Plan) -> Result<Vec<Row>, Error> {
     let mut rows = errors(plan)?;
     let bar = progress::bar("time, one case at a time", rows.len());
@@ -25,10 +26,10 @@ pub fn rows(plan: &Plan) -> Result<Vec<Row>, Error> {
     Ok(rows)
 }
 
-/// The rows of a plan with errors and without costs, in the order of its cases.
+/// Computes the rows of a plan with errors and without costs, in the order of its cases.
 ///
 /// # Errors
-/// As [`rows`].
+/// Errors are those of [`rows`].
 pub fn errors(plan: &Plan) -> Result<Vec<Row>, Error> {
     solve_references(plan)?;
     let bar = progress::bar("errors", plan.cases.len());
@@ -40,7 +41,7 @@ pub fn errors(plan: &Plan) -> Result<Vec<Row>, Error> {
     rows
 }
 
-/// The row of a case, without its cost.
+/// Computes the row of a case, without its cost.
 fn errors_of(plan: &Plan, index: usize) -> Result<Row, Error> {
     let case = &plan.cases[index];
     let scene = plan.scene(case);
@@ -50,7 +51,8 @@ fn errors_of(plan: &Plan, index: usize) -> Result<Row, Error> {
     Ok(Row { id: plan.id(index), keys: case.keys, errors, cost: None })
 }
 
-/// Solves ahead, on all cores, what the cases would otherwise wait for one by one.
+/// Solves the reference solutions ahead on all cores, so that the cases do not wait for each of
+/// them.
 fn solve_references(plan: &Plan) -> Result<(), Error> {
     let bar = progress::bar("reference rod", plan.references());
     (0..plan.references()).into_par_iter().try_for_each(|index| {

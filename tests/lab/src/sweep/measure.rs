@@ -1,4 +1,4 @@
-//! How wrong a case is.
+//! Measures the error of a case.
 
 use super::row::Errors;
 use stillbeam_sim::compare::{Residual, common, compare};
@@ -8,7 +8,8 @@ use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::SolverKeys;
 use stillbeam_sim::table::Row;
 
-/// A tip this many lengths off is no answer any more, only a measure of how long it has grown.
+/// Tip error, in lengths, at which a run has diverged. A greater error only tells how long it has
+/// grown.
 const LOST: f64 = 10.0;
 
 /// Runs the core on the scene and compares it with the reference, by the definitions of

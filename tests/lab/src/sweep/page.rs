@@ -1,4 +1,4 @@
-//! What a sweep says, as a page and as text.
+//! Results of a sweep, as a page and as text.
 
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ pub fn write(folder: &Path, pictures: &[Picture<'_>]) -> Result<PathBuf, Error> 
     Ok(page)
 }
 
-/// A scene may be a path.
+/// Returns a file name for a scene, which may be a path.
 fn file_name(scene: &str) -> String {
     scene.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '-' }).collect()
 }
@@ -105,7 +105,7 @@ fn section(picture: &Picture<'_>) -> Result<Markup, Error> {
     })
 }
 
-/// The same for a terminal.
+/// Returns the same results for a terminal.
 pub fn text(picture: &Picture<'_>) -> String {
     let mut text = format!("{}: {} cases\n{}\n", picture.scene, picture.rows.len(), ends(picture));
     text += &plain(&picture.front_table());
@@ -125,18 +125,18 @@ pub fn text(picture: &Picture<'_>) -> String {
     text + "\n"
 }
 
-/// The overviews of all scenes.
+/// Returns the overviews of all scenes.
 pub fn overviews(pictures: &[Picture<'_>]) -> Vec<Table> {
     (0..bases().len()).filter_map(|base| overview(pictures, base)).collect()
 }
 
-/// The overviews for a terminal.
+/// Returns the overviews for a terminal.
 pub fn summary(pictures: &[Picture<'_>]) -> String {
     let block = |table: &Table| format!("{}\n{}\n", table.caption, plain(table));
     overviews(pictures).iter().map(block).collect()
 }
 
-/// Columns of even width, a long header over two lines.
+/// Formats columns of even width, a long header over two lines.
 fn plain(table: &Table) -> String {
     let split = |name: &str| -> [String; 2] {
         match (name.split_once(", "), name.split_once(" against ")) {

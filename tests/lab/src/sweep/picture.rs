@@ -1,4 +1,4 @@
-//! Error against time: the chart of a scene and the tables beside it.
+//! Error against time: the chart of a scene and its tables.
 
 use super::answers::{Answer, QUESTIONS, answers, bases, percent, short};
 use super::pareto::front;
@@ -8,11 +8,11 @@ use stillbeam_sim::report::parts::Table;
 use stillbeam_sim::solver::{Mass, Method, SolverKeys};
 use stillbeam_sim::table::significant;
 
-/// What a sweep says of one scene.
+/// Results of a sweep on one scene.
 pub struct Picture<'a> {
     /// The scene.
     pub scene: String,
-    /// Its rows that have a cost.
+    /// Rows of the scene that have a cost.
     pub rows: Vec<&'a Row>,
     /// The rows on the front, by rising time.
     pub front: Vec<&'a Row>,
@@ -20,7 +20,7 @@ pub struct Picture<'a> {
     pub answers: Vec<(SolverKeys, Vec<Answer<'a>>)>,
 }
 
-/// Scenes of a sweep in the order of its rows.
+/// Returns the scenes of a sweep in the order of its rows.
 pub fn scenes(rows: &[Row]) -> Vec<&str> {
     let mut scenes: Vec<&str> = Vec::new();
     for row in rows {
@@ -45,7 +45,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Error against time, one mark a case, the front joined.
+    /// Draws error against time, one mark a case, the front joined.
     pub fn chart(&self) -> Chart {
         let mut groups: Vec<(Group, Vec<(f64, f64)>)> = Vec::new();
         for row in &self.rows {
@@ -66,7 +66,7 @@ impl<'a> Picture<'a> {
             .with(Series::front("front", self.front.iter().map(|row| point(row))))
     }
 
-    /// The front as a table.
+    /// Returns the front as a table.
     pub fn front_table(&self) -> Table {
         let header = vec![
             "solver",
@@ -88,7 +88,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// The answers around a base as a table, cheap side / dear side.
+    /// Returns the answers around a base as a table, cheap side / dear side.
     pub fn answer_table(base: SolverKeys, answers: &[Answer<'_>]) -> Table {
         let header =
             vec!["choice", "tip error, % of L", "torque error, %", "ns a tick", "\u{b5}s a second"];
@@ -109,22 +109,22 @@ impl<'a> Picture<'a> {
         Table { caption: format!("Around {}.", describe(base)), header, rows, key: None }
     }
 
-    /// What no row could answer.
+    /// Returns the questions that no row could answer.
     pub fn unanswered(answers: &[Answer<'_>]) -> Vec<&'static str> {
         let asked = |text: &str| answers.iter().any(|answer| answer.question.text == text);
         QUESTIONS.iter().map(|question| question.text).filter(|text| !asked(text)).collect()
     }
 }
 
-/// Time and error of a row, the error to the three digits that are shown: what differs less is no
-/// reason to be on the front.
+/// Returns time and error of a row, the error to the three digits that are shown. A smaller
+/// difference is no reason to be on the front.
 fn point(row: &Row) -> (f64, f64) {
     let time = row.cost.map_or(f64::NAN, |cost| cost.load_us(row.tick_s()));
     (time, significant(row.errors.tip_max, 3))
 }
 
-/// Largest tip errors of all scenes around one base: what each choice costs on each scene, in %
-/// of L, cheap side / dear side.
+/// Returns the largest tip errors of all scenes around one base, in % of L, cheap side / dear side.
+/// They show the cost of each choice on each scene.
 pub fn overview(pictures: &[Picture<'_>], base: usize) -> Option<Table> {
     let cell = |answers: &[Answer<'_>], text: &str| {
         let answer = answers.iter().find(|answer| answer.question.text == text);
@@ -152,7 +152,7 @@ pub fn overview(pictures: &[Picture<'_>], base: usize) -> Option<Table> {
     })
 }
 
-/// What shares a mark: a method with its mass matrix, with or without spin terms.
+/// Cases that share a mark: a method with its mass matrix, with or without spin terms.
 #[derive(Clone, Copy, PartialEq)]
 struct Group {
     method: Method,
@@ -211,7 +211,7 @@ fn cells(row: &Row) -> Vec<String> {
     cells
 }
 
-/// What the front says in a sentence: its two ends.
+/// Describes the two ends of the front in a sentence.
 pub fn ends(picture: &Picture<'_>) -> String {
     match (picture.front.first(), picture.front.last()) {
         (Some(first), Some(last)) => format!(
@@ -225,7 +225,7 @@ pub fn ends(picture: &Picture<'_>) -> String {
     }
 }
 
-/// A solver in a few words.
+/// Describes a solver in a few words.
 pub fn describe(keys: SolverKeys) -> String {
     keys.resolve().map(|solver| solver.describe()).unwrap_or_default()
 }

@@ -12,7 +12,7 @@ use stillbeam_sim::truth::{self, Reference};
 
 /// Every case of a sweep, in order. The order, and with it each number, depends on the spec alone.
 pub struct Plan {
-    /// Tells this sweep from others: a hash of scenes, solvers and the program's version.
+    /// Name that tells this sweep from others: a hash of scenes, solvers and the program's version.
     pub name: String,
     /// The scenes.
     pub scenes: Vec<SceneFile>,
@@ -26,21 +26,21 @@ pub struct Plan {
 pub struct Case {
     /// Index of the scene.
     pub scene: usize,
-    /// The solver, no key that its method does not read.
+    /// The solver, without the keys that its method does not read.
     pub keys: SolverKeys,
     /// Index of the reference solution.
     pub motion: usize,
 }
 
-/// One commanded motion of a scene. Ticks that divide every duration share one; where a tick
-/// rounds a duration, the motion is another and so is its solution.
+/// One commanded motion of a scene. Ticks that divide every duration share one. If a tick rounds a
+/// duration, the motion is another and so is its solution.
 struct Motion {
-    /// At the finest of the ticks.
+    /// Trajectory at the finest of the ticks.
     trajectory: Trajectory,
     scene: usize,
     /// The ticks that share it, s.
     ticks: Vec<f64>,
-    /// Their setpoint times, rising.
+    /// Setpoint times of these ticks, rising.
     times: Vec<f64>,
     solution: OnceLock<Result<Vec<stillbeam_sim::table::Row>, Error>>,
 }
@@ -77,7 +77,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The motion of a scene at that tick: one that is already there, or a new one.
+    /// Returns the index of the motion of a scene at that tick, an existing one or a new one.
     fn motion(&mut self, scene: usize, tick: f64) -> Result<usize, Error> {
         let file = &self.scenes[scene];
         let place = |error: Error| error.within(format_args!("{} at {tick} s", file.name));
@@ -102,7 +102,7 @@ impl Plan {
         Ok(index)
     }
 
-    /// FNV-1a over what the rows depend on, 16 hexadecimal digits.
+    /// Returns FNV-1a over the inputs of the rows, 16 hexadecimal digits.
     fn hash(&self) -> String {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
         let mut add = |text: &str| {
@@ -120,12 +120,12 @@ impl Plan {
         format!("{hash:016x}")
     }
 
-    /// The scene of a case.
+    /// Returns the scene of a case.
     pub fn scene(&self, case: &Case) -> &SceneFile {
         &self.scenes[case.scene]
     }
 
-    /// What a row says of its case.
+    /// Returns a case's identification in its row.
     pub fn id(&self, index: usize) -> CaseId {
         CaseId {
             sweep: self.name.clone(),
@@ -135,12 +135,12 @@ impl Plan {
         }
     }
 
-    /// The number of reference solutions that the cases share.
+    /// Returns the number of reference solutions that the cases share.
     pub fn references(&self) -> usize {
         self.motions.len()
     }
 
-    /// A reference solution by number, solved on first use.
+    /// Returns a reference solution by number, solved on first use.
     pub fn reference(&self, index: usize) -> Result<&[stillbeam_sim::table::Row], Error> {
         let motion = &self.motions[index];
         let scene = &self.scenes[motion.scene];
@@ -152,7 +152,7 @@ impl Plan {
     }
 }
 
-/// Moves of the same lengths, to a nanosecond.
+/// True if the moves have the same lengths, to a nanosecond.
 fn same_durations(a: &Trajectory, b: &Trajectory) -> bool {
     let nanoseconds = |trajectory: &Trajectory| -> Vec<i64> {
         let seconds = |ticks: u32| f64::from(ticks) * trajectory.tick();

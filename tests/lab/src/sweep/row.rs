@@ -9,53 +9,53 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::solver::SolverKeys;
 use stillbeam_sim::table::significant;
 
-/// One case: which, how wrong, at what cost.
+/// One case: its identification, its solver, its errors and its cost.
 ///
-/// The columns stand in the order of the fields; readers go by the order, after checking that the
-/// header is [`header`].
+/// The columns stand in the order of the fields. Readers go by the order, after they have checked
+/// that the header is [`header`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Which case of which sweep.
+    /// Identification of the case and its sweep.
     pub id: CaseId,
-    /// The solver; empty where its method does not read the key.
+    /// Solver. A key that its method does not read is empty.
     pub keys: SolverKeys,
-    /// How wrong.
+    /// Errors against the reference rod.
     pub errors: Errors,
-    /// Empty until the pass that measures it.
+    /// Cost, empty until it is measured.
     pub cost: Option<Cost>,
 }
 
 /// Names a case.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CaseId {
-    /// The sweep's name, from its contents.
+    /// Name of the sweep, from its contents.
     pub sweep: String,
     /// Number, from 1.
     pub case: u64,
-    /// How many the sweep has.
+    /// Number of cases in the sweep.
     pub cases: u64,
     /// Scene.
     pub scene: String,
 }
 
-/// Differences from the reference rod, as `compare` defines them. Infinite where the run diverged:
-/// a number that is none, or a tip ten lengths off.
+/// Differences from the reference rod, as `compare` defines them. Infinite if the run diverged: a
+/// value that is not a number, or a tip ten lengths off.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
     /// Largest distance of the tips, fraction of L.
     pub tip_max: f64,
     /// Root mean square distance of the tips, fraction of L.
     pub tip_rms: f64,
-    /// Difference of the residual vibrations, fraction of L; none where the hub keeps turning.
+    /// Difference of the residual vibrations, fraction of L; `None` if the hub keeps turning.
     pub residual: Option<f64>,
     /// Largest torque difference away from jumps, fraction of the peak torque.
     pub torque: f64,
 }
 
-/// What a solver takes on the machine that ran it.
+/// Time and memory of a solver on the machine that ran it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
-    /// Scene to stepper, median, µs.
+    /// Time from scene to stepper, median, µs.
     pub setup_us: f64,
     /// Size of the state, bytes.
     pub state_bytes: u64,
@@ -72,13 +72,13 @@ const ERRORS: [&str; 4] = ["tip_error_max", "tip_error_rms", "residual_error", "
 const COST: [&str; 5] =
     ["setup_us", "state_bytes", "stepper_bytes", "tick_ns_median", "tick_ns_worst"];
 
-/// Names of the columns.
+/// Returns the names of the columns.
 pub fn header() -> Vec<&'static str> {
     [&ID[..], &SolverKeys::NAMES, &ERRORS, &COST].concat()
 }
 
 impl Errors {
-    /// Of a run that diverged.
+    /// Errors of a run that diverged.
     pub const DIVERGED: Self = Self {
         tip_max: f64::INFINITY,
         tip_rms: f64::INFINITY,
@@ -86,7 +86,7 @@ impl Errors {
         torque: f64::INFINITY,
     };
 
-    /// To the six digits that are written.
+    /// Rounds to the six digits that are written.
     pub fn rounded(self) -> Self {
         Self {
             tip_max: significant(self.tip_max, 6),
@@ -98,14 +98,14 @@ impl Errors {
 }
 
 impl Cost {
-    /// Processor time for a second of motion, µs: what a tick length costs.
+    /// Returns the processor time for a second of motion, µs. It is the cost of a tick length.
     pub fn load_us(&self, tick_s: f64) -> f64 {
         1e-3 * self.tick_ns / tick_s
     }
 }
 
 impl Row {
-    /// The setpoint interval, s.
+    /// Returns the setpoint interval, s.
     pub fn tick_s(&self) -> f64 {
         self.keys.tick.unwrap_or(f64::NAN)
     }
@@ -119,7 +119,7 @@ impl Row {
         }
     }
 
-    /// First thing wrong with the numbers, if any.
+    /// Returns the first fault of the numbers, if any.
     fn fault(&self) -> Option<String> {
         let e = &self.errors;
         let errors = [Some(e.tip_max), Some(e.tip_rms), e.residual, Some(e.torque)];
@@ -140,7 +140,7 @@ impl Row {
 /// Writes rows as CSV, behind the header.
 ///
 /// # Errors
-/// What the file said.
+/// An error is returned if the file cannot be written.
 pub fn write<'a>(
     file: &mut dyn std::io::Write,
     rows: impl IntoIterator<Item = &'a Row>,
@@ -161,7 +161,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Opens a file; refuses one with another header.
+    /// Opens a file. Refuses one with another header.
     pub fn open(path: &Path) -> Result<Self, Error> {
         let wanted = "must be a CSV of sweep";
         let refuse = |error: csv::Error| Error::file(path, format_args!("{error}; {wanted}"));
@@ -189,7 +189,7 @@ impl Rows {
         }
     }
 
-    /// Names column and value.
+    /// Explains an error by column and value.
     fn explain(&self, error: &csv::Error) -> String {
         let csv::ErrorKind::Deserialize { err, .. } = error.kind() else {
             return error.to_string();

@@ -1,4 +1,4 @@
-//! What a sweep crosses: a TOML file of lists.
+//! Specification of a sweep: a TOML file of lists that are crossed.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -31,7 +31,7 @@ pub struct Grid {
     pub mass: Vec<Mass>,
     /// Modes.
     pub modes: Vec<i64>,
-    /// Work a tick.
+    /// Qualities of elastica: the work a tick.
     pub quality: Vec<Quality>,
     /// Errors that auto may make, fractions of L.
     pub tolerance: Vec<f64>,
@@ -46,7 +46,7 @@ pub struct Grid {
 }
 
 impl Spec {
-    /// The sweep that comes with the program.
+    /// Returns the sweep that is embedded in the program.
     pub fn embedded() -> Result<Self, Error> {
         Self::parse("default.toml", include_str!("../../sweeps/default.toml"))
     }
@@ -72,7 +72,7 @@ impl Spec {
         Ok(spec)
     }
 
-    /// The solvers of all grids, each once, in the order of the file.
+    /// Returns the solvers of all grids, each once, in the order of the file.
     pub fn solvers(&self) -> Vec<SolverKeys> {
         let mut seen = HashSet::new();
         let all = self.grid.iter().flat_map(Grid::solvers);
@@ -81,7 +81,7 @@ impl Spec {
 }
 
 impl Grid {
-    /// Every combination; keys that a method does not read are not crossed.
+    /// Returns every combination. Keys that a method does not read are not crossed.
     fn solvers(&self) -> Vec<SolverKeys> {
         let mut all = vec![SolverKeys::default()];
         cross(&mut all, &self.method, |keys| &mut keys.method);
@@ -98,7 +98,7 @@ impl Grid {
     }
 }
 
-/// Each of `all` with each of `values` in its place.
+/// Returns each of `all` with each of `values` in its place.
 fn cross<V: Copy>(
     all: &mut Vec<SolverKeys>,
     values: &[V],

@@ -1,4 +1,4 @@
-//! The tables of README.md and docs/accuracy.md: errors by a sweep.
+//! The tables of README.md and docs/accuracy.md, with errors by a sweep.
 
 use super::answers::short;
 use super::execute;
@@ -17,26 +17,26 @@ pub struct Table {
     cell: fn(&Row) -> f64,
 }
 
-/// The tables there are.
+/// Tables of the pages.
 pub const TABLES: [Table; 2] = [
     Table { name: "accuracy", cell: |row| 100.0 * row.errors.tip_max },
     Table { name: "torque", cell: |row| 100.0 * row.errors.torque },
 ];
 
-/// The rows of the embedded set, in the order of its plan.
+/// Returns the rows of the embedded set, in the order of its plan.
 pub fn rows() -> Result<Vec<Row>, Error> {
     let spec = Spec::parse("readme.toml", include_str!("../../sweeps/readme.toml"))?;
     execute::errors(&Plan::new(&spec)?)
 }
 
-/// The tables as blocks of a page.
+/// Returns the tables as blocks of a page.
 pub fn blocks(rows: &[Row]) -> Vec<Block> {
     TABLES.iter().map(|table| Block::new(table.name, table.markdown(rows))).collect()
 }
 
 impl Table {
-    /// A line a solver, a column a scene. What a tick costs is not in it: a desktop's nanoseconds
-    /// are another machine's, and no test could check them.
+    /// Formats a line for each solver, a column for each scene. The cost of a tick is left out: a
+    /// desktop's nanoseconds are another machine's, and no test could check them.
     fn markdown(&self, rows: &[Row]) -> String {
         let scenes = super::picture::scenes(rows);
         let mut solvers: Vec<SolverKeys> = Vec::new();
