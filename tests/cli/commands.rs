@@ -7,6 +7,10 @@ fn truth_path(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../tests/truth").join(file)
 }
 
+fn scene_path(file: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes").join(file)
+}
+
 fn run(folder: &Path, args: &[&str]) -> (i32, String, String) {
     let output = sim().current_dir(folder).args(args).output().expect("program");
     (
@@ -19,7 +23,7 @@ fn run(folder: &Path, args: &[&str]) -> (i32, String, String) {
 #[test]
 fn a_run_has_the_columns_and_rows_of_truth() {
     let folder = tempfile::tempdir().expect("folder");
-    let scene = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes/b-tip30.toml");
+    let scene = scene_path("b-tip30.toml");
     let scene = scene.to_str().expect("path");
     let (code, out, err) = run(folder.path(), &["run", scene, "--csv", "deep/out.csv"]);
     assert_eq!((code, err.as_str()), (0, ""));
@@ -155,7 +159,7 @@ fn without_a_method_the_nearest_is_taken() {
 #[test]
 fn keys_of_a_file_that_its_method_does_not_read_are_noted() {
     let folder = tempfile::tempdir().expect("folder");
-    let scene = fs::read_to_string(truth_path("b-tip30.toml")).expect("scene");
+    let scene = fs::read_to_string(scene_path("b-tip30.toml")).expect("scene");
     let scene = scene.replace("[solver]", "[solver]\nmethod = \"elastica\"\nspin = false");
     fs::write(folder.path().join("scene.toml"), scene).expect("scene");
     let (code, _, err) = run(folder.path(), &["run", "scene.toml", "--csv", "a.csv"]);

@@ -221,6 +221,8 @@ mod tests {
             .fold(0.0, f64::max)
     }
 
+    // Miri's own sine, the judge here, errs on purpose; 200,000 of them take it ten minutes.
+    #[cfg_attr(miri, ignore)]
     #[test]
     fn sine_and_cosine_keep_their_stated_error() {
         assert!(worst::<f32>() <= 1.5e-7, "f32: {:e}", worst::<f32>());
