@@ -251,8 +251,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     fn next_start(&self) -> HubState<f64> {
         if self.is_holding() {
             let angle = self.current.segment().angle(self.current.next_k());
-            let angle = Angle { turns: angle.turns, part: angle.part.to_f64() };
-            HubState::turning(angle, self.end.rate)
+            HubState::turning(angle.precise(), self.end.rate)
         } else {
             self.end
         }

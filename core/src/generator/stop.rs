@@ -69,8 +69,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
 
     /// Makes the hub rest at `angle` after the queue.
     pub(super) fn rest_at(&mut self, angle: Angle<S::Scalar>) {
-        let exact = Angle { turns: angle.turns, part: angle.part.to_f64() };
-        self.end = HubState::at_rest(exact);
+        self.end = HubState::at_rest(angle.precise());
         self.tail = Segment::rest(angle);
     }
 }

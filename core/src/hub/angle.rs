@@ -27,6 +27,12 @@ impl<T: Scalar> Angle<T> {
         Self { turns: self.turns.wrapping_add(whole), part }
     }
 
+    /// Returns the same angle in the precision of set-up.
+    #[inline(always)]
+    pub fn precise(self) -> Angle<f64> {
+        Angle { turns: self.turns, part: self.part.to_f64() }
+    }
+
     /// Turns from `start` to here, as one number.
     pub fn since(self, start: Self) -> T {
         let whole = self.turns.wrapping_sub(start.turns);

@@ -44,9 +44,8 @@ impl<T: Scalar> HubState<T> {
 
     /// Angle, rate and acceleration in the precision of set-up.
     pub fn precise(&self) -> HubState<f64> {
-        let angle = Angle { turns: self.angle.turns, part: self.angle.part.to_f64() };
         let acceleration = self.acceleration.to_f64();
-        HubState { acceleration, ..HubState::turning(angle, self.rate.to_f64()) }
+        HubState { acceleration, ..HubState::turning(self.angle.precise(), self.rate.to_f64()) }
     }
 
     /// Computes sine and cosine of the angle.

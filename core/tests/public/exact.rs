@@ -66,7 +66,7 @@ fn assert_exact<T: Scalar>(profile: Profile, ticks: u32, from: f64, to: [f64; 2]
         let first = arm.tick();
         // From where the hub is, which the scalar has rounded.
         let hub = target::<T>(begins);
-        let start = Angle { turns: hub.turns, part: hub.part.to_f64() };
+        let start = hub.precise();
         let turn = TAU * Angle::from_radians(to).since(start);
         assert_begins(&first, hub, jump(profile) * turn / (duration * duration));
         for _ in 1..ticks {
