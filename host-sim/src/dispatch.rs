@@ -242,8 +242,8 @@ fn elastica<T: Real, const K: usize>(
         Quality::Fast => stepper::Quality::Fast,
         Quality::Fine => stepper::Quality::Fine,
     };
-    let (least, most) = Elastica::<T, K>::BEND;
-    let bend = rod.bend(peaks.fold(0.0, f64::max)).max(least);
+    let (_, most) = Elastica::<T, K>::BEND;
+    let bend = rod.bend(peaks.fold(0.0, f64::max));
     if bend > most {
         return Err(Error::new(format_args!(
             "solver.method = elastica: the tip is expected to turn {bend:.2} rad against the hub, \

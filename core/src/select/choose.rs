@@ -90,8 +90,8 @@ impl Part {
         rungs: &[Rung],
         expected: f64,
     ) -> Result<Self, Error> {
-        let (least, most) = Elastica::<f32, 3>::BEND;
-        let bend = expected.clamp(least, most);
+        let (_, most) = Elastica::<f32, 3>::BEND;
+        let bend = Elastica::<f32, 3>::nearest_bend(expected);
         let mut part = Self { names: Vec::new(), candidates: Vec::new(), refused: None };
         for &rung in rungs {
             let candidate = if rung.is_elastica() && expected > most {
@@ -130,8 +130,7 @@ impl Search {
     ) -> Result<Choice, Error> {
         let (tick, tolerance) = (check_tick(tick)?, tolerance.validate()?);
         let expected_bend = Rod::<1>::new(scene)?.bend(motion.peaks().acceleration);
-        let (least, most) = Elastica::<f32, 3>::BEND;
-        let bend = expected_bend.clamp(least, most);
+        let bend = Elastica::<f32, 3>::nearest_bend(expected_bend);
         let trial = Trial::new(scene, tick, motion)?;
         let ladder = Rung::ladder(scene);
         let parts = ladder.len().div_ceil(AT_ONCE) as f64;

@@ -139,6 +139,13 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// Least and greatest tip angle that the expansion is fitted for, rad.
     pub const BEND: (f64, f64) = (0.05, 2.0);
 
+    /// Returns the tip angle of [`Self::BEND`] that is nearest to `expected`, rad: the one to set a
+    /// stepper up for.
+    pub fn nearest_bend(expected: f64) -> f64 {
+        let (least, most) = Self::BEND;
+        expected.clamp(least, most)
+    }
+
     /// Fastest turn that may go on and on, rad a tick: beyond it the predictor's spin terms feed
     /// the arm, too little to matter within a move.
     pub const HELD: f64 = 0.1;

@@ -57,8 +57,7 @@ impl Case {
         run.push(Move::Dwell { duration: self.period });
         let trajectory = Trajectory::plan(self.from, &run, &Limits::default(), self.tick)?;
         let expected = self.bend(&trajectory)?;
-        let (least, most) = Elastica::<f32, 1>::BEND;
-        let bend = expected.clamp(least, most);
+        let bend = Elastica::<f32, 1>::nearest_bend(expected);
         let away = away(&trajectory, self.tick);
         let ladder = Rung::ladder(&self.arm);
         let errors = |truth: &[Sample]| {
