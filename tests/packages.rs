@@ -1,7 +1,10 @@
-//! What a crate takes along when it is packaged.
+//! What cargo's manifests say: what a crate takes along when it is packaged, and what is left out of
+//! the tests.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 
+use serde_json::Value;
 use stillbeam_tests::firmware::{cargo, run};
 use stillbeam_tests::root;
 
@@ -63,4 +66,66 @@ fn every_published_crate_holds_the_texts_of_its_licences() {
             assert!(own == of_all, "{folder}/{license} is not the root's");
         }
     }
+}
+
+/// Cargo compiles a target once more for its tests unless its manifest says that it has none. Then a
+/// test written there would never run.
+#[test]
+fn what_is_left_out_of_the_tests_holds_none() {
+    let metadata = run(cargo().args(["metadata", "--no-deps", "--format-version", "1"]));
+    let metadata = metadata.unwrap_or_else(|error| panic!("{error}"));
+    let metadata: Value = serde_json::from_str(&metadata).expect("JSON");
+    let list = |value: &Value| value.as_array().expect("a list").clone();
+    let is = |value: &Value| value.as_bool().expect("true or false");
+    let (mut without_tests, mut without_examples) = (0, 0);
+    for target in list(&metadata["packages"]).iter().flat_map(|package| list(&package["targets"])) {
+        let kind = list(&target["kind"]);
+        let kind = kind[0].as_str().expect("a kind");
+        let root = PathBuf::from(target["src_path"].as_str().expect("a path"));
+        let none_has = |mark: &str| {
+            for path in modules(&root) {
+                let text = fs::read_to_string(&path).expect("a source");
+                let found = text.lines().any(|line| line.trim_start().starts_with(mark));
+                assert!(!found, "{} holds {mark}, which never runs", path.display());
+            }
+        };
+        if ["lib", "bin"].contains(&kind) && !is(&target["test"]) {
+            none_has("#[test]");
+            none_has("#[cfg(test)]");
+            without_tests += 1;
+        }
+        if kind == "lib" && !is(&target["doctest"]) {
+            none_has("/// ```");
+            none_has("//! ```");
+            without_examples += 1;
+        }
+    }
+    assert!(without_tests > 10 && without_examples > 5, "{without_tests}, {without_examples}");
+}
+
+/// The source file of a target, and the files of all its modules.
+fn modules(root: &Path) -> Vec<PathBuf> {
+    let mut files = vec![root.to_owned()];
+    let mut next = 0;
+    while let Some(file) = files.get(next).cloned() {
+        next += 1;
+        let text = fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+        let folder = if next == 1 || file.ends_with("mod.rs") {
+            file.parent().expect("a folder").to_owned()
+        } else {
+            file.with_extension("")
+        };
+        for line in text.lines().filter(|line| line.ends_with(';')) {
+            let Some((before, name)) = line.trim_end_matches(';').split_once("mod ") else {
+                continue;
+            };
+            if !["", "pub ", "pub(crate) "].contains(&before) {
+                continue;
+            }
+            let places = [folder.join(name).with_extension("rs"), folder.join(name).join("mod.rs")];
+            // A module with a `#[path]` of its own is another target's, or is written by a test.
+            files.extend(places.into_iter().filter(|place| place.exists()));
+        }
+    }
+    files
 }

@@ -5,8 +5,8 @@ use stillbeam::model::OneElement;
 use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::Newmark;
 use stillbeam::{Error, Generator, Move, Payload, Profile, Scene};
-use stillbeam_lab::faults::machine::{CONFIGURATIONS, TICK};
-use stillbeam_lab::faults::{Board, Drive, PERIOD};
+use stillbeam_board::machine::{CONFIGURATIONS, TICK};
+use stillbeam_board::{Board, Drive, PERIOD};
 use stillbeam_protocol::Command;
 
 type Arm = Generator<Newmark<f32, 2, 2>, 8>;

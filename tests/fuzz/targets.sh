@@ -1,10 +1,11 @@
 # What `run` and `long` share; read from the folder of both. `folder`: where each builds, below target/.
+# `profile`: `--dev`, or nothing for the optimised build.
 
 TARGETS="scene frames axis odrive cia402 moteus"
 
 # With overflow and debug assertions on. The core forbids unsafe code: what an address
 # sanitizer looks for is Miri's part here.
-BUILD="--fuzz-dir . --target-dir ../../../target/$folder --sanitizer none"
+BUILD="$profile --fuzz-dir . --target-dir ../../../target/$folder --sanitizer none"
 
 build_targets() {
     (cd targets && cargo fuzz --version >/dev/null 2>&1) || {

@@ -6,8 +6,8 @@ use stillbeam::axis::Mode;
 use stillbeam::drive::ClassicFrame;
 use stillbeam::motion::BULGE;
 use stillbeam::{Move, Payload, Profile};
-use stillbeam_lab::faults::machine::{CONFIGURATIONS, SILENCE, TICK, ticks};
-use stillbeam_lab::faults::{Board, Drive, PERIOD, Watch};
+use stillbeam_board::machine::{CONFIGURATIONS, SILENCE, TICK, ticks};
+use stillbeam_board::{Board, Drive, PERIOD, Watch};
 use stillbeam_protocol::frame::{MAX, encode};
 use stillbeam_protocol::{Command, Request};
 

@@ -3,7 +3,7 @@
 use arbitrary::{Arbitrary, Result, Unstructured};
 use stillbeam::Angle;
 use stillbeam::motor::Demand;
-use stillbeam_lab::faults::host::EDGES;
+use stillbeam_board::EDGES;
 
 /// Any bits, a whole multiple of 1/64 up to ±512 turns' worth, or a value that numbers go wrong at.
 pub fn double(u: &mut Unstructured<'_>) -> Result<f64> {

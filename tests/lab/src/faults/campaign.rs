@@ -5,13 +5,13 @@ use rand::{Rng, SeedableRng};
 use stillbeam::axis::{Cause, Mode};
 use stillbeam::drive::ClassicFrame;
 use stillbeam::{Move, Profile};
+use stillbeam_board::machine::{CONFIGURATIONS, Configuration, SILENCE, TICK, ticks};
+use stillbeam_board::{Board, Drive, PERIOD, Watch};
 use stillbeam_protocol::frame::{MAX, encode};
 use stillbeam_protocol::{Command, Request};
 
-use super::board::PERIOD;
 use super::line::Line;
-use super::machine::{CONFIGURATIONS, Configuration, SILENCE, TICK, ticks};
-use super::{Board, Drive, Fault, Outcome, Watch, host, stops};
+use super::{Fault, Outcome, host, stops};
 use crate::campaign::{self, chunks};
 use stillbeam_sim::error::Error;
 

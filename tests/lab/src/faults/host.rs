@@ -4,10 +4,11 @@ use rand::Rng;
 use rand::rngs::StdRng;
 use stillbeam::motion::BULGE;
 use stillbeam::{Limits, Move, Payload, Profile};
+use stillbeam_board::EDGES;
+use stillbeam_board::machine::ticks;
 use stillbeam_protocol::Command;
 
 use super::Fault;
-use super::machine::ticks;
 
 /// Ticks between two heartbeats, 0.1 s. The patience is five of them.
 const HEARTBEAT: u32 = ticks(0.1);
@@ -79,22 +80,6 @@ fn payload(rng: &mut StdRng) -> Payload {
     };
     Payload { mass: value(rng), inertia: 1e-3 * value(rng) }
 }
-
-/// Values at which arithmetic tends to fail.
-pub const EDGES: [f64; 12] = [
-    f64::NAN,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::MAX,
-    f64::MIN_POSITIVE,
-    -0.0,
-    0.0,
-    1e6,
-    -1e6,
-    0.005,
-    0.01,
-    167_772.16,
-];
 
 /// Draws a number of any bits, one of [`EDGES`], or one from −10 to 10.
 pub fn any(rng: &mut StdRng) -> f64 {

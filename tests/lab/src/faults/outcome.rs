@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use stillbeam_board::{Board, Excess, Watch};
 use stillbeam_protocol::Refusal;
-
-use super::{Board, Excess, Watch};
 
 /// Result of one run or of many.
 #[derive(Clone, Debug, Default)]

@@ -3,11 +3,11 @@
 use stillbeam::axis::{Cause, Mode};
 use stillbeam::planner::{Planner, Request};
 use stillbeam::{Move, Profile};
+use stillbeam_board::machine::{CONFIGURATIONS, Configuration, TICK, ticks};
+use stillbeam_board::{Board, Drive, PERIOD, Watch};
 use stillbeam_protocol::Command;
 
-use super::board::PERIOD;
-use super::machine::{CONFIGURATIONS, Configuration, TICK, ticks};
-use super::{Board, Drive, Outcome, Watch};
+use super::Outcome;
 use stillbeam_sim::error::Error;
 
 /// Ticks of the moves, 1.2 s, and a few after them.

@@ -4,7 +4,7 @@ use stillbeam::axis::Mode;
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::{EncoderEstimates, Node};
 
-use super::board::Step;
+use crate::board::Step;
 
 /// A drive that follows its setpoints and reports its position.
 pub struct Drive {

@@ -8,14 +8,13 @@ use stillbeam::axis::{Axis, Mode, Pace, Tick};
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::Demand;
-use stillbeam::{Error as CoreError, Move, Payload, PlannedMove, Scene};
+use stillbeam::{Error, Move, Payload, PlannedMove, Scene};
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Request};
 use stillbeam_wiring::axes::{Joint, QUEUE, Stepper, stepper};
 use stillbeam_wiring::{Configuration, Work};
 
-use super::machine::TICK;
-use stillbeam_sim::error::Error;
+use crate::machine::TICK;
 
 /// Counts of the board's clock in a tick, µs.
 pub const PERIOD: u32 = Pace::period(TICK, 1_000_000).expect("TICK is a whole number of µs");
@@ -210,7 +209,7 @@ impl Board {
         let tick = self.joint.axis.clock();
         let done = match result {
             Ready::Plan { motion, planned, again } => match self.joint.axis.take(&planned) {
-                Err(CoreError::Stale) if again => {
+                Err(Error::Stale) if again => {
                     let begun = self.plan(motion, false);
                     return self.begin(begun);
                 }

@@ -6,7 +6,7 @@ use stillbeam::Limits;
 use stillbeam::axis::Mode;
 use stillbeam::motor::Ratio;
 
-use super::board::Step;
+use crate::board::Step;
 
 /// Judges the setpoints of an axis one by one. While the drive is on, with `A` the limit of
 /// acceleration, `V` that of rate and `h` the tick:
