@@ -111,7 +111,7 @@ impl<'a> Trial<'a> {
             landing: None,
             broken: false,
             still: false,
-            blocked: BESIDE,
+            blocked: 0.0,
             steps: 0,
             deflection: 0.0,
             at_ticks: 0.0,
