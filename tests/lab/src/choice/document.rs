@@ -98,6 +98,7 @@ fn outcomes(summary: &Summary) -> String {
     add("chosen", choices, summary.arms);
     add("… a true error above its tolerance", summary.exceeded, choices);
     add("… of these, the torque's", summary.torque_exceeded, choices);
+    add("… of these, not known to the judge to the last", summary.exceeded_unsettled, choices);
     add("… the torque is nearer to its tolerance than the tip", summary.torque_decides, choices);
     add("… true error above the expected one", summary.underestimated, choices);
     add("… the cheapest rung that met both tolerances", summary.too_dear[0], choices);
@@ -188,7 +189,7 @@ fn judge(summary: &Summary) -> String {
          polynomials did for {first} arms, {} for {second}, {} for {third}, {} were asked for {fourth}; {} \
          arms were still not known then. Every step is shorter than the highest vibration asks for, and its \
          tolerance is {PART:e} of the angle that the arm bends by, {least:e} to {most:e} rad. On every {}th \
-         arm all is judged once more with {} polynomials and {:e} a step: over {} arms the errors below \
+         arm whose errors are known all is judged once more with {} polynomials and {:e} a step: over {} arms the errors below \
          twice the tolerance change by at most {:.3} of the tolerance, and {} of the rungs change sides.\n",
         ORDERS[0],
         ORDERS[0],
