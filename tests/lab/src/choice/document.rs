@@ -78,7 +78,9 @@ fn introduction(summary: &Summary, seed: u64) -> String {
          cheapest tick first, on the moves themselves beside the exact rod in six modes and small steps, \
          takes the first that keeps both tolerances, and says what errors to expect. Torques are \
          compared at the ticks; those less than one and a half ticks from a jump of the commanded \
-         acceleration are left out, as in `compare`. Here {} random arms, seed {seed}, are judged by the \
+         acceleration are left out, as in `compare`. To the difference of the torques it adds three quarters \
+         of what the modes still ring with, after such jumps, that the six-mode rod has lost by that tick. \
+         Here {} random arms, seed {seed}, are judged by the \
          reference rod of the host, which shares no method with it: {} of {} choices err by more than a \
          tolerance (wanted: fewer than 1 in 1,000), {} are at most one rung above the cheapest that met \
          both (wanted: 99 %). This page is written whole by a command.\n",
