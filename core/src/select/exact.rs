@@ -20,11 +20,7 @@ const FEWEST: f64 = 32.0;
 /// Largest turn of a mode in a step, rad, and largest decay; the method tolerates 2.8. The second
 /// highest of six modes is held to it; the third then turns by 0.4, and its phase errs by 1e-4 of
 /// that.
-const MOST: f64 = 1.5;
-
-/// Largest turn of a mode in a step, rad, with which its ringing is followed rather than damped
-/// away: it then keeps 0.998 of itself.
-const RESOLVED: f64 = 0.8;
+pub(super) const MOST: f64 = 1.5;
 
 /// Distance from rest, fraction of L, below which an arm whose hub rests is left as it is.
 const STILL: f64 = 1e-7;
@@ -74,8 +70,6 @@ pub(super) struct Exact<T, const MODES: usize> {
     hub: T,
     /// Tip deflection per unit of `aₖ` and `ωₖ⁻¹` of it, fractions of L: what a rate amounts to.
     swing: [[T; 2]; MODES],
-    /// `b_k²` of the modes that the steps do not resolve, and of those that are left out, kg m².
-    unresolved: f64,
 }
 
 /// Loads on the arm at one instant.
@@ -155,15 +149,6 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
                 let swing = rod.tip_swing()[k].abs() / length;
                 [T::from_f64(swing / rod.frequency()[k]), T::from_f64(swing / squared[k])]
             }),
-            unresolved: {
-                let rest = rod.kinetics(&[0.0; MODES]);
-                let resolved = |k: usize| rod.frequency()[k] * step < RESOLVED;
-                let seen: f64 = (0..MODES)
-                    .filter(|&k| resolved(k))
-                    .map(|k| rest.coupling[k] * rest.coupling[k])
-                    .sum();
-                (rest.inertia - seen).max(0.0)
-            },
         }
     }
 
@@ -172,10 +157,9 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         T::from_f64(self.tick)
     }
 
-    /// Inertia about the axis of the modes that ring, after a jump of the commanded acceleration,
-    /// without being seen here: `J − Σ bₖ²` over those that the steps resolve, kg m².
-    pub fn unresolved(&self) -> f64 {
-        self.unresolved
+    /// Steps that a tick takes.
+    pub fn steps_a_tick(&self) -> f64 {
+        self.steps_a_tick
     }
 
     /// Evaluates the integrands along the rod, at the Gauss points.

@@ -5,6 +5,7 @@ mod choose;
 mod exact;
 mod ladder;
 mod peak;
+mod ringing;
 mod trial;
 
 pub use choose::{NoChoice, assess, choose};

@@ -6,9 +6,9 @@ use super::candidate::{Candidate, Tick};
 use super::exact::{Exact, Load, Shape};
 use super::ladder::{Assessment, Outcome};
 use super::peak::Peak;
+use super::ringing::Ringing;
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::sqrt;
 use crate::model::Rod;
 use crate::motion::{Commanded, Kink, Stretch};
 use crate::scene::Scene;
@@ -37,6 +37,8 @@ const LOOK: u64 = 16;
 /// Arm and motion on which steppers are tried.
 pub(super) struct Trial<'a> {
     exact: Exact<f32, MODES>,
+    /// At rest.
+    ringing: Ringing<MODES>,
     motion: &'a dyn Commanded,
     /// Rest after the motion, ticks.
     settle: f64,
@@ -66,9 +68,7 @@ struct Flight<'t, 'a, 'c, S: Stepper> {
     deflection: f64,
     /// Largest torque at a tick, N m.
     at_ticks: f64,
-    /// Sum of the squares of the acceleration's jumps, rad²/s⁴. What they make ring adds up:
-    /// without damping, at phases that have nothing to do with each other.
-    jumps: f64,
+    ringing: Ringing<MODES>,
     torque: Peak,
     moment: Peak,
 }
@@ -80,7 +80,8 @@ impl<'a> Trial<'a> {
         let period = core::f64::consts::TAU / rod.frequency()[0];
         let settle = libm::ceil(period / tick).clamp(1.0, MAX_SETTLE);
         let exact = Exact::new(&rod, tick, motion.ticks() as f64 + settle);
-        Ok(Self { exact, motion, settle, length: scene.link.length })
+        let ringing = Ringing::new(&rod, tick, exact.steps_a_tick());
+        Ok(Self { exact, ringing, motion, settle, length: scene.link.length })
     }
 
     /// A stepper to be tried.
@@ -111,11 +112,11 @@ impl<'a> Trial<'a> {
             landing: None,
             broken: false,
             still: false,
-            blocked: BESIDE,
+            blocked: 0.0,
             steps: 0,
             deflection: 0.0,
             at_ticks: 0.0,
-            jumps: 0.0,
+            ringing: self.ringing,
             torque: Peak::default(),
             moment: Peak::default(),
         };
@@ -133,11 +134,10 @@ impl<'a> Trial<'a> {
         for candidate in flight.candidates.iter_mut() {
             candidate.finish();
         }
-        let Flight { steps, deflection, at_ticks, jumps, torque, moment, .. } = flight;
-        let unseen = self.exact.unresolved() * sqrt(jumps);
+        let Flight { steps, deflection, at_ticks, torque, moment, .. } = flight;
         Ok(move |candidate: &Candidate<S>| {
             let Candidate { distance, torque: apart, .. } = *candidate;
-            let outcome = Outcome { distance, deflection, torque: apart, peak: at_ticks, unseen };
+            let outcome = Outcome { distance, deflection, torque: apart, peak: at_ticks };
             let (peak_torque, peak_moment) = (torque.most(), moment.most());
             Assessment {
                 tip: outcome.tip(),
@@ -217,7 +217,7 @@ impl<S: Stepper> Flight<'_, '_, '_, S> {
         if jump <= JUMP * self.trial.motion.peaks().acceleration {
             return;
         }
-        self.jumps += jump * jump;
+        self.ringing.jump(jump);
         self.blocked = begin + BESIDE;
         // The latest tick is nearer than a tick, the one before it nearer than two.
         let both = begin - (self.next as f64 - 2.0) < BESIDE - NEAR;
@@ -265,14 +265,16 @@ impl<S: Stepper> Flight<'_, '_, '_, S> {
             kink: if kinked { motion.kink(self.next - 1) } else { Kink::NONE },
         };
         let compared = self.next as f64 >= self.blocked - NEAR;
+        let unseen = self.ringing.unseen();
         for candidate in self.candidates.iter_mut().filter(|one| one.follows(self.most)) {
             if let Some(response) = candidate.tick(motion, &tick) {
-                candidate.watch(&response, tip, torque, self.trial.length);
+                candidate.watch(&response, tip, torque, unseen, self.trial.length);
                 if !compared {
                     candidate.forget(false);
                 }
             }
         }
+        self.ringing.tick();
         self.before = *after;
         self.broken = false;
         self.next += 1;

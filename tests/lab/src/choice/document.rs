@@ -79,7 +79,9 @@ fn introduction(summary: &Summary, seed: u64) -> String {
          cheapest tick first, on the moves themselves beside the exact rod in six modes and small steps, \
          takes the first that keeps both tolerances, and says what errors to expect. Torques are \
          compared at the ticks; those less than one and a half ticks from a jump of the commanded \
-         acceleration are left out, as in `compare`. Here {} random arms, seed {seed}, are judged by the \
+         acceleration are left out, as in `compare`. To the difference of the torques it adds three quarters \
+         of what the modes still ring with, after such jumps, that the six-mode rod has lost by that tick. \
+         Here {} random arms, seed {seed}, are judged by the \
          reference rod of the host, which shares no method with it: {} of {} choices err by more than a \
          tolerance (wanted: fewer than 1 in 1,000), {} are at most one rung above the cheapest that met \
          both (wanted: 99 %). This page is written whole by a command.\n",
@@ -99,6 +101,7 @@ fn outcomes(summary: &Summary) -> String {
     add("chosen", choices, summary.arms);
     add("… a true error above its tolerance", summary.exceeded, choices);
     add("… of these, the torque's", summary.torque_exceeded, choices);
+    add("… of these, not known to the judge to the last", summary.exceeded_unsettled, choices);
     add("… the torque is nearer to its tolerance than the tip", summary.torque_decides, choices);
     add("… true error above the expected one", summary.underestimated, choices);
     add("… the cheapest rung that met both tolerances", summary.too_dear[0], choices);
@@ -189,7 +192,7 @@ fn judge(summary: &Summary) -> String {
          polynomials did for {first} arms, {} for {second}, {} for {third}, {} were asked for {fourth}; {} \
          arms were still not known then. Every step is shorter than the highest vibration asks for, and its \
          tolerance is {PART:e} of the angle that the arm bends by, {least:e} to {most:e} rad. On every {}th \
-         arm all is judged once more with {} polynomials and {:e} a step: over {} arms the errors below \
+         arm whose errors are known all is judged once more with {} polynomials and {:e} a step: over {} arms the errors below \
          twice the tolerance change by at most {:.3} of the tolerance, and {} of the rungs change sides.\n",
         ORDERS[0],
         ORDERS[0],

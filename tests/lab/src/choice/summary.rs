@@ -19,7 +19,9 @@ pub struct Summary {
     pub too_dear: [usize; Rung::LADDER.len()],
     /// Chosen, true error above the tolerance.
     pub exceeded: usize,
-    /// Of these, those whose torque errs by more than its tolerance.
+    /// Of these, those whose error still changed with the finest judge.
+    pub exceeded_unsettled: usize,
+    /// Of those exceeded, those whose torque errs by more than its tolerance.
     pub torque_exceeded: usize,
     /// Chosen, the torque's error the larger one, each over its tolerance.
     pub torque_decides: usize,
@@ -37,9 +39,9 @@ pub struct Summary {
     pub judged: [usize; ORDERS.len()],
     /// Arms whose errors still changed with the finest judge.
     pub unsettled: usize,
-    /// Arms whose judge was judged.
+    /// Arms whose judge was judged, of those whose errors are known.
     pub doubted: usize,
-    /// Largest error of the judge over the tolerance.
+    /// Largest error of the judge over the tolerance, of these arms.
     pub doubt: f64,
     /// Rungs that a stricter judge has found on the other side of the tolerance.
     pub turned: usize,
@@ -66,13 +68,15 @@ impl Summary {
         let expected = |verdict: &Verdict| {
             verdict.choice.as_ref().ok().map(|choice| choice.expected.excess(&verdict.tolerance))
         };
-        let doubts = || verdicts.iter().filter_map(|v| v.judged.doubt);
+        let known = || verdicts.iter().filter(|v| v.judged.settled);
+        let doubts = || known().filter_map(|v| v.judged.doubt);
         Self {
             arms: verdicts.len(),
             chosen: by_rung(&Verdict::chosen),
             cheapest: by_rung(&Verdict::cheapest),
             too_dear: by_place(&Verdict::rungs_too_dear),
             exceeded: count(&Verdict::exceeds),
+            exceeded_unsettled: count(&|v| v.exceeds() && !v.judged.settled),
             torque_exceeded: count(&|v| v.parts.is_some_and(|[_, torque]| torque > 1.0)),
             torque_decides: count(&|v| v.parts.is_some_and(|[tip, torque]| torque > tip)),
             underestimated: count(&|verdict| {
