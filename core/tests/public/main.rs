@@ -1,9 +1,12 @@
 //! The core by its public names alone: what a user of the crate may rely on. What needs other
 //! crates, such as the reference solvers, stands in the workspace's `tests/`.
 
+mod change;
 mod exact;
+mod follow;
 mod generator;
 mod motor;
+mod path;
 mod peaks;
 mod plan;
 mod remedy;
