@@ -244,8 +244,8 @@ fn a_bad_row_is_named() {
     }
     let error = bad(Waypoint::at(0.2, 0.2).accelerating(1.0), Spline::Cubic);
     assert!(error.contains("waypoint.acceleration = 1: must be 0 rad/s^2"), "{error}");
-    // A limit is held between the rows: 1 rad in 0.1 s peaks at 15 rad/s or more.
-    let limits = Limits { rate: Some(14.0), ..Limits::default() };
+    // A limit is held between the rows: 1 rad in 0.1 s peaks at 13.6 rad/s.
+    let limits = Limits { rate: Some(13.0), ..Limits::default() };
     let path = Path::new(Spline::Cubic, rest(), &limits, TICK).expect("a path");
     let rows = [Waypoint::at(0.5, 0.0), Waypoint::at(0.6, 1.0).turning(0.0)];
     let error = path.survey(rows).expect_err("too fast");
