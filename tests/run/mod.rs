@@ -9,5 +9,6 @@ mod limits;
 mod residual;
 mod scene_files;
 mod shaped;
+mod shortest;
 mod still;
 mod truth;

@@ -9,6 +9,7 @@ mod curve_peaks;
 mod demand;
 mod joiner;
 mod limits;
+pub mod optimal;
 mod pass;
 mod path;
 mod piece;

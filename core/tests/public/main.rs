@@ -6,6 +6,7 @@ mod exact;
 mod follow;
 mod generator;
 mod motor;
+mod optimal;
 mod path;
 mod peaks;
 mod plan;
