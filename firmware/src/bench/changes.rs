@@ -3,6 +3,7 @@
 use core::fmt::Write;
 use core::hint::black_box;
 
+use stillbeam::motion::optimal::Bounds;
 use stillbeam::motion::{Path, Spline, Waypoint};
 use stillbeam::stepper::Rigid;
 use stillbeam::{Angle, Error, Generator, HubState, Link, Move, Profile, Scene};
@@ -16,7 +17,7 @@ const TAKEN: u32 = 7;
 type Arm = Generator<Rigid<f32>, 8>;
 
 /// Changes to be counted, each of a hub that turns: name, change.
-const CHANGES: [(&str, fn(&mut Arm) -> Result<(), Error>); 3] = [
+const CHANGES: [(&str, fn(&mut Arm) -> Result<(), Error>); 4] = [
     ("new target", |arm| {
         let angle = Angle { turns: 0, part: 0.12 };
         arm.retarget(black_box(angle), black_box(0.5), black_box(0.4)).map(drop)
@@ -24,6 +25,10 @@ const CHANGES: [(&str, fn(&mut Arm) -> Result<(), Error>); 3] = [
     ("move in f64", |arm| {
         let profile = Profile::Quintic;
         arm.push(&black_box(Move::Pass { profile, duration: 0.4, to: 1.5, rate: 0.5 })).map(drop)
+    }),
+    ("shortest move in f64", |arm| {
+        let bounds = Bounds { rate: 6.0, acceleration: 40.0, deceleration: 40.0, jerk: 800.0 };
+        arm.push(&black_box(Move::Reach { to: 3.0, rate: 0.5, bounds })).map(drop)
     }),
     ("followed tick", |arm| {
         let hub = HubState { acceleration: 1.0, ..*arm.hub() };
