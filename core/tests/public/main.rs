@@ -1,15 +1,20 @@
 //! The core by its public names alone: what a user of the crate may rely on. What needs other
 //! crates, such as the reference solvers, stands in the workspace's `tests/`.
 
+mod change;
 mod exact;
+mod follow;
 mod generator;
 mod motor;
+mod optimal;
+mod path;
 mod peaks;
 mod plan;
 mod remedy;
 mod sequence;
 mod shapers;
 mod statics;
+mod turning;
 
 /// Asserts `|value − expected| ≤ tolerance` and says by how much it fails.
 #[track_caller]
