@@ -183,7 +183,7 @@ fn a_long_path_runs_through_a_short_queue() {
         arm.feed(&mut path, &mut left).expect("rows");
         assert_eq!(arm.tick().angle, *expected, "tick {k}");
     }
-    assert!(path.is_done() && arm.is_holding() == false);
+    assert!(path.is_done() && !arm.is_holding());
     assert_near("end", arm.tick().rate, 0.0, 0.0);
 }
 
