@@ -1,7 +1,12 @@
 //! The arm as its user describes it: SI units, validated. Every number a user can get wrong in an
 //! arm is checked here, before any matrix is built.
 
+mod mount;
+
+pub use mount::{AxisKind, Mount};
+
 use crate::Error;
+use crate::hub::GravityDirection;
 use crate::material::{Material, Strip};
 use crate::math::Scalar;
 
@@ -26,8 +31,11 @@ pub struct Scene<T = f64> {
     pub payload: Payload<T>,
     /// Rayleigh damping.
     pub damping: Damping<T>,
-    /// Gravity along global −Y, m/s²; 0 is a horizontal plane.
+    /// Gravity, m/s²; 0 is a horizontal plane. Along global −Y, but for what `mount` says.
     pub gravity: T,
+    /// The mounting: kind of the axis, tilt of the plane of motion, direction of gravity in it.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mount: Mount<T>,
 }
 
 /// A uniform link: cubic Bernoulli-Euler bending in the plane of motion.
@@ -48,7 +56,7 @@ pub struct Link<T = f64> {
 pub struct Hub<T = f64> {
     /// `r`, motor axis to clamp, rigid, m.
     pub radius: T,
-    /// `J_h` about the axis, kg m².
+    /// `J_h` about the axis, kg m². On a linear axis the carriage's mass `m_c`, kg.
     pub inertia: T,
 }
 
@@ -114,7 +122,7 @@ impl Scene {
     #[inline(never)]
     pub fn cast<T: Scalar>(&self) -> Scene<T> {
         let f = T::from_f64;
-        let Self { link, hub, payload, damping, gravity } = *self;
+        let Self { link, hub, payload, damping, gravity, mount } = *self;
         Scene {
             link: Link {
                 length: f(link.length),
@@ -125,6 +133,7 @@ impl Scene {
             payload: Payload { mass: f(payload.mass), inertia: f(payload.inertia) },
             damping: Damping { alpha: f(damping.alpha), beta: f(damping.beta) },
             gravity: f(gravity),
+            mount: mount.cast(),
         }
     }
 }
@@ -138,6 +147,7 @@ impl<T: Scalar> Scene<T> {
             payload: Payload { mass: T::ZERO, inertia: T::ZERO },
             damping: Damping { alpha: T::ZERO, beta: T::ZERO },
             gravity: T::ZERO,
+            mount: Mount::ROTARY,
         }
     }
 
@@ -145,17 +155,21 @@ impl<T: Scalar> Scene<T> {
     pub fn validate(self) -> Result<Self, Error> {
         self.link.validate()?;
         Error::check("hub.radius", self.hub.radius, 0.0, 1e3, "m")?;
-        Error::check("hub.inertia", self.hub.inertia, 0.0, 1e6, "kg m^2")?;
+        match self.mount.axis {
+            AxisKind::Rotary => Error::check("hub.inertia", self.hub.inertia, 0.0, 1e6, "kg m^2")?,
+            AxisKind::Linear => Error::check("hub.mass", self.hub.inertia, 0.0, 1e6, "kg")?,
+        };
         Error::check("payload.mass", self.payload.mass, 0.0, 1e5, "kg")?;
         // A radius of gyration of ten lengths. Far beyond it, the mass of what turns hides the mass
         // of what moves from an f32.
-        let mass = self.link.mass + self.payload.mass;
+        let mass = self.moved_mass();
         let square = self.link.length * self.link.length;
         let most = (T::from_f64(100.0) * mass * square).to_f64().min(1e6);
         Error::check("payload.inertia", self.payload.inertia, 0.0, most, "kg m^2")?;
         Error::check("damping.alpha", self.damping.alpha, 0.0, 1e3, "1/s")?;
         Error::check("damping.beta", self.damping.beta, 0.0, 1.0, "s")?;
         Error::check("gravity.acceleration", self.gravity, 0.0, 1e3, "m/s^2")?;
+        self.mount.validate()?;
         Ok(self)
     }
 
@@ -169,17 +183,55 @@ impl<T: Scalar> Scene<T> {
         self.hub.radius + self.link.length
     }
 
-    /// `J_r = ∫ρA(r+x)² dx + m_p(r+L)² + J_p`: inertia of the undeformed link and payload about
-    /// the axis, kg m².
+    /// Mass of link and payload, kg.
+    pub fn moved_mass(&self) -> T {
+        self.link.mass + self.payload.mass
+    }
+
+    /// Gravity in the plane of motion, `g cos(tilt)`, m/s².
+    pub fn in_plane_gravity(&self) -> T {
+        let tilt = self.mount.tilt;
+        if tilt == T::ZERO {
+            return self.gravity;
+        }
+        let (_, cos) = T::from_f64(tilt.to_f64() / core::f64::consts::TAU).sin_cos_turns();
+        self.gravity * cos
+    }
+
+    /// Direction of gravity as the hub frame sees it, in the precision of a tick.
+    pub fn gravity_direction<P: Scalar>(&self) -> GravityDirection<P> {
+        if self.in_plane_gravity() == T::ZERO {
+            return GravityDirection::NONE;
+        }
+        match self.mount.axis {
+            AxisKind::Rotary => GravityDirection::on_turning_hub(self.mount.direction),
+            AxisKind::Linear => GravityDirection::on_carriage(self.mount.direction),
+        }
+    }
+
+    /// Inertia of the undeformed link and payload against the hub's acceleration.
+    ///
+    /// About the axis of a hub that turns, `J_r = ∫ρA(r+x)² dx + m_p(r+L)² + J_p`, kg m². On a
+    /// linear axis their mass, kg.
     pub fn rigid_inertia(&self) -> T {
+        if self.mount.is_linear() {
+            return self.moved_mass();
+        }
         let (r, l, reach) = (self.hub.radius, self.link.length, self.reach());
         self.link.mass * (r * r + r * l + l * l / T::from_f64(3.0))
             + self.payload.mass * reach * reach
             + self.payload.inertia
     }
 
-    /// `S = ∫ρA(r+x) dx + m_p(r+L)`: first moment of mass about the axis, kg m.
+    /// Factor of `g cos χ` in what holds the undeformed arm against gravity.
+    ///
+    /// On a hub that turns, and is balanced itself, the first moment of mass about the axis,
+    /// `S = ∫ρA(r+x) dx + m_p(r+L)`, kg m. On a linear axis the whole mass, the carriage's
+    /// included, kg.
     pub fn first_moment(&self) -> T {
+        if self.mount.is_linear() {
+            return self.moved_mass() + self.hub.inertia;
+        }
         self.link.mass * (self.hub.radius + T::HALF * self.link.length)
             + self.payload.mass * self.reach()
     }

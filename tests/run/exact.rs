@@ -135,8 +135,8 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         self.0.tick()
     }
 
-    fn feels_gravity(&self) -> bool {
-        self.0.feels_gravity()
+    fn gravity(&self) -> &GravityDirection<S::Scalar> {
+        self.0.gravity()
     }
 
     fn is_linear_fast(&self, rate: S::Scalar) -> bool {

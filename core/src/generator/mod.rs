@@ -17,7 +17,8 @@ use crate::math::Scalar;
 use crate::motion::{Limits, Move, MoveSummary, Plan, Remedy, Segment, plan_segments};
 use crate::stepper::{AnyMotion, AtRest, KinkMoments, Linear, Response, Stepper};
 
-/// Setpoint for the motor controller, one every tick. SI units.
+/// Setpoint for the motor controller, one every tick. SI units; on a linear axis a metre stands for
+/// a radian and a newton for a newton metre, see [`AxisKind`](crate::AxisKind).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -83,9 +84,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let tail = hold(end, stepper.tick());
         let mut hub = HubState::ZERO;
         tail.begin(&mut hub);
-        if stepper.feels_gravity() {
-            hub.update_sin_cos();
-        }
+        stepper.gravity().aim(&mut hub);
         let state = stepper.equilibrium(&hub);
         Ok(Self {
             stepper,
@@ -171,9 +170,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             end_acceleration = Some(self.end_acceleration);
         } else if S::FAST.at_rest || !rests {
             self.current.segment().drive(&mut self.hub, k);
-            if self.stepper.feels_gravity() {
-                self.hub.update_sin_cos();
-            }
+            self.aim();
         } else if self.current.is_asleep() {
             return self.setpoint();
         }
@@ -273,11 +270,18 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.current.take_up(&self.tail, Part::Hold, 0, &self.stepper);
         }
         self.current.segment().begin(&mut self.hub);
-        if self.stepper.feels_gravity() {
-            self.hub.update_sin_cos();
-        }
+        self.aim();
         let moment = self.current.segment().kink_moment();
         self.stepper.kink(&mut self.state, KinkMoments::First(moment));
+    }
+
+    /// Updates sine and cosine of gravity's angle in the hub frame, if it changes with the hub's.
+    #[inline(always)]
+    fn aim(&mut self) {
+        let gravity = self.stepper.gravity();
+        if gravity.follows_hub() {
+            self.hub.update_sin_cos(gravity.in_turns());
+        }
     }
 
     /// Lets a hold that has run out (after 497 days at 10 ms) go on from where it is.

@@ -154,7 +154,7 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
     /// True if a move that is run backwards is a move too.
     fn is_reversible(&self) -> bool {
         let damping = self.scene.damping;
-        self.scene.gravity == 0.0 && damping.alpha == 0.0 && damping.beta == 0.0
+        self.scene.in_plane_gravity() == 0.0 && damping.alpha == 0.0 && damping.beta == 0.0
     }
 
     /// The arms that a move is planned for.

@@ -1,6 +1,6 @@
 //! The exact rod in all its modes, integrated in small steps: what the rungs are judged by.
 
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, Scalar, cast, dot, round};
 use crate::model::{POINTS, Rod};
 
@@ -70,8 +70,11 @@ pub(super) struct Exact<T, const MODES: usize> {
     radius: T,
     alpha: T,
     gravity: T,
-    /// `J_h`.
+    direction: GravityDirection<T>,
+    /// `J_h`, or the carriage's mass.
     hub: T,
+    /// The hub is a carriage: it moves the clamp across the link and does not turn it.
+    carried: bool,
     /// Tip deflection per unit of `aₖ` and `ωₖ⁻¹` of it, fractions of L: what a rate amounts to.
     swing: [[T; 2]; MODES],
     /// `b_k²` of the modes that the steps do not resolve, and of those that are left out, kg m².
@@ -81,7 +84,7 @@ pub(super) struct Exact<T, const MODES: usize> {
 /// Loads on the arm at one instant.
 #[derive(Clone, Copy)]
 pub(super) struct Load<T> {
-    /// Hub torque, N m.
+    /// Hub torque, N m, or force on the carriage, N.
     pub torque: T,
     /// Bending moment at the clamp, N m.
     pub moment: T,
@@ -149,8 +152,10 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             }),
             radius: round(scene.hub.radius),
             alpha: round(scene.damping.alpha),
-            gravity: round(scene.gravity),
+            gravity: round(scene.in_plane_gravity()),
+            direction: scene.gravity_direction(),
             hub: round(scene.hub.inertia),
+            carried: scene.mount.is_linear(),
             swing: core::array::from_fn(|k| {
                 let swing = rod.tip_swing()[k].abs() / length;
                 [T::from_f64(swing / rod.frequency()[k]), T::from_f64(swing / squared[k])]
@@ -208,7 +213,14 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
     fn forces(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> Forces<T, MODES> {
         let Shape { a, v } = shape;
         let Integrands { x_slope, y_slope, rest } = self.integrands(shape);
-        let (omega, faster, alpha) = (hub.rate, hub.acceleration, self.alpha);
+        let alpha = self.alpha;
+        let (sin, cos) = self.direction.seen_from(hub);
+        let (mut weight, mut omega, mut faster) =
+            ([self.gravity * sin, self.gravity * cos], hub.rate, hub.acceleration);
+        if self.carried {
+            weight[1] += faster + alpha * omega;
+            (omega, faster) = (T::ZERO, T::ZERO);
+        }
         let turning = alpha * (dot(&self.tip_slope, v) + omega) + faster;
         let mut mass = Band::ZERO;
         let mut force = [T::ZERO; MODES];
@@ -233,10 +245,10 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             let (x_rate, y_rate) = (dot(&along, v), dot(&across, v));
             let x_load = x_rest - T::TWO * omega * y_rate - faster * y - omega * omega * x
                 + alpha * (x_rate - omega * y)
-                + self.gravity * hub.sin;
+                + weight[0];
             let y_load = y_rest + T::TWO * omega * x_rate + faster * x - omega * omega * y
                 + alpha * (y_rate + omega * x)
-                + self.gravity * hub.cos;
+                + weight[1];
             let (x_load, y_load) = (self.mass[s] * x_load, self.mass[s] * y_load);
             let (x_mass, y_mass) = (self.mass[s] * tip[0], self.mass[s] * tip[1]);
             fixed[0] += tip[0] * y_load - tip[1] * x_load;
@@ -262,8 +274,14 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
     fn load(&self, forces: &Forces<T, MODES>, a: &[T; MODES], hub: &HubState<T>) -> Load<T> {
         let of = |i: usize| forces.fixed[i] + dot(&forces.moving[i], a);
         let (about_axis, across) = (of(0), of(1));
+        let own = if self.carried {
+            let (_, cos) = self.direction.seen_from(hub);
+            across + self.hub * (hub.acceleration + self.gravity * cos)
+        } else {
+            about_axis + self.hub * hub.acceleration
+        };
         Load {
-            torque: about_axis + self.hub * hub.acceleration,
+            torque: own,
             moment: about_axis - self.radius * across,
         }
     }

@@ -44,7 +44,7 @@ impl Rung {
     pub fn ladder(scene: &Scene) -> [Self; 8] {
         let mut ladder = Self::LADDER;
         let Damping { alpha, beta } = scene.damping;
-        if scene.gravity > 0.0 || alpha > 0.0 || beta > 0.0 {
+        if scene.in_plane_gravity() > 0.0 || alpha > 0.0 || beta > 0.0 {
             ladder.swap(2, 3);
             ladder.swap(5, 6);
         }

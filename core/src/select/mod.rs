@@ -10,7 +10,7 @@ mod trial;
 pub use choose::{NoChoice, assess, choose};
 pub use ladder::{Assessment, Choice, Rung, Tolerance};
 
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::Scalar;
 use crate::model::{EightElements, Rod};
 use crate::motion::{Move, Moves, Peaks};
@@ -153,8 +153,8 @@ impl<T: Scalar> Stepper for Auto<T> {
     }
 
     #[inline(always)]
-    fn feels_gravity(&self) -> bool {
-        each!(self, s => s.feels_gravity())
+    fn gravity(&self) -> &GravityDirection<T> {
+        each!(self, s => s.gravity())
     }
 
     fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error> {

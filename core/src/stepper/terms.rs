@@ -9,15 +9,19 @@ pub(super) struct Terms {
     pub spin: bool,
     pub gravity: bool,
     pub damping: bool,
+    /// The hub turns, so that what holds the arm against gravity depends on its shape.
+    pub turns: bool,
 }
 
 impl Terms {
     pub fn of<P: Scalar>(scene: &Scene<P>) -> Self {
         let damping = scene.damping;
         Self {
-            spin: true,
-            gravity: scene.gravity != P::ZERO,
+            // A carriage does not turn.
+            spin: !scene.mount.is_linear(),
+            gravity: scene.in_plane_gravity() != P::ZERO,
             damping: damping.alpha != P::ZERO || damping.beta != P::ZERO,
+            turns: !scene.mount.is_linear(),
         }
     }
 }

@@ -15,13 +15,14 @@ pub(crate) struct Assembly<T, const D: usize> {
     pub mass: Band<T, D, CHAIN>,
     /// `K`.
     pub stiffness: Band<T, D, CHAIN>,
-    /// `G = K_g − M_t`, the stiffness per θ̇².
+    /// `G = K_g − M_t`, the stiffness per θ̇²; zero on a carriage.
     pub spin: Band<T, D, CHAIN>,
-    /// `K_P = ∫ P_g N'N'ᵀ dx`, the stiffness per −g sinθ.
+    /// `K_P = ∫ P_g N'N'ᵀ dx`, the stiffness per −g sinχ.
     pub tension: Band<T, D, CHAIN>,
     /// `S = ∫ N'N'ᵀ dx`: the tip comes ½ qᵀSq closer to the hub.
     pub shortening: Band<T, D, CHAIN>,
-    /// `F`: the rows of `M` times the rigid rotation `(r + x, 1)`.
+    /// `F`: the rows of `M` times the rigid rotation `(r + x, 1)`, on a carriage times the rigid
+    /// translation `(1, 0)`.
     pub coupling: [T; D],
     /// `f_g`: the rows of `M_t` times the rigid translation `(1, 0)`.
     pub weight: [T; D],
@@ -75,7 +76,16 @@ impl<T: Scalar, const D: usize> Assembly<T, D> {
             scatter_product(&mut chain.weight, e, &m_e, [T::ONE, T::ZERO, T::ONE, T::ZERO]);
         }
         chain.add_payload(scene);
+        if scene.mount.is_linear() {
+            chain.put_on_carriage();
+        }
         chain
+    }
+
+    /// A carriage moves the link across itself and does not turn it.
+    fn put_on_carriage(&mut self) {
+        self.coupling = self.weight;
+        self.spin = Band::ZERO;
     }
 
     /// The payload's mass and rotary inertia at the tip. A rotation of the tip has no centrifugal

@@ -3,8 +3,9 @@
 use super::assembly::{Assembly, CHAIN, MassMatrix};
 use super::lumped::Condensation;
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::{Band, Scalar};
-use crate::scene::Scene;
+use crate::scene::{AxisKind, Scene};
 
 /// One consistent element, the paper's choice.
 pub type OneElement<T = f64> = Model<2, 2, T>;
@@ -17,7 +18,7 @@ pub type EightElements<T = f64> = Model<16, 4, T>;
 
 /// Small deflections `q` of the link in the hub frame:
 ///
-/// `M q̈ + (αM + βK) q̇ + [K + θ̇²G − g sinθ K_P] q = −F(θ̈ + αθ̇) − g cosθ f_g`
+/// `M q̈ + (αM + βK) q̇ + [K + θ̇²G − g sinχ K_P] q = −F(θ̈ + αθ̇) − g cosχ f_g`
 ///
 /// `N` degrees of freedom (deflection `w`, m, and slope `φ`, of each node from clamp to tip),
 /// matrices of band width `W`. SI units, in the precision of the scene, immutable once built.
@@ -68,15 +69,17 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
         .upright()
     }
 
-    /// The stiffness at `θ̇` and `θ`: `K + θ̇²G − g sinθ K_P`.
+    /// The stiffness at `θ̇` and χ: `K + θ̇²G − g sinχ K_P`.
     pub fn tangent(&self, rate: T, sin: T) -> Band<T, N, W> {
-        self.stiffness.plus(rate * rate, &self.spin).plus(-self.scene.gravity * sin, &self.tension)
+        let gravity = self.scene.in_plane_gravity();
+        self.stiffness.plus(rate * rate, &self.spin).plus(-gravity * sin, &self.tension)
     }
 
     /// Static equilibrium of a hub at rest at an angle of that sine and cosine:
-    /// `[K − g sinθ K_P] q = −g cosθ f_g`.
+    /// `[K − g sinχ K_P] q = −g cosχ f_g`.
     pub fn equilibrium(&self, sin: T, cos: T) -> [T; N] {
-        let load = self.weight.map(|f| -self.scene.gravity * cos * f);
+        let gravity = self.scene.in_plane_gravity();
+        let load = self.weight.map(|f| -gravity * cos * f);
         self.tangent(T::ZERO, sin).factor().solve(&load)
     }
 
@@ -95,12 +98,12 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
         &self.stiffness
     }
 
-    /// `G = K_g − M_t`: centrifugal stiffening less softening, per θ̇².
+    /// `G = K_g − M_t`: centrifugal stiffening less softening, per θ̇². None on a carriage.
     pub fn spin(&self) -> &Band<T, N, W> {
         &self.spin
     }
 
-    /// `K_P`: stiffness from the link's own hanging weight, per −g sinθ.
+    /// `K_P`: stiffness from the link's own hanging weight, per −g sinχ.
     pub fn tension(&self) -> &Band<T, N, W> {
         &self.tension
     }
@@ -110,12 +113,12 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
         &self.shortening
     }
 
-    /// `F`: inertia coupling to the hub's angular acceleration.
+    /// `F`: inertia coupling to the hub's acceleration; on a carriage it is `f_g`.
     pub fn coupling(&self) -> &[T; N] {
         &self.coupling
     }
 
-    /// `f_g`: gravity load per −g cosθ.
+    /// `f_g`: gravity load per −g cosχ.
     pub fn weight(&self) -> &[T; N] {
         &self.weight
     }
@@ -126,9 +129,18 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
     }
 
     /// Refuses a link that could not stand upright: its small deflections would have no
-    /// equilibrium there.
+    /// equilibrium there. A carriage holds it one way only.
     fn upright(self) -> Result<Self, Error> {
-        if self.stiffness.plus(-self.scene.gravity, &self.tension).factored().is_positive() {
+        let gravity = self.scene.in_plane_gravity();
+        let steepest = match self.scene.mount.axis {
+            AxisKind::Rotary => T::ONE,
+            AxisKind::Linear => {
+                let mut hub = HubState::<T>::ZERO;
+                self.scene.gravity_direction().aim(&mut hub);
+                hub.sin
+            }
+        };
+        if self.stiffness.plus(-gravity * steepest, &self.tension).factored().is_positive() {
             Ok(self)
         } else {
             Err(Error::Buckles { gravity: self.scene.gravity.to_f64() })

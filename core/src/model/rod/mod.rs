@@ -8,6 +8,7 @@ pub(crate) use expansion::Expansion;
 pub(crate) use points::{Load, RodPoints};
 
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::{Band, Scalar, dot, generalized_eigen, sqrt};
 use crate::scene::Scene;
 
@@ -53,15 +54,18 @@ pub(crate) struct Rule<'a, const K: usize> {
 }
 
 /// The rod at modal coordinates `a`, hub-frame axes, nothing moving.
+///
+/// `ω` is the hub's rate. On a linear axis it is the carriage's velocity `v` along hub-frame Y:
+/// then `h = ∂/∂a (∫ρA Y dx + m_p Y_L)`, and `T_vv` is the mass of link and payload.
 #[derive(Clone, Copy, Debug)]
 pub struct Kinetics<const K: usize> {
     /// `M(a)`: `T = ½ȧᵀMȧ + ω hᵀȧ + ½ω² T_θθ`.
     pub mass: [[f64; K]; K],
     /// `h(a)`.
     pub coupling: [f64; K],
-    /// `T_θθ(a)`, hub inertia left out.
+    /// `T_θθ(a)`, the hub's inertia or the carriage's mass left out.
     pub inertia: f64,
-    /// `∫ρA (X, Y) dx + m_p (X, Y)_L`: gravity's potential is `g (x sinθ + y cosθ)`.
+    /// `∫ρA (X, Y) dx + m_p (X, Y)_L`: gravity's potential is `g (x sinχ + y cosχ)`.
     pub moment: [f64; 2],
     /// The tip `(X, Y)`.
     pub tip: [f64; 2],
@@ -171,13 +175,21 @@ impl<const K: usize> Rod<K> {
     }
 
     /// Largest tip angle relative to the hub to expect of a motion with accelerations up to that
-    /// many rad/s², rad: twice the quasi-static one, and the sag under gravity; first mode.
+    /// many rad/s² (a carriage's: m/s²), rad: twice the quasi-static one, and the sag under gravity; first mode.
     pub fn bend(&self, acceleration: f64) -> f64 {
         let rest = self.kinetics(&[0.0; K]);
         let compliance = self.tip_slope[0] / (self.frequency[0] * self.frequency[0]);
         let mut a = [0.0; K];
         a[0] = 1e-4 * self.scene.link.length;
-        let weight = self.scene.gravity * self.kinetics(&a).moment[1] / a[0];
+        // A hub that turns meets gravity across the link somewhere; a carriage holds it one way.
+        let across = if self.scene.mount.is_linear() {
+            let mut hub = HubState::ZERO;
+            self.scene.gravity_direction().aim(&mut hub);
+            f64::abs(hub.cos)
+        } else {
+            1.0
+        };
+        let weight = self.scene.in_plane_gravity() * across * self.kinetics(&a).moment[1] / a[0];
         compliance * (2.0 * rest.coupling[0].abs() * acceleration + weight)
     }
 
@@ -223,6 +235,7 @@ impl<const K: usize> Rod<K> {
         let sum = |f: &dyn Fn(usize) -> f64| link(core::array::from_fn(f));
         let (m_p, j_p) = (scene.payload.mass, scene.payload.inertia);
         let tip_slope = &self.tip_slope;
+        let carried = scene.mount.is_linear();
         Kinetics {
             mass: core::array::from_fn(|i| {
                 core::array::from_fn(|j| {
@@ -232,13 +245,20 @@ impl<const K: usize> Rod<K> {
                 })
             }),
             coupling: core::array::from_fn(|i| {
+                if carried {
+                    return link(across[i].0) + m_p * across[i].1;
+                }
                 sum(&|p| x[p] * across[i].0[p] - y[p] * along[i].0[p])
                     + m_p * (x_tip * across[i].1 - y_tip * along[i].1)
                     + j_p * tip_slope[i]
             }),
-            inertia: sum(&|p| x[p] * x[p] + y[p] * y[p])
-                + m_p * (x_tip * x_tip + y_tip * y_tip)
-                + j_p,
+            inertia: if carried {
+                scene.rigid_inertia()
+            } else {
+                sum(&|p| x[p] * x[p] + y[p] * y[p])
+                    + m_p * (x_tip * x_tip + y_tip * y_tip)
+                    + j_p
+            },
             moment: [link(x) + m_p * x_tip, link(y) + m_p * y_tip],
             tip: [x_tip, y_tip],
         }

@@ -6,7 +6,7 @@
 //! I_q dx + m_p I_p(L) I_q(L)`, `I_p` the integrals of the Lagrange polynomials.
 
 use super::{Rod, legendre, rule};
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, Scalar, cast, dot};
 
 /// Gauss points: six follow moves that bend by a radian.
@@ -34,9 +34,24 @@ pub(crate) struct RodPoints<T, const K: usize> {
     radius: T,
     mass: T,
     gravity: T,
+    direction: GravityDirection<T>,
     alpha: T,
     payload_inertia: T,
+    /// `J_h`, or the carriage's mass.
     hub_inertia: T,
+    /// The hub is a carriage: it moves the clamp across the link and does not turn it.
+    carried: bool,
+}
+
+/// Motion that the hub gives the link at one instant.
+struct Carrying<T> {
+    /// Rate and acceleration of the turn.
+    rate: T,
+    acceleration: T,
+    /// Acceleration of the clamp, drag and weight included: hub axes.
+    root: [T; 2],
+    /// `g cos χ`.
+    across: T,
 }
 
 /// A shape and its motion at one instant: sine and cosine at the points, `χ̇ = θ̇ + φ̇`, and the
@@ -55,7 +70,7 @@ struct Points<T> {
 /// Loads of the arm on its hub, and its tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Load<T> {
-    /// Hub torque, N m.
+    /// Hub torque, N m, or force on the carriage, N.
     pub torque: T,
     /// Bending moment at the clamp, N m.
     pub moment: T,
@@ -105,10 +120,12 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
             to_tip: core::array::from_fn(|p| f(integral(p, 1.0))),
             radius: f(scene.hub.radius),
             mass: f(scene.link.mass + payload.mass),
-            gravity: f(scene.gravity),
+            gravity: f(scene.in_plane_gravity()),
+            direction: scene.gravity_direction(),
             alpha: f(scene.damping.alpha),
             payload_inertia: f(payload.inertia),
             hub_inertia: f(scene.hub.inertia),
+            carried: scene.mount.is_linear(),
         }
     }
 
@@ -122,10 +139,11 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         stiffness: &[T; K],
         loss: &[T; K],
     ) -> [T; K] {
-        let points = self.points(a, v, hub);
+        let carrying = self.carrying(hub);
+        let points = self.points(a, v, &carrying);
         let (force, mass) = self.forces(&points);
         let turning = self.payload_inertia
-            * (hub.acceleration + self.alpha * (hub.rate + dot(&self.tip_slope, v)));
+            * (carrying.acceleration + self.alpha * (carrying.rate + dot(&self.tip_slope, v)));
         let right: [T; K] = core::array::from_fn(|i| {
             let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
             for p in 0..POINTS {
@@ -144,14 +162,15 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         acceleration: &[T; K],
         hub: &HubState<T>,
     ) -> Load<T> {
-        let mut points = self.points(a, v, hub);
+        let carrying = self.carrying(hub);
+        let mut points = self.points(a, v, &carrying);
         for p in 0..POINTS {
             points.turn[p] += dot(&self.slope[p], acceleration);
         }
         let (force, _) = self.forces(&points);
-        let spin =
-            dot(&self.tip_slope, acceleration) + self.alpha * (hub.rate + dot(&self.tip_slope, v));
-        let mut moment = self.payload_inertia * (hub.acceleration + spin);
+        let spin = dot(&self.tip_slope, acceleration)
+            + self.alpha * (carrying.rate + dot(&self.tip_slope, v));
+        let mut moment = self.payload_inertia * (carrying.acceleration + spin);
         let mut shear = self.mass * points.root[1];
         let mut tip = [self.radius, T::ZERO];
         for p in 0..POINTS {
@@ -161,7 +180,11 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
             tip[0] += self.to_tip[p] * points.cos[p];
             tip[1] += self.to_tip[p] * points.sin[p];
         }
-        let torque = moment + self.radius * shear + self.hub_inertia * hub.acceleration;
+        let torque = if self.carried {
+            shear + self.hub_inertia * (hub.acceleration + carrying.across)
+        } else {
+            moment + self.radius * shear + self.hub_inertia * hub.acceleration
+        };
         Load { torque, moment, tip }
     }
 
@@ -176,23 +199,38 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         })
     }
 
-    fn points(&self, a: &[T; K], v: &[T; K], hub: &HubState<T>) -> Points<T> {
+    /// The motion of the clamp. `hub.sin` and `hub.cos` are those of θ.
+    #[inline(always)]
+    fn carrying(&self, hub: &HubState<T>) -> Carrying<T> {
+        let (sin, cos) = self.direction.seen_from(hub);
+        let (along, across) = (self.gravity * sin, self.gravity * cos);
+        let pushed = hub.acceleration + self.alpha * hub.rate;
+        if self.carried {
+            let root = [along, across + pushed];
+            return Carrying { rate: T::ZERO, acceleration: T::ZERO, root, across };
+        }
+        Carrying {
+            rate: hub.rate,
+            acceleration: hub.acceleration,
+            root: [along - self.radius * hub.rate * hub.rate, across + self.radius * pushed],
+            across,
+        }
+    }
+
+    fn points(&self, a: &[T; K], v: &[T; K], carrying: &Carrying<T>) -> Points<T> {
         let mut points = Points {
             sin: [T::ZERO; POINTS],
             cos: [T::ZERO; POINTS],
             spin: [T::ZERO; POINTS],
             turn: [T::ZERO; POINTS],
-            root: [
-                self.gravity * hub.sin - self.radius * hub.rate * hub.rate,
-                self.gravity * hub.cos + self.radius * (hub.acceleration + self.alpha * hub.rate),
-            ],
+            root: carrying.root,
         };
         let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
         for p in 0..POINTS {
             (points.sin[p], points.cos[p]) = (per_radian * dot(&self.slope[p], a)).sin_cos_turns();
-            let rate = hub.rate + dot(&self.slope[p], v);
+            let rate = carrying.rate + dot(&self.slope[p], v);
             points.spin[p] = rate * rate;
-            points.turn[p] = hub.acceleration + self.alpha * rate;
+            points.turn[p] = carrying.acceleration + self.alpha * rate;
         }
         points
     }

@@ -36,7 +36,7 @@ use super::kicks::Kicks;
 use super::oscillator::{check_turns, kick};
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::Scalar;
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
@@ -92,6 +92,7 @@ pub struct Elastica<T, const K: usize> {
     flexibility: f64,
     numerical_damping: NumericalDamping<T, K>,
     kicks: [Kicks<T>; K],
+    gravity: GravityDirection<T>,
 }
 
 /// The arm's state; [`Elastica::arm_state`] says what it means.
@@ -213,6 +214,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             bend,
             sag: rod.bend(0.0),
             flexibility: rod.bend(1.0) - rod.bend(0.0),
+            gravity: scene.gravity_direction(),
         }
     }
 
@@ -239,8 +241,8 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     #[inline(always)]
-    fn feels_gravity(&self) -> bool {
-        self.nonlinear.feels_gravity()
+    fn gravity(&self) -> &GravityDirection<T> {
+        &self.gravity
     }
 
     #[inline(always)]

@@ -20,7 +20,7 @@ pub(super) struct Nonlinear<T, const K: usize> {
     coupling: [T; K],
     inertia_at_rest: T,
     hub_inertia: T,
-    /// `g ∫ρA (X, Y) dx`, payload included.
+    /// `g ∫ρA (X, Y) dx`, payload included; on a carriage `moment_at_rest` is the whole weight.
     moment_at_rest: T,
     moment: (Even<T, K>, Odd<T, K>),
     tip_at_rest: T,
@@ -33,6 +33,8 @@ pub(super) struct Nonlinear<T, const K: usize> {
     drag: [T; K],
     gravity: bool,
     damping: bool,
+    /// The hub turns, so that what holds the arm against gravity depends on its shape.
+    turns: bool,
     /// Keeps the arguments bounded.
     reach: Reach<T, K>,
 }
@@ -73,7 +75,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
     pub(super) fn new(rod: &Rod<K>, expansion: &Expansion<K>, range: &[f64; K]) -> Self {
         let f = T::from_f64;
         let (scene, omega) = (rod.scene(), rod.frequency());
-        let g = scene.gravity;
+        let g = scene.in_plane_gravity();
         let (terms, odd) = (&expansion.even, &expansion.odd);
         let even = |of: &dyn Fn(usize) -> f64| Even::new(&EVEN, omega, of);
         let linear = &expansion.linear;
@@ -87,7 +89,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
             coupling: cast(&expansion.coupling),
             inertia_at_rest: f(scene.hub.inertia - expansion.e),
             hub_inertia: f(scene.hub.inertia),
-            moment_at_rest: f(g * expansion.moment),
+            moment_at_rest: f(g * if scene.mount.is_linear() { scene.first_moment() } else { expansion.moment }),
             moment: (
                 even(&|n| g * terms[n].moment),
                 Odd::new(&ODD, omega, |k| g * linear[k].moment, |n| g * odd[n].moment),
@@ -103,6 +105,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
             drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
             gravity: g != 0.0,
             damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
+            turns: !scene.mount.is_linear(),
             reach: Reach::new(omega, range),
         }
     }
@@ -111,6 +114,12 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
     #[inline(always)]
     pub(super) fn feels_gravity(&self) -> bool {
         self.gravity
+    }
+
+    /// True if the hub turns.
+    #[inline(always)]
+    pub(super) fn turns(&self) -> bool {
+        self.turns
     }
 
     /// True if there is damping.
@@ -192,13 +201,17 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         Flow { omega, p, v2, u, rate, lightness }
     }
 
-    /// Adds `∂V/∂x` of the weight to the gradient; returns `∂V/∂θ`.
+    /// Adds `∂V/∂x` of the weight to the gradient; returns `∂V/∂θ`, which on a carriage is the same
+    /// in every shape.
     #[inline(always)]
     fn weigh(&self, shape: &Shape<T, K>, hub: &HubState<T>, gradient: &mut [T; K]) -> T {
         let (along, across) = (self.moment.0.at(shape, Order::Second), self.moment.1.slope(shape));
         let twice = hub.sin + hub.sin;
         for k in 0..K {
             gradient[k] += twice * along.half_slope[k] + hub.cos * across[k];
+        }
+        if !self.turns {
+            return hub.cos * self.moment_at_rest;
         }
         hub.cos * (self.moment_at_rest + along.value) - hub.sin * self.moment.1.value(shape)
     }

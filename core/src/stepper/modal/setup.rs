@@ -21,7 +21,8 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         }
         let tick = check_tick(tick)?;
         let scene = model.scene();
-        let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
+        let (alpha, beta) = (scene.damping.alpha, scene.damping.beta);
+        let gravity = scene.in_plane_gravity();
         let modes = Modes::of(model);
         let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);
         check_turns(&omega, alpha, beta, tick)?;
@@ -68,6 +69,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             most: T::from_f64(
                 MOST_GRAVITY_CHANGE * scene.link.length / shape[0][model.tip()].abs(),
             ),
+            gravity: scene.gravity_direction(),
         };
         modal.bounded(&omega, gravity)
     }

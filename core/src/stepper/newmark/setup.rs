@@ -31,7 +31,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         let tick = check_tick(tick)?;
         let scene = model.scene();
         Self::check_payload(scene)?;
-        let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
+        let (alpha, beta) = (scene.damping.alpha, scene.damping.beta);
+        let gravity = scene.in_plane_gravity();
         let half = P::from_f64(0.5 * tick);
         let per_half = P::ONE / half;
         let principal = Self::axes(model);
@@ -81,6 +82,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * scene.first_moment()),
             most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length.to_f64()),
+            gravity: scene.gravity_direction(),
         })
     }
 
