@@ -6,7 +6,7 @@ use stillbeam::hub::HubState;
 use stillbeam::motion::{Segment, Shaped, Shaper};
 use stillbeam::select::Choice;
 use stillbeam::stepper::{AnyMotion, Response, Stepper};
-use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
+use stillbeam::{AxisKind, Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
 use crate::dispatch::{StepperVisitor, with_chosen, with_stepper};
 use crate::error::Error;
@@ -30,6 +30,15 @@ pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
 /// [`run`] with the choice that `auto` has already made, if that is the method. `progress` is
 /// called with the fraction of the limits' check that is done, 0 to 1.
 pub fn run_with(
+    scene: &SceneFile,
+    solver: &Solver,
+    choice: Option<&Choice>,
+    progress: &dyn Fn(f64),
+) -> Result<Vec<Row>, Error> {
+    refused_or_run(scene, solver, choice, progress).map_err(|error| error.on(scene.arm.mount.axis))
+}
+
+fn refused_or_run(
     scene: &SceneFile,
     solver: &Solver,
     choice: Option<&Choice>,
@@ -116,7 +125,7 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     each_tick_of(stepper, scene.from, &motions, |generator, k, ends| {
         let setpoint = generator.tick();
         let shown = if ends { generator.setpoint_before() } else { setpoint };
-        rows.push(row(k as f64 * tick, &shown));
+        rows.push(row(k as f64 * tick, scene.arm.mount.axis, &shown));
     })?;
     Ok(rows)
 }
@@ -135,17 +144,18 @@ fn drive_shaped<S: Stepper>(
         plans.flat_map(|plan| plan.segments.iter().map(Segment::cast::<S::Scalar>)).collect();
     let motion = Shaped::new(&segments, shaper, tick);
     let ends: HashSet<u32> = trajectory.arrivals().map(|end| (end / tick).round() as u32).collect();
-    let mut state = stepper.equilibrium(&motion.hub(0));
+    let mut state = stepper.equilibrium(&stepper.gravity().aimed(&motion.hub(0)));
     let mut rows = Vec::new();
     for k in 0..=motion.ticks() {
         if k > 0 {
             motion.advance(stepper, &mut state, k - 1);
         }
         let hub = if ends.contains(&k) { motion.arrival(k) } else { motion.hub(k) };
+        let hub = stepper.gravity().aimed(&hub);
         let Response { torque, tip } = stepper.response::<AnyMotion>(&state, &hub);
         let HubState { angle, rate, acceleration, .. } = hub;
         let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
-        rows.push(row(f64::from(k) * tick, &setpoint));
+        rows.push(row(f64::from(k) * tick, scene.arm.mount.axis, &setpoint));
     }
     Ok(rows)
 }
@@ -200,9 +210,9 @@ fn each_tick_of<S: Stepper>(
     Ok(())
 }
 
-/// Converts a setpoint to the units of the table.
-pub fn row<T: Real>(t: f64, setpoint: &Setpoint<T>) -> Row {
-    let [x, y] = setpoint.global_tip();
+/// Converts a setpoint of an axis of that kind to the units of the table.
+pub fn row<T: Real>(t: f64, axis: AxisKind, setpoint: &Setpoint<T>) -> Row {
+    let [x, y] = setpoint.global_tip_on(axis);
     Row {
         t_s: t,
         hub_angle_rad: setpoint.angle.radians(),

@@ -1,5 +1,6 @@
 //! Scene files: TOML in SI units, read as a validated arm and its moves.
 
+mod mount;
 mod moves;
 mod notes;
 mod shaper;
@@ -48,6 +49,7 @@ pub struct SceneFile {
 #[serde(deny_unknown_fields)]
 struct File {
     link: LinkTable,
+    axis: Option<String>,
     #[serde(default)]
     hub: HubTable,
     #[serde(default)]
@@ -84,6 +86,7 @@ struct LinkTable {
 struct HubTable {
     radius: f64,
     inertia: f64,
+    mass: Option<f64>,
 }
 
 #[derive(Default, Deserialize)]
@@ -104,6 +107,8 @@ struct DampingTable {
 #[serde(default, deny_unknown_fields)]
 struct GravityTable {
     acceleration: f64,
+    tilt: f64,
+    direction: f64,
 }
 
 #[derive(Default, Deserialize)]
@@ -133,16 +138,26 @@ impl SceneFile {
         Self::build(name, file).map_err(|error| document.locate(&error))
     }
 
-    fn build(name: &str, mut file: File) -> Result<Self, Error> {
+    fn build(name: &str, file: File) -> Result<Self, Error> {
         let gravity = file.gravity.acceleration;
+        let mount = mount::build(file.axis.as_deref(), &file.gravity)?;
         let arm = Scene {
             link: file.link.build()?,
-            hub: Hub { radius: file.hub.radius, inertia: file.hub.inertia },
+            hub: Hub {
+                radius: file.hub.radius,
+                inertia: mount::hub_inertia(&file.hub, mount.axis)?,
+            },
             payload: Payload { mass: file.payload.mass, inertia: file.payload.inertia },
             damping: Damping { alpha: file.damping.alpha, beta: file.damping.beta },
             gravity,
+            mount,
         }
         .validate()?;
+        Self::with_moves(name, file, arm).map_err(|error| error.on(arm.mount.axis))
+    }
+
+    /// Adds the moves and their limits to a validated arm.
+    fn with_moves(name: &str, mut file: File, arm: Scene) -> Result<Self, Error> {
         let limits = Limits {
             rate: file.limits.rate,
             acceleration: file.limits.acceleration,

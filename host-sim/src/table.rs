@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use stillbeam::AxisKind;
 
 use crate::error::Error;
 use crate::output::Files;
@@ -12,11 +13,15 @@ use crate::output::Files;
 pub struct Row {
     /// Time, s.
     pub t_s: f64,
-    /// θ, rad, not wrapped.
+    /// θ, rad, not wrapped; on a linear axis the position, m.
+    #[serde(alias = "hub_position_m")]
     pub hub_angle_rad: f64,
-    /// θ̇, rad/s.
+    /// θ̇, rad/s; on a linear axis m/s.
+    #[serde(alias = "hub_velocity_m_s")]
     pub hub_rate_rad_s: f64,
-    /// θ̈, rad/s²; the left-hand value at the end of a move, else the right-hand one.
+    /// θ̈, rad/s², on a linear axis m/s²; the left-hand value at the end of a move, else the
+    /// right-hand one.
+    #[serde(alias = "hub_acceleration_m_s2")]
     pub hub_accel_rad_s2: f64,
     /// Tip, global X, m.
     pub tip_x_m: f64,
@@ -24,7 +29,8 @@ pub struct Row {
     pub tip_y_m: f64,
     /// Tip, hub-frame Y, m.
     pub deflection_m: f64,
-    /// Torque into the hub, N m; jumps with the acceleration.
+    /// Torque into the hub, N m; jumps with the acceleration. On a linear axis the force, N.
+    #[serde(alias = "force_n")]
     pub torque_nm: f64,
 }
 
@@ -49,17 +55,50 @@ pub fn significant(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
 
-/// Writes the table as CSV, whole or not at all.
-pub fn write(path: &Path, rows: &[Row]) -> Result<(), Error> {
+/// Columns of a linear axis, in the order of [`Row`].
+const LINEAR: [&str; 8] = [
+    "t_s",
+    "hub_position_m",
+    "hub_velocity_m_s",
+    "hub_acceleration_m_s2",
+    "tip_x_m",
+    "tip_y_m",
+    "deflection_m",
+    "force_n",
+];
+
+/// Columns of an axis that turns, in the order of [`Row`].
+const ROTARY: [&str; 8] = [
+    "t_s",
+    "hub_angle_rad",
+    "hub_rate_rad_s",
+    "hub_accel_rad_s2",
+    "tip_x_m",
+    "tip_y_m",
+    "deflection_m",
+    "torque_nm",
+];
+
+/// Returns the columns of an axis, in the order of [`Row`].
+pub fn columns(axis: AxisKind) -> [&'static str; 8] {
+    match axis {
+        AxisKind::Rotary => ROTARY,
+        AxisKind::Linear => LINEAR,
+    }
+}
+
+/// Writes the table as CSV, whole or not at all, with the columns of that axis.
+pub fn write(path: &Path, axis: AxisKind, rows: &[Row]) -> Result<(), Error> {
     let mut files = Files::default();
-    add(&mut files, path, rows)?;
+    add(&mut files, path, axis, rows)?;
     files.finish().map(drop)
 }
 
 /// Adds the table as CSV to files that are written together.
-pub fn add(files: &mut Files, path: &Path, rows: &[Row]) -> Result<(), Error> {
+pub fn add(files: &mut Files, path: &Path, axis: AxisKind, rows: &[Row]) -> Result<(), Error> {
     files.add(path, |file| {
-        let mut csv = csv::Writer::from_writer(file);
+        let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(file);
+        csv.write_record(columns(axis))?;
         for row in rows {
             csv.serialize(row.rounded()).map_err(std::io::Error::other)?;
         }

@@ -1,9 +1,9 @@
 //! The work of the hub torque is the change of energy plus what damping takes.
 
-use stillbeam::Generator;
 use stillbeam::hub::HubState;
 use stillbeam::model::{EightElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, ModalState, Newmark, Quality, Stepper};
+use stillbeam::{Generator, Scene};
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_tests::{TRUTH_SCENES, truth};
 
@@ -37,15 +37,26 @@ fn balance<const N: usize, const W: usize>(
         + 0.5 * dot(&model.mass().times(&q_dot), &q_dot)
         - 0.5 * omega * omega * dot(&model.spin().times(&q), &q);
     let bending = 0.5 * dot(&model.stiffness().times(&q), &q);
-    let raised = scene.gravity
-        * (hub.sin * (scene.first_moment() - 0.5 * dot(&model.tension().times(&q), &q))
-            + hub.cos * dot(model.weight(), &q));
+    let shortened = 0.5 * dot(&model.tension().times(&q), &q);
+    let across = dot(model.weight(), &q);
+    let raised = scene.in_plane_gravity()
+        * (hub.cos * across - hub.sin * shortened + raised_by_hub(scene, hub));
     let damping = scene.damping;
     Balance {
         work: torque * omega,
         dissipation: 2.0 * damping.alpha * carried
             + damping.beta * dot(&model.stiffness().times(&q_dot), &q_dot),
         energy: 0.5 * scene.hub.inertia * omega * omega + carried + bending + raised,
+    }
+}
+
+/// `S sin χ`: how high the hub's turn raises the straight arm, times its mass. A carriage raises all
+/// of its mass by `s cos χ`.
+fn raised_by_hub(scene: &Scene, hub: &HubState<f64>) -> f64 {
+    if scene.mount.is_linear() {
+        hub.cos * hub.angle.radians() * scene.first_moment()
+    } else {
+        hub.sin * scene.first_moment()
     }
 }
 
@@ -62,7 +73,7 @@ fn nodal<const N: usize, const K: usize>(
 }
 
 /// The same of the exact kinematics: `T = ½J_hω² + ½vᵀMv + ωhᵀv + ½ω²T_θθ`,
-/// `V = ½Σωₖ²aₖ² + g(X sinθ + Y cosθ)`; the strip takes `βΣωₖ²vₖ²`.
+/// `V = ½Σωₖ²aₖ² + g(X sinχ + Y cosχ)`; the strip takes `βΣωₖ²vₖ²`.
 fn exact_balance<const K: usize>(
     rod: &Rod<K>,
     arm: &Generator<Elastica<f64, K>, 8>,
@@ -79,7 +90,10 @@ fn exact_balance<const K: usize>(
     let stiffness = rod.frequency().map(|omega| omega * omega);
     let elastic = |x: [f64; K]| dot(&stiffness, &x.map(|x| x * x));
     let [x, y] = kinetics.moment;
-    let raised = scene.gravity * (hub.sin * x + hub.cos * y);
+    let bent = [x - scene.first_moment(), y];
+    let bent = if scene.mount.is_linear() { [x, y] } else { bent };
+    let raised = scene.in_plane_gravity()
+        * (hub.sin * bent[0] + hub.cos * bent[1] + raised_by_hub(scene, hub));
     let damping = scene.damping;
     Balance {
         work: torque * omega,
@@ -206,5 +220,56 @@ fn exact_kinematics_balance_to_a_ten_thousandth() {
         assert_below(1e-4, &elastica::<1>(quality));
         assert_below(1e-4, &elastica::<2>(quality));
         assert_below(1e-4, &elastica::<3>(quality));
+    }
+}
+
+/// A carriage with a bent link on a vertical axis, one with a link that hangs and is damped, and a
+/// hub that turns in a plane that leans, under turned gravity.
+const MOUNTED: [&str; 3] = [
+    "axis = \"linear\"\nhub.mass = 0.2\ngravity.acceleration = 9.81\n",
+    "axis = \"linear\"\nhub.mass = 0.2\ngravity = { acceleration = 9.81, direction = 1.5 }\n\
+     damping = { alpha = 0.2, beta = 0.0003 }\n",
+    "gravity = { acceleration = 9.81, tilt = 0.6, direction = 0.8 }\nhub.radius = 0.05\n",
+];
+
+/// The imbalance of every mounted arm with a stepper that is set up for it.
+fn all_mounted(bound: f64, mut of: impl FnMut(&SceneFile) -> f64) {
+    for mount in MOUNTED {
+        let text = format!(
+            "{mount}payload.mass = 0.02\n[link]\nlength = 0.4\nmass = 0.0224\n\
+             bending_stiffness = 0.46\n[move]\nprofile = \"cubic\"\nduration = 0.3\nto = 0.5\n\
+             settle = 0.2\n"
+        );
+        let imbalance = of(&SceneFile::parse("mounted", &text).expect("a scene"));
+        println!("{mount}: {imbalance:.1e}");
+        assert!(imbalance < bound, "{mount}: {imbalance:e}");
+    }
+}
+
+#[test]
+fn the_force_on_a_carriage_balances_the_energy() {
+    all_mounted(1e-4, |scene| {
+        let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
+        let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
+        imbalance(scene, stepper, |arm, torque| {
+            let state = arm.state();
+            let q_dot = arm.stepper().deflection_rate(state);
+            balance(&model, arm.hub(), [state.deflection, q_dot], torque)
+        })
+    });
+    all_mounted(1e-5, |scene| {
+        let model = EightElements::consistent(&scene.arm).expect("model");
+        let modes = Modes::of(&model);
+        let stepper = Modal::<f64, 2>::new(&model, TICK).expect("stepper");
+        imbalance(scene, stepper, |arm, torque| {
+            balance(&model, arm.hub(), nodal(&modes, arm.state()), torque)
+        })
+    });
+    for quality in [Quality::Fast, Quality::Fine] {
+        all_mounted(1e-4, |scene| {
+            let rod = Rod::<2>::new(&scene.arm).expect("rod");
+            let stepper = Elastica::new(&rod, TICK, quality, 0.7).expect("stepper");
+            imbalance(scene, stepper, |arm, torque| exact_balance(&rod, arm, torque))
+        });
     }
 }

@@ -1,7 +1,7 @@
 //! Modal and elastica: what the exact step and the exact kinematics are worth at 10 ms.
 
 use proptest::prelude::*;
-use stillbeam::hub::HubState;
+use stillbeam::hub::{GravityDirection, HubState};
 use stillbeam::model::{EightElements, Rod};
 use stillbeam::motion::Peaks;
 use stillbeam::stepper::{

@@ -2,6 +2,7 @@
 
 mod auto;
 mod auto_bits;
+mod carriage;
 mod convergence;
 mod energy;
 mod exact;

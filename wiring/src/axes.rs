@@ -2,7 +2,7 @@
 
 use stillbeam::axis::Policy;
 use stillbeam::motor::{self, Direction, Ratio};
-use stillbeam::{Damping, Error, Hub, Limits, Link, Payload, Scene};
+use stillbeam::{Damping, Error, Hub, Limits, Link, Mount, Payload, Scene};
 use stillbeam_methods::Method as _;
 
 use crate::Configuration;
@@ -55,6 +55,7 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
             payload: Payload { mass: 0.050, inertia: 0.0 },
             damping: Damping { alpha: 0.1, beta: 1e-4 },
             gravity: 9.81,
+            mount: Mount::ROTARY,
         },
         policy: policy(8.0, 60.0),
         joint: motor::Joint {

@@ -15,6 +15,7 @@ use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
 use crate::motion::{Limits, Move, MoveSummary, Plan, Remedy, Segment, plan_segments};
+use crate::scene::AxisKind;
 use crate::stepper::{AnyMotion, AtRest, KinkMoments, Linear, Response, Stepper};
 
 /// Setpoint for the motor controller, one every tick. SI units; on a linear axis a metre stands for
@@ -42,12 +43,25 @@ impl<T: Scalar> Setpoint<T> {
         self.tip[1]
     }
 
-    /// The tip in the global frame `(x, y)`, m: the hub's angle turns it, by sine and cosine that
+    /// The tip in the global frame `(x, y)` of a hub that turns, m: the hub's angle turns it, by sine and cosine that
     /// a tick has no need of.
     #[inline(always)]
     pub fn global_tip(&self) -> [T; 2] {
         let ([x, y], (sin, cos)) = (self.tip, self.angle.sin_cos());
         [x * cos - y * sin, x * sin + y * cos]
+    }
+
+    /// The tip in the global frame `(x, y)`, m, on an axis of that kind: see [`Self::global_tip`]
+    /// for one that turns. A carriage moves along global y.
+    pub fn global_tip_on(&self, axis: AxisKind) -> [T; 2] {
+        match axis {
+            AxisKind::Rotary => self.global_tip(),
+            AxisKind::Linear => {
+                let origin = Angle { turns: 0, part: T::ZERO };
+                let position = T::from_f64(core::f64::consts::TAU) * self.angle.since(origin);
+                [self.tip[0], self.tip[1] + position]
+            }
+        }
     }
 }
 

@@ -59,6 +59,13 @@ impl<T: Scalar> GravityDirection<T> {
         }
     }
 
+    /// Returns the hub, whose `sin` and `cos` are those of θ itself, as a stepper is given it: with
+    /// those of χ.
+    pub fn aimed(&self, hub: &HubState<T>) -> HubState<T> {
+        let (sin, cos) = self.seen_from(hub);
+        HubState { sin, cos, ..*hub }
+    }
+
     /// Returns `(sin χ, cos χ)` for a hub whose `sin` and `cos` are those of θ itself.
     #[inline(always)]
     pub fn seen_from(&self, hub: &HubState<T>) -> (T, T) {

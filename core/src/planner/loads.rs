@@ -62,7 +62,9 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
         from: &HubState<f64>,
         to: f64,
     ) -> Option<Remedy> {
-        if self.scene.in_plane_gravity() == 0.0 || !matches!(parameter, "limits.torque" | "limits.moment") {
+        if self.scene.in_plane_gravity() == 0.0
+            || !matches!(parameter, "limits.torque" | "limits.moment")
+        {
             return None;
         }
         let arm = &self.coarse.arms[0];

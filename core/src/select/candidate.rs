@@ -98,7 +98,8 @@ impl<S: Stepper> Candidate<S> {
                     if !tick.kink.is_none() {
                         stepper.kink(state, KinkMoments::All(&tick.kink.cast()));
                     }
-                    let [before, arrival] = [&tick.before, &tick.arrival].map(|hub| aimed(stepper, hub));
+                    let [before, arrival] =
+                        [&tick.before, &tick.arrival].map(|hub| aimed(stepper, hub));
                     stepper.step::<AnyMotion>(state, &before, &arrival);
                 }
                 Some(stepper.response::<AnyMotion>(state, &aimed(stepper, &tick.after)))
@@ -143,9 +144,7 @@ impl<S: Stepper> Candidate<S> {
 
 /// The hub as the stepper is given it: in its scalar, with sine and cosine of gravity's angle.
 fn aimed<S: Stepper>(stepper: &S, hub: &HubState<f32>) -> HubState<S::Scalar> {
-    let mut hub = cast(hub);
-    (hub.sin, hub.cos) = stepper.gravity().seen_from(&hub);
-    hub
+    stepper.gravity().aimed(&cast(hub))
 }
 
 fn cast<T: Scalar>(hub: &HubState<f32>) -> HubState<T> {

@@ -280,10 +280,7 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         } else {
             about_axis + self.hub * hub.acceleration
         };
-        Load {
-            torque: own,
-            moment: about_axis - self.radius * across,
-        }
+        Load { torque: own, moment: about_axis - self.radius * across }
     }
 
     /// The tip in the hub frame, m, and what acts on the arm. Where the acceleration jumps, that is

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::truth::{self, Reference};
-use stillbeam_sim::{println, progress, run, table};
+use stillbeam_sim::{axis_units, println, progress, run, table};
 
 #[derive(clap::Args)]
 pub struct ReferenceArgs {
@@ -51,12 +51,18 @@ impl ReferenceArgs {
         for line in notes {
             super::note(&line);
         }
-        table::write(&self.csv, &rows)?;
+        table::write(&self.csv, scene.arm.mount.axis, &rows)?;
+        let units = axis_units::of(scene.arm.mount.axis);
         let peak = |of: fn(&table::Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         let bent = peak(|row| row.deflection_m.abs());
         println!("{}: {}", scene.name, self.solver.describe());
         println!("  {} rows to {}", rows.len(), self.csv.display());
-        println!("  peak torque      {:.4} N m", peak(|row| row.torque_nm.abs()));
+        println!(
+            "  peak {:<10}  {:.4} {}",
+            units.effort,
+            peak(|row| row.torque_nm.abs()),
+            units.effort_unit
+        );
         println!(
             "  peak deflection  {:.2} mm ({:.1} % of L)",
             1e3 * bent,

@@ -9,7 +9,7 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{dispatch, println, progress, run, table};
+use stillbeam_sim::{axis_units, dispatch, println, progress, run, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -56,14 +56,20 @@ impl RunArgs {
         for line in notes {
             super::note(&line);
         }
-        table::write(&self.csv, &rows)?;
+        table::write(&self.csv, scene.arm.mount.axis, &rows)?;
+        let units = axis_units::of(scene.arm.mount.axis);
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
         if let Some(Choice { rung, expected, .. }) = choice {
             println!("  chose            {rung} (expected error {})", errors(&expected));
         }
         println!("  {} setpoints to {}", rows.len(), self.csv.display());
-        println!("  peak torque      {:.4} N m", peak(|row| row.torque_nm.abs()));
+        println!(
+            "  peak {:<10}  {:.4} {}",
+            units.effort,
+            peak(|row| row.torque_nm.abs()),
+            units.effort_unit
+        );
         println!(
             "  peak deflection  {:.2} mm ({:.1} % of L)",
             1e3 * peak(|row| row.deflection_m.abs()),

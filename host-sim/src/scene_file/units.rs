@@ -44,7 +44,8 @@ pub(super) fn remarks(file: &File, arm: &Scene, moves: &[MoveTable]) -> Vec<Stri
     if file.gravity.acceleration == 1.0 {
         lines.push("gravity.acceleration = 1: it is in m/s^2 (1 g = 9.81 m/s^2)".to_owned());
     }
-    if let Some(rate) = file.limits.rate.filter(|rate| *rate > FASTEST) {
+    let turns = !arm.mount.is_linear();
+    if let Some(rate) = file.limits.rate.filter(|rate| turns && *rate > FASTEST) {
         lines.push(format!(
             "limits.rate = {rate}: {rate} rad/s are {:.0} rpm; rates are in rad/s ({rate} deg/s = \
              {:.4} rad/s)",
@@ -56,7 +57,7 @@ pub(super) fn remarks(file: &File, arm: &Scene, moves: &[MoveTable]) -> Vec<Stri
         let milli = 1e-3 * tick;
         lines.push(format!("solver.tick = {tick}: ticks are in s ({tick} ms = {milli} s)"));
     }
-    lines.extend(motions(moves));
+    lines.extend(motions(moves, turns));
     lines
 }
 
@@ -73,7 +74,7 @@ pub fn angle(value: f64) -> Option<String> {
     })
 }
 
-fn motions(moves: &[MoveTable]) -> Vec<String> {
+fn motions(moves: &[MoveTable], turns: bool) -> Vec<String> {
     let mut groups = Groups::default();
     for (index, table) in moves.iter().enumerate() {
         if table.profile == "spin-up" {
@@ -81,7 +82,7 @@ fn motions(moves: &[MoveTable]) -> Vec<String> {
             break;
         }
         for (key, value) in [("from", table.from), ("to", table.to)] {
-            if let (Some(value), Some(text)) = (value, value.and_then(angle)) {
+            if let (Some(value), Some(text)) = (value, value.filter(|_| turns).and_then(angle)) {
                 groups.add(index, format!("{key} = {value}: {text}"));
             }
         }

@@ -255,9 +255,7 @@ impl<const K: usize> Rod<K> {
             inertia: if carried {
                 scene.rigid_inertia()
             } else {
-                sum(&|p| x[p] * x[p] + y[p] * y[p])
-                    + m_p * (x_tip * x_tip + y_tip * y_tip)
-                    + j_p
+                sum(&|p| x[p] * x[p] + y[p] * y[p]) + m_p * (x_tip * x_tip + y_tip * y_tip) + j_p
             },
             moment: [link(x) + m_p * x_tip, link(y) + m_p * y_tip],
             tip: [x_tip, y_tip],

@@ -89,7 +89,11 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
             coupling: cast(&expansion.coupling),
             inertia_at_rest: f(scene.hub.inertia - expansion.e),
             hub_inertia: f(scene.hub.inertia),
-            moment_at_rest: f(g * if scene.mount.is_linear() { scene.first_moment() } else { expansion.moment }),
+            moment_at_rest: f(g * if scene.mount.is_linear() {
+                scene.first_moment()
+            } else {
+                expansion.moment
+            }),
             moment: (
                 even(&|n| g * terms[n].moment),
                 Odd::new(&ODD, omega, |k| g * linear[k].moment, |n| g * odd[n].moment),

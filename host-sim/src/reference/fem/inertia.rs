@@ -29,13 +29,13 @@ impl Inertia {
         Self { matrix: matrix * (mass / 420.0), alpha }
     }
 
-    /// Returns inertia, drag and weight (`gravity` in m/s², along global −Y) as forces that the arm
-    /// has to supply, N, N, N m at each end, and their derivative along `change`.
+    /// Returns inertia, drag and weight (`lift` is gravity's negative in the global frame, m/s²) as
+    /// forces that the arm has to supply, N, N, N m at each end, and their derivative along `change`.
     pub fn force(
         &self,
         a: &Node,
         b: &Node,
-        gravity: f64,
+        lift: Vector2<f64>,
         change: &Change,
     ) -> (Vector6<f64>, Matrix6<f64>) {
         let alpha = self.alpha;
@@ -49,7 +49,7 @@ impl Inertia {
             let (sin, cos) = node.q.z.sin_cos();
             let (t, n) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
             let (rate, second) = (node.v.z, node.a.z);
-            acceleration[2 * i] = node.a.xy() + alpha * node.v.xy() + Vector2::new(0.0, gravity);
+            acceleration[2 * i] = node.a.xy() + alpha * node.v.xy() + lift;
             acceleration[2 * i + 1] = (second + alpha * rate) * n - rate * rate * t;
             turning[i] = (linear - change.displacement * rate * rate) * n
                 - (change.displacement * (second + alpha * rate) + 2.0 * rate * change.rate) * t;
@@ -84,12 +84,12 @@ impl Inertia {
 pub(super) fn payload(
     scene: &Scene,
     node: &Node,
-    gravity: f64,
+    lift: Vector2<f64>,
     change: &Change,
 ) -> (Vector3<f64>, Vector3<f64>) {
     let alpha = scene.damping.alpha;
     let inertia = Vector3::new(scene.payload.mass, scene.payload.mass, scene.payload.inertia);
-    let weight = Vector3::new(0.0, gravity, 0.0);
+    let weight = Vector3::new(lift.x, lift.y, 0.0);
     let force = inertia.component_mul(&(node.a + alpha * node.v + weight));
     (force, inertia * (change.acceleration + alpha * change.rate))
 }

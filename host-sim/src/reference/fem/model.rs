@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 use stillbeam::Scene;
 use stillbeam::hub::HubState;
 
@@ -15,8 +15,10 @@ use super::{HubModel, Options};
 /// Elements of the arm and the residual of its equations of motion.
 pub(super) struct Model {
     pub scene: Scene,
-    /// Present gravity, m/s².
+    /// Present gravity in the plane of motion, m/s².
     pub gravity: f64,
+    /// Direction of what holds a mass against gravity, in the global frame.
+    lift: Vector2<f64>,
     /// Distance of every node from the axis, undeformed, m. The first node moves with the hub.
     reach: Vec<f64>,
     elements: Vec<Element>,
@@ -49,7 +51,9 @@ impl Model {
         reach.extend((0..=count).map(|i| scene.hub.radius + i as f64 * length));
         elements.extend((0..count).map(|_| Element { length, axial, bending, beta }));
         let inertia = Inertia::new(link.mass / count as f64, length, damping.alpha);
-        Self { scene: *scene, gravity: scene.gravity, reach, elements, inertia, hub_elements }
+        let gravity = scene.in_plane_gravity();
+        let lift = Vector2::new(-scene.mount.direction.sin(), scene.mount.direction.cos());
+        Self { scene: *scene, gravity, lift, reach, elements, inertia, hub_elements }
     }
 
     pub fn nodes(&self) -> usize {
@@ -59,6 +63,10 @@ impl Model {
     /// Sets the nodes to u_m + u_d: the rigid motion with the hub, exact in time, and the
     /// deformation.
     pub fn place(&self, hub: &HubState<f64>, deformation: &Deformation, nodes: &mut [Node]) {
+        if self.scene.mount.is_linear() {
+            self.place_on_carriage(hub, deformation, nodes);
+            return;
+        }
         // Whole turns are left out: only directions are ever taken from it.
         let angle = TAU * hub.angle.part;
         let (sin, cos) = (hub.sin, hub.cos);
@@ -74,6 +82,24 @@ impl Model {
         }
     }
 
+    /// Sets the nodes to u_m + u_d on a carriage, which moves along global Y.
+    fn place_on_carriage(
+        &self,
+        hub: &HubState<f64>,
+        deformation: &Deformation,
+        nodes: &mut [Node],
+    ) {
+        let moved = |x: f64, y: f64| Vector3::new(x, y, 0.0);
+        for (i, &x) in self.reach.iter().enumerate() {
+            nodes[i] = Node {
+                q: moved(x, hub.angle.radians()) + deformation.u[i],
+                v: moved(0.0, hub.rate) + deformation.v[i],
+                a: moved(0.0, hub.acceleration) + deformation.a[i],
+                deformation: deformation.u[i],
+            };
+        }
+    }
+
     /// Returns the force (N, N, N m) that each node lacks for the equations of motion to hold, and
     /// its derivative. That of the first node is the reaction of the hub.
     pub fn residual(
@@ -83,13 +109,14 @@ impl Model {
         residual: &mut [Vector3<f64>],
         tangent: &mut Chain,
     ) {
+        let lift = self.gravity * self.lift;
         residual.fill(Vector3::zeros());
         tangent.clear();
         for (i, element) in self.elements.iter().enumerate() {
             let (a, b) = (&nodes[i], &nodes[i + 1]);
             let (mut force, mut stiffness) = element.force(a, b, change);
             if i >= self.hub_elements {
-                let (inertia, mass) = self.inertia.force(a, b, self.gravity, change);
+                let (inertia, mass) = self.inertia.force(a, b, lift, change);
                 force += inertia;
                 stiffness += mass;
             }
@@ -101,16 +128,27 @@ impl Model {
             tangent.diagonal[i + 1] += stiffness.fixed_view::<3, 3>(3, 3);
         }
         let tip = self.nodes() - 1;
-        let (force, mass) = payload(&self.scene, &nodes[tip], self.gravity, change);
+        let (force, mass) = payload(&self.scene, &nodes[tip], lift, change);
         residual[tip] += force;
         tangent.diagonal[tip] += Matrix3::from_diagonal(&mass);
     }
 
     /// Returns the hub torque, N m: the first node's reaction, moment and force carried to the
-    /// axis, and `J_h θ̈`.
+    /// axis, and `J_h θ̈`. On a linear axis the force on the carriage, its own mass included, N.
     pub fn torque(&self, reaction: &Vector3<f64>, clamp: &Node, hub: &HubState<f64>) -> f64 {
-        reaction.z + clamp.q.x * reaction.y - clamp.q.y * reaction.x
-            + self.scene.hub.inertia * hub.acceleration
+        let own = self.scene.hub.inertia;
+        if self.scene.mount.is_linear() {
+            return reaction.y + own * (hub.acceleration + self.gravity * self.lift.y);
+        }
+        reaction.z + clamp.q.x * reaction.y - clamp.q.y * reaction.x + own * hub.acceleration
+    }
+
+    /// Returns the hub-frame Y of a position in the global frame, m.
+    pub fn deflection(&self, q: &Vector3<f64>, hub: &HubState<f64>) -> f64 {
+        if self.scene.mount.is_linear() {
+            return q.y - hub.angle.radians();
+        }
+        q.y * hub.cos - q.x * hub.sin
     }
 
     /// Returns the residual that rounding of the displacements may leave, relative as in

@@ -132,7 +132,7 @@ impl March {
             rate: hub.rate,
             acceleration: hub.acceleration,
             tip: [tip.x, tip.y],
-            deflection: tip.y * hub.cos - tip.x * hub.sin,
+            deflection: self.model.deflection(&tip, hub),
             torque: self.model.torque(&self.residual[0], &self.nodes[0], hub),
         }
     }

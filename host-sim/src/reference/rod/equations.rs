@@ -4,6 +4,7 @@ use nalgebra::{Cholesky, SMatrix, SVector};
 use stillbeam::Scene;
 use stillbeam::hub::HubState;
 
+use super::super::carrying::Carrying;
 use super::legendre::{Basis, POINTS, STATIONS};
 
 /// A rod with N unknowns: the relative angle is `φ(x, t) = Σ aₖ(t) ψₖ(x)`, a point of the link at
@@ -136,15 +137,17 @@ impl<const N: usize> Rod<N> {
     /// Drag and weight count as accelerations.
     fn bias(&self, at: &Configuration, s: usize, hub: &HubState<f64>) -> [f64; 2] {
         let [x, y, xd, yd, cx, cy] = at.stations.map(|quantity| quantity[s]);
-        let (rate, acceleration) = (hub.rate, hub.acceleration);
-        let (alpha, gravity) = (self.scene.damping.alpha, self.scene.gravity);
+        let Carrying { rate, acceleration, velocity, push, weight } =
+            Carrying::of(&self.scene, hub);
+        let alpha = self.scene.damping.alpha;
         [
             cx - 2.0 * rate * yd - acceleration * y - rate * rate * x
                 + alpha * (xd - rate * y)
-                + gravity * hub.sin,
+                + weight[0],
             cy + 2.0 * rate * xd + acceleration * x - rate * rate * y
                 + alpha * (yd + rate * x)
-                + gravity * hub.cos,
+                + (push + alpha * velocity)
+                + weight[1],
         ]
     }
 
@@ -189,10 +192,12 @@ impl<const N: usize> Rod<N> {
     fn turning(&self, v: &SVector<f64, N>, hub: &HubState<f64>) -> f64 {
         let alpha = self.scene.damping.alpha;
         let spin: f64 = (0..N).map(|k| self.basis.tip[k] * v[k]).sum();
-        alpha * (spin + hub.rate) + hub.acceleration
+        let Carrying { rate, acceleration, .. } = Carrying::of(&self.scene, hub);
+        alpha * (spin + rate) + acceleration
     }
 
-    /// Returns the hub torque and the bending moment at the clamp, N m.
+    /// Returns the hub torque and the bending moment at the clamp, N m. On a linear axis the first is
+    /// the force on the carriage, N.
     ///
     /// Torque: `J_h θ̈` and the moment of all inertia forces, drag and weight about the axis, `∫(X
     /// a_Y − Y a_X) dm`. Moment: the same about the clamp at `(r, 0)`, without the hub's own.
@@ -217,8 +222,12 @@ impl<const N: usize> Rod<N> {
             moment += self.masses[s] * ((x - self.scene.hub.radius) * ay - y * ax);
             shear += self.masses[s] * ay;
         }
-        let torque =
-            moment + self.scene.hub.radius * shear + self.scene.hub.inertia * hub.acceleration;
+        let own = self.scene.hub.inertia;
+        let torque = if self.scene.mount.is_linear() {
+            shear + own * (hub.acceleration + Carrying::of(&self.scene, hub).weight[1])
+        } else {
+            moment + self.scene.hub.radius * shear + own * hub.acceleration
+        };
         [torque, moment]
     }
 }

@@ -8,6 +8,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::equations::Rod;
 use super::{Integrator, Load, Options, Resume};
+use crate::reference::carrying::global;
 use crate::reference::schedule::{Schedule, Stretch};
 use crate::reference::{ReferenceError, Sample};
 
@@ -74,7 +75,7 @@ fn at_rest<const N: usize>(
 ) -> Result<State<N>, ReferenceError> {
     let start = schedule.hub(0.0);
     let rest = rod
-        .equilibrium(start.sin, start.cos)
+        .equilibrium(&start)
         .ok_or(ReferenceError::NoEquilibrium { angle: start.angle.radians() })?;
     let mut y = State::<N>::zeros();
     y.set_column(0, &rest);
@@ -241,7 +242,7 @@ fn sample<const N: usize>(
         angle: hub.angle.radians(),
         rate: hub.rate,
         acceleration: hub.acceleration,
-        tip: [x * hub.cos - deflection * hub.sin, x * hub.sin + deflection * hub.cos],
+        tip: global(&rod.scene, &hub, [x, deflection]),
         deflection,
         torque: rod.loads(&at, &v, &acceleration, &hub)[0],
     }

@@ -139,13 +139,17 @@ pub fn watch(
 /// with the hub at `angle`.
 pub fn rest_loads(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], ReferenceError> {
     let rod = Rod::<7>::new(&scene.validate()?);
-    let (sin, cos) = angle.sin_cos();
-    let a = rod
-        .equilibrium(sin, cos)
-        .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
+    let hub = resting(angle);
+    let a =
+        rod.equilibrium(&hub).ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
     let still = a.map(|_| 0.0);
-    let hub = HubState { angle, rate: 0.0, acceleration: 0.0, sin, cos };
     Ok(rod.loads(&rod.configuration(&a, &still), &still, &still, &hub))
+}
+
+/// The hub at rest, with its sine and cosine.
+fn resting(angle: Angle<f64>) -> HubState<f64> {
+    let (sin, cos) = angle.sin_cos();
+    HubState { sin, cos, ..HubState::at_rest(angle) }
 }
 
 /// Returns the first natural period of the straight clamped arm, s.
@@ -158,9 +162,8 @@ pub fn first_period(scene: &Scene) -> Result<f64, ReferenceError> {
 /// below 1e-9 L.
 pub fn rest_deflection(scene: &Scene, angle: Angle<f64>) -> Result<f64, ReferenceError> {
     let rod = Rod::<7>::new(&scene.validate()?);
-    let (sin, cos) = angle.sin_cos();
     let a = rod
-        .equilibrium(sin, cos)
+        .equilibrium(&resting(angle))
         .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
     Ok(rod.configuration(&a, &a.map(|_| 0.0)).tip()[1])
 }

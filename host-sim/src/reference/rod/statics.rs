@@ -2,6 +2,8 @@
 
 use nalgebra::{Cholesky, DMatrix, SMatrix, SVector};
 
+use stillbeam::hub::HubState;
+
 use super::equations::Rod;
 
 /// Load steps on the way to the full weight. With them Newton's method follows the branch that
@@ -9,17 +11,19 @@ use super::equations::Rod;
 const LOAD_STEPS: u32 = 16;
 
 impl<const N: usize> Rod<N> {
-    /// Returns the static shape under gravity at the hub angle given by its sine and cosine, rad.
-    /// Returns `None` if it is not stable.
+    /// Returns the static shape under gravity, rad, with the hub at rest at its angle. Returns `None`
+    /// if it is not stable.
     ///
-    /// Minimises `½ Σ kₖ aₖ² + g ∫ M(x) sin(θ + φ) dx`, `M(x) = ρA(L − x) + m_p` the mass outboard.
-    pub fn equilibrium(&self, sin: f64, cos: f64) -> Option<SVector<f64, N>> {
+    /// Minimises `½ Σ kₖ aₖ² + g ∫ M(x) sin(χ + φ) dx`, `M(x) = ρA(L − x) + m_p` the mass outboard.
+    pub fn equilibrium(&self, hub: &HubState<f64>) -> Option<SVector<f64, N>> {
+        let whole = self.scene.in_plane_gravity();
+        let (sin, cos) = self.scene.gravity_direction().seen_from(hub);
         let mut a = SVector::zeros();
-        if self.scene.gravity == 0.0 {
+        if whole == 0.0 {
             return Some(a);
         }
         for step in 1..=LOAD_STEPS {
-            let gravity = self.scene.gravity * f64::from(step) / f64::from(LOAD_STEPS);
+            let gravity = whole * f64::from(step) / f64::from(LOAD_STEPS);
             let mut change = f64::INFINITY;
             for _ in 0..50 {
                 let (gradient, hessian) = self.potential(gravity, sin, cos, &a);
