@@ -12,6 +12,7 @@ use std::path::Path;
 use serde::Deserialize;
 use stillbeam::material::{MATERIALS, Material, Strip};
 use stillbeam::motion::Shaper;
+use stillbeam::scene::Varied;
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Scene};
 
 use self::moves::{MoveTable, Planning};
@@ -143,12 +144,18 @@ impl SceneFile {
         let mount = mount::build(file.axis.as_deref(), &file.gravity)?;
         let arm = Scene {
             link: file.link.build()?,
+            shape: Varied::UNIFORM,
             hub: Hub {
                 radius: file.hub.radius,
                 inertia: mount::hub_inertia(&file.hub, mount.axis)?,
+                stiffness: None,
             },
-            payload: Payload { mass: file.payload.mass, inertia: file.payload.inertia },
-            damping: Damping { alpha: file.damping.alpha, beta: file.damping.beta },
+            payload: Payload {
+                mass: file.payload.mass,
+                inertia: file.payload.inertia,
+                offset: 0.0,
+            },
+            damping: Damping { alpha: file.damping.alpha, beta: file.damping.beta, joint: 0.0 },
             gravity,
             mount,
         }

@@ -6,6 +6,7 @@ use crate::hub::HubState;
 use crate::math::{Scalar, cast};
 use crate::model::rod::monomials::{EVEN, ODD};
 use crate::model::{Expansion, Rod};
+use crate::scene::AxisKind;
 
 /// The expansion in the tick's scalar and in scaled coordinates, gravity multiplied in.
 #[derive(Clone, Copy, Debug)]
@@ -76,6 +77,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         let f = T::from_f64;
         let (scene, omega) = (rod.scene(), rod.frequency());
         let g = scene.in_plane_gravity();
+        let beta = rod.stiffness_damping();
         let (terms, odd) = (&expansion.even, &expansion.odd);
         let even = |of: &dyn Fn(usize) -> f64| Even::new(&EVEN, omega, of);
         let linear = &expansion.linear;
@@ -89,10 +91,9 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
             coupling: cast(&expansion.coupling),
             inertia_at_rest: f(scene.hub.inertia - expansion.e),
             hub_inertia: f(scene.hub.inertia),
-            moment_at_rest: f(g * if scene.mount.is_linear() {
-                scene.first_moment()
-            } else {
-                expansion.moment
+            moment_at_rest: f(g * match scene.mount.axis {
+                AxisKind::Rotary => expansion.moment,
+                AxisKind::Linear => rod.kinetics(&[0.0; K]).inertia + scene.hub.inertia,
             }),
             moment: (
                 even(&|n| g * terms[n].moment),
@@ -104,11 +105,11 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
                 Odd::new(&ODD, omega, |k| linear[k].tip, |n| odd[n].tip),
             ),
             omega: cast(omega),
-            loss: cast(&omega.map(|omega| scene.damping.beta * omega * omega)),
+            loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
             alpha: f(scene.damping.alpha),
             drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
             gravity: g != 0.0,
-            damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
+            damping: !scene.damping.is_zero(),
             turns: !scene.mount.is_linear(),
             reach: Reach::new(omega, range),
         }

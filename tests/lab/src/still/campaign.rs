@@ -6,9 +6,10 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::model::Rod;
 use stillbeam::planner::{Kinematics, Planner, Request, StillMove, Target};
+use stillbeam::scene::Varied;
 use stillbeam::stepper::{ArmState, Elastica, Quality};
 use stillbeam::{
-    Damping, Error as CoreError, Generator, Hub, Limits, Link, Move, Payload, Profile, Scene,
+    Damping, Error as CoreError, Generator, Hub, Limits, Link, Mount, Move, Payload, Profile, Scene,
 };
 
 use crate::campaign;
@@ -33,6 +34,7 @@ fn arm(rng: &mut StdRng) -> Scene {
     let sag = moved * 9.81 * length * length / (3.0 * bending_stiffness);
     Scene {
         link: Link { length, mass, bending_stiffness },
+        shape: Varied::UNIFORM,
         hub: Hub { radius: length * rng.random_range(0.0..0.3), inertia: 0.0 },
         payload: Payload {
             mass: payload * mass,
@@ -43,6 +45,7 @@ fn arm(rng: &mut StdRng) -> Scene {
             beta: damped * period * rng.random_range(0.0..0.01),
         },
         gravity: if upright { 9.81 * f64::min(1.0, 0.05 / sag) } else { 0.0 },
+        mount: Mount::ROTARY,
     }
 }
 
