@@ -59,6 +59,8 @@ struct File {
     damping: DampingTable,
     #[serde(default)]
     gravity: GravityTable,
+    #[serde(default)]
+    carrier: CarrierTable,
     #[serde(rename = "move")]
     motion: Option<MoveTable>,
     moves: Option<Vec<MoveTable>>,
@@ -106,6 +108,12 @@ struct DampingTable {
 
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+struct CarrierTable {
+    rate: f64,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 struct GravityTable {
     acceleration: f64,
     tilt: f64,
@@ -141,7 +149,7 @@ impl SceneFile {
 
     fn build(name: &str, file: File) -> Result<Self, Error> {
         let gravity = file.gravity.acceleration;
-        let mount = mount::build(file.axis.as_deref(), &file.gravity)?;
+        let mount = mount::build(file.axis.as_deref(), &file.gravity, &file.carrier)?;
         let arm = Scene {
             link: file.link.build()?,
             shape: Varied::UNIFORM,

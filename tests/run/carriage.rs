@@ -161,3 +161,86 @@ fn refusals_of_a_carriage_are_in_its_units() {
     let error = run(&scene, &Solver::PAPER).expect_err("too weak a drive").to_string();
     assert!(error.contains("limits.torque = 0.4") && error.contains(" N at "), "{error}");
 }
+
+/// A carrier that turns: the link feels the sum of both turns, and is straight before the move. The
+/// rods of both references judge it, the one in the hub frame, the other from outside.
+fn on_carrier(head: &str, motion: &str) -> SceneFile {
+    let text = text(head, motion)
+        .replace("axis = \"linear\"\nhub.mass = 0.3\n", "carrier.rate = 8.0\nhub.radius = 0.05\n");
+    SceneFile::parse("carrier", &text).expect("a scene")
+}
+
+#[test]
+fn both_references_and_elastica_agree_on_a_carrier_that_turns() {
+    let motion = "profile = \"quintic\"\nduration = 0.4\nto = 1.0\nsettle = 0.1\n";
+    let scene = on_carrier("payload.mass = 0.02\n", motion);
+    let trajectory = scene.trajectory(0.01).expect("a motion");
+    let times = truth::times(&trajectory, 0.02);
+    let rod = rod::solve(&scene.arm, &trajectory, &times, &rod::Options::default());
+    let fem = fem::solve(&scene.arm, &trajectory, &times, &fem::Options::default());
+    let (rod, fem) = (rod.expect("the rod"), fem.expect("the elements"));
+    let peak = rod.iter().map(|sample| sample.torque.abs()).fold(0.0, f64::max);
+    for (a, b) in rod.iter().zip(&fem) {
+        let apart = (a.tip[0] - b.tip[0]).hypot(a.tip[1] - b.tip[1]) / 0.4;
+        assert!(apart < 2e-4, "{apart} of L at {} s", a.t);
+        assert!((a.torque - b.torque).abs() < 0.01 * peak, "torque at {} s", a.t);
+    }
+    let resting = SceneFile { arm: resting(&scene), ..scene.clone() };
+    let solver = Solver {
+        method: Method::Elastica,
+        modes: 2,
+        quality: Quality::Fine,
+        scalar: Scalar::F32,
+        ..Solver::PAPER
+    };
+    let found = against_rod(&scene, &solver);
+    println!("{:.1e} of L, {:.1e} of the torque", found.tip_max, found.torque);
+    assert!(found.tip_max < 2e-4 && found.torque < 0.01, "{found:?}");
+    let modal = Solver { method: Method::Modal, modes: 2, elements: 8, ..solver };
+    let found = against_rod(&scene, &modal);
+    assert!(found.tip_max < 0.02, "{found:?}");
+    // What the carrier does is far more than these errors.
+    let without = run(&resting, &solver).expect("a run");
+    let with = run(&scene, &solver).expect("a run");
+    let change = compare(&with, &without, &scene).expect("common times");
+    assert!(change.tip_max > 5e-3, "{change:?}");
+    let newmark = Solver { method: Method::Newmark, ..solver };
+    let error = run(&scene, &newmark).expect_err("no such stepper").to_string();
+    assert!(error.contains("newmark") && error.contains("carrier.rate = 8"), "{error}");
+}
+
+fn resting(scene: &SceneFile) -> stillbeam::Scene {
+    let mount = stillbeam::Mount { carrier: 0.0, ..scene.arm.mount };
+    stillbeam::Scene { mount, ..scene.arm }
+}
+
+#[test]
+fn a_still_move_on_a_carrier_that_turns_arrives_still() {
+    let arm = on_carrier("payload.mass = 0.02\n", "").arm;
+    let duration = 2.0 * rod::first_period(&arm).expect("a period");
+    let motion = format!("profile = \"still\"\nduration = {duration}\nto = 1.0\nsettle = 0.2\n");
+    let scene = on_carrier("payload.mass = 0.02\n", &motion);
+    let trajectory = scene.trajectory(0.01).expect("a motion");
+    let times = truth::times(&trajectory, 0.002);
+    let rows = truth::solve(Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("the rod");
+    let left = stillbeam_sim::compare::residual(&rows, &scene, 0.01).expect("a rest");
+    let left = left.value().expect("at rest");
+    assert!(left < 2e-4, "{left} of L");
+}
+
+#[test]
+fn a_carrier_is_refused_with_what_it_has_no_equilibrium_with() {
+    let moving = "profile = \"cubic\"\nduration = 0.6\nto = 0.5\n";
+    for (head, words) in [
+        ("gravity.acceleration = 9.81", ["gravity.acceleration", "carrier"]),
+        ("damping.alpha = 0.1", ["damping.alpha = 0.1", "carrier"]),
+    ] {
+        let text = text(head, moving)
+            .replace("axis = \"linear\"\nhub.mass = 0.3\n", "carrier.rate = 8.0\n");
+        let error = SceneFile::parse("carrier", &text).expect_err(head).to_string();
+        assert!(words.iter().all(|word| error.contains(word)), "{error}");
+    }
+    let text = text("carrier.rate = 8.0", moving);
+    let error = SceneFile::parse("carrier", &text).expect_err("no turn").to_string();
+    assert!(error.contains("carrier.rate = 8") && error.contains("linear"), "{error}");
+}

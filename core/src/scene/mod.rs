@@ -189,7 +189,36 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
         self.damping.validate()?;
         Error::check("gravity.acceleration", self.gravity, 0.0, 1e3, "m/s^2")?;
         self.mount.validate()?;
+        self.check_carrier()?;
         Ok(self)
+    }
+
+    /// Refuses a carrier that turns with a linear axis, with gravity in the plane of motion or with
+    /// drag on absolute velocity: see [`Mount::carrier`].
+    fn check_carrier(&self) -> Result<(), Error> {
+        if self.mount.carrier == T::ZERO {
+            return Ok(());
+        }
+        if self.mount.is_linear() {
+            return self.check_no_carrier();
+        }
+        Error::check(
+            "damping.alpha",
+            self.damping.alpha,
+            0.0,
+            0.0,
+            "1/s with a carrier that turns",
+        )?;
+        let gravity = self.in_plane_gravity();
+        let unit = "m/s^2 in the plane of motion with a carrier that turns";
+        Error::check("gravity.acceleration", gravity, 0.0, 0.0, unit)?;
+        Ok(())
+    }
+
+    /// Refuses a carrier that turns: of a model that does not know of it.
+    pub(crate) fn check_no_carrier(&self) -> Result<(), Error> {
+        let unit = "rad/s here, which is for a carrier that rests";
+        Error::check("carrier.rate", self.mount.carrier, 0.0, 0.0, unit).map(drop)
     }
 
     /// `m/L`, mean mass per length, kg/m; `ρA` of a uniform link.

@@ -41,11 +41,18 @@ pub struct Mount<T = f64> {
     /// to 2π. On a linear axis 0 is gravity along the axis, across the link; π/2 is a link that
     /// hangs from its carriage, −π/2 one that stands on it.
     pub direction: T,
+    /// Ω, rate of a carrier that turns evenly about the hub's own axis and bears the motor, rad/s,
+    /// −1000 to 1000. The hub's motion is relative to it. Not with a linear axis, gravity in the
+    /// plane of motion, whose direction would turn, or α, whose drag would bend the arm at rest.
+    /// Steppers for such a scene are set up by
+    /// [`OnCarrier`](crate::stepper::OnCarrier).
+    pub carrier: T,
 }
 
 impl<T: Scalar> Mount<T> {
     /// A hub that turns about an axis, its plane of motion not tilted, gravity along global −Y.
-    pub const ROTARY: Self = Self { axis: AxisKind::Rotary, tilt: T::ZERO, direction: T::ZERO };
+    pub const ROTARY: Self =
+        Self { axis: AxisKind::Rotary, tilt: T::ZERO, direction: T::ZERO, carrier: T::ZERO };
 
     /// A carriage on a linear axis, gravity along the axis.
     pub const LINEAR: Self = Self { axis: AxisKind::Linear, ..Self::ROTARY };
@@ -54,6 +61,7 @@ impl<T: Scalar> Mount<T> {
     pub(super) fn validate(self) -> Result<Self, Error> {
         Error::check("gravity.tilt", self.tilt, 0.0, FRAC_PI_2, "rad")?;
         Error::check("gravity.direction", self.direction, -TAU, TAU, "rad")?;
+        Error::check("carrier.rate", self.carrier, -1e3, 1e3, "rad/s")?;
         Ok(self)
     }
 
@@ -67,6 +75,11 @@ impl Mount {
     /// Rounds to another precision.
     pub(super) fn cast<T: Scalar>(&self) -> Mount<T> {
         let f = T::from_f64;
-        Mount { axis: self.axis, tilt: f(self.tilt), direction: f(self.direction) }
+        Mount {
+            axis: self.axis,
+            tilt: f(self.tilt),
+            direction: f(self.direction),
+            carrier: f(self.carrier),
+        }
     }
 }

@@ -77,6 +77,8 @@ pub(super) struct Exact<T, const MODES: usize> {
     hub: T,
     /// The hub is a carriage: it moves the clamp across the link and does not turn it.
     carried: bool,
+    /// Rate of the carrier, rad/s.
+    carrier: T,
     /// Tip deflection per unit of `aₖ` and `ωₖ⁻¹` of it, fractions of L: what a rate amounts to.
     swing: [[T; 2]; MODES],
     /// `b_k²` of the modes that the steps do not resolve, and of those that are left out, kg m².
@@ -160,6 +162,7 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             direction: scene.gravity_direction(),
             hub: round(scene.hub.inertia),
             carried: scene.mount.is_linear(),
+            carrier: round(scene.mount.carrier),
             swing: core::array::from_fn(|k| {
                 let swing = rod.tip_swing()[k].abs() / length;
                 [T::from_f64(swing / rod.frequency()[k]), T::from_f64(swing / squared[k])]
@@ -220,7 +223,7 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         let alpha = self.alpha;
         let (sin, cos) = self.direction.seen_from(hub);
         let (mut weight, mut omega, mut faster) =
-            ([self.gravity * sin, self.gravity * cos], hub.rate, hub.acceleration);
+            ([self.gravity * sin, self.gravity * cos], hub.rate + self.carrier, hub.acceleration);
         if self.carried {
             weight[1] += faster + alpha * omega;
             (omega, faster) = (T::ZERO, T::ZERO);

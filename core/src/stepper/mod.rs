@@ -7,6 +7,7 @@ mod elastica;
 mod kicks;
 mod modal;
 mod newmark;
+mod on_carrier;
 mod oscillator;
 mod path;
 mod rigid;
@@ -19,6 +20,7 @@ pub use aliases::{
 pub use elastica::{ArmState, Elastica, ElasticaState, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, NewmarkState};
+pub use on_carrier::OnCarrier;
 pub(crate) use oscillator::{Forcing, Oscillator};
 pub use path::{AnyMotion, AtRest, FastPaths, HubMotion, KinkMoments, Linear};
 pub use rigid::Rigid;

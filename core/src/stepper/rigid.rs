@@ -22,6 +22,7 @@ impl<T: Scalar> Rigid<T> {
     /// `tick` in s.
     pub fn new<P: Scalar, S: LinkShape>(scene: &Scene<P, S>, tick: f64) -> Result<Self, Error> {
         let scene = scene.validate()?;
+        scene.check_no_carrier()?;
         let tick = super::check_tick(tick)?;
         let inertia = scene.rigid_inertia();
         Ok(Self {

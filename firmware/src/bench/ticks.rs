@@ -7,8 +7,8 @@ use core::hint::black_box;
 use stillbeam::motion::{Limits, Plan};
 use stillbeam::scene::Uniform;
 use stillbeam::{
-    Damping, Error, Generator, Hub, HubState, Link, Mount, Move, Payload, Profile, Setpoint, Stepper,
-    UniformScene,
+    Damping, Error, Generator, Hub, HubState, Link, Mount, Move, Payload, Profile, Setpoint,
+    Stepper, UniformScene,
 };
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};

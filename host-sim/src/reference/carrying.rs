@@ -1,5 +1,7 @@
 //! Motion that the hub gives the link.
 
+use std::f64::consts::TAU;
+
 use stillbeam::Scene;
 use stillbeam::hub::HubState;
 
@@ -30,8 +32,21 @@ impl Carrying {
             let (velocity, push) = (rate, acceleration);
             return Self { rate: 0.0, acceleration: 0.0, velocity, push, weight };
         }
+        let rate = rate + scene.mount.carrier;
         Self { rate, acceleration, velocity: 0.0, push: 0.0, weight }
     }
+}
+
+/// The hub as it is seen from outside at time `t` s, if a carrier turns it: the carrier is at its
+/// zero at time 0.
+pub(super) fn from_outside(scene: &Scene, hub: &HubState<f64>, t: f64) -> HubState<f64> {
+    let carrier = scene.mount.carrier;
+    if carrier == 0.0 {
+        return *hub;
+    }
+    let angle = hub.angle.plus(carrier * t / TAU);
+    let (sin, cos) = angle.sin_cos();
+    HubState { angle, rate: hub.rate + carrier, sin, cos, ..*hub }
 }
 
 /// Position of a point of the hub frame in the global frame, m. The frame of a hub that turns is

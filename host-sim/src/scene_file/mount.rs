@@ -1,12 +1,17 @@
-//! The keys of how an arm is mounted: `axis`, `hub.mass`, `gravity.tilt`, `gravity.direction`.
+//! The keys of how an arm is mounted: `axis`, `hub.mass`, `gravity.tilt`, `gravity.direction`,
+//! `carrier.rate`.
 
 use stillbeam::{AxisKind, Mount};
 
-use super::{GravityTable, HubTable};
+use super::{CarrierTable, GravityTable, HubTable};
 use crate::error::Error;
 
 /// Builds the mount. `axis` is the file's key, `rotary` without one.
-pub(super) fn build(axis: Option<&str>, gravity: &GravityTable) -> Result<Mount, Error> {
+pub(super) fn build(
+    axis: Option<&str>,
+    gravity: &GravityTable,
+    carrier: &CarrierTable,
+) -> Result<Mount, Error> {
     let axis = match axis {
         None | Some("rotary") => AxisKind::Rotary,
         Some("linear") => AxisKind::Linear,
@@ -22,7 +27,13 @@ pub(super) fn build(axis: Option<&str>, gravity: &GravityTable) -> Result<Mount,
             )));
         }
     }
-    Ok(Mount { axis, tilt: gravity.tilt, direction: gravity.direction })
+    if axis == AxisKind::Linear && carrier.rate != 0.0 {
+        return Err(Error::new(format_args!(
+            "carrier.rate = {}: must be absent with axis = \"linear\"",
+            carrier.rate
+        )));
+    }
+    Ok(Mount { axis, tilt: gravity.tilt, direction: gravity.direction, carrier: carrier.rate })
 }
 
 /// Returns what the hub itself resists a motion of its axis with: `hub.inertia` of one that turns,

@@ -24,10 +24,10 @@ pub struct Run {
 #[allow(clippy::approx_constant)]
 pub const SCENES: &[Run] = {
     // The names that the generated text uses without a path.
+    use stillbeam::AxisKind::Rotary;
     use stillbeam::Move::{Dwell, SpinUp, To};
     use stillbeam::Profile::{Cubic, Cycloid, Quintic, SCurve, Trapezoid};
     use stillbeam::scene::Uniform;
-    use stillbeam::AxisKind::Rotary;
     use stillbeam::{Damping, Hub, Link, Mount, Payload, Scene};
     include!("embedded.in")
 };

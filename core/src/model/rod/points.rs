@@ -43,6 +43,8 @@ pub(crate) struct RodPoints<T, const K: usize> {
     hub_inertia: T,
     /// The hub is a carriage: it moves the clamp across the link and does not turn it.
     carried: bool,
+    /// Rate of the carrier, rad/s.
+    carrier: T,
 }
 
 /// Motion that the hub gives the link at one instant.
@@ -186,6 +188,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
             payload_inertia: f(payload.inertia),
             hub_inertia: f(scene.hub.inertia),
             carried: scene.mount.is_linear(),
+            carrier: f(scene.mount.carrier),
         }
     }
 
@@ -269,10 +272,11 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
             let root = [along, across + pushed];
             return Carrying { rate: T::ZERO, acceleration: T::ZERO, root, across };
         }
+        let rate = hub.rate + self.carrier;
         Carrying {
-            rate: hub.rate,
+            rate,
             acceleration: hub.acceleration,
-            root: [along - self.radius * hub.rate * hub.rate, across + self.radius * pushed],
+            root: [along - self.radius * rate * rate, across + self.radius * pushed],
             across,
         }
     }

@@ -155,6 +155,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// [`Rod::bend`]. A smaller range than the least of [`Self::BEND`] is that one: a stiff arm or
     /// a slow move bends by less, and an expansion fitted to nothing would be none. f64 inside.
     pub fn new(rod: &Rod<K>, tick: f64, quality: Quality, bend: f64) -> Result<Self, Error> {
+        rod.scene().check_no_carrier()?;
         let tick = super::check_tick(tick)?;
         let (least, most) = Self::BEND;
         let bend = Error::check("bend", bend, 0.0, most, "rad")?.max(least);

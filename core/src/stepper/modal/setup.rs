@@ -21,6 +21,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         }
         let tick = check_tick(tick)?;
         let scene = model.scene();
+        scene.check_no_carrier()?;
         let (alpha, gravity) = (scene.damping.alpha, scene.in_plane_gravity());
         let modes = Modes::of(model);
         let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);

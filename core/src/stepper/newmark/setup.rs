@@ -30,6 +30,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     pub(super) fn set_up<P: Scalar>(model: &Model<N, W, P>, tick: f64) -> Result<Self, Error> {
         let tick = check_tick(tick)?;
         let scene = model.scene();
+        scene.check_no_carrier()?;
         Self::check_payload(scene)?;
         let (alpha, beta) = (scene.damping.alpha, scene.damping.beta);
         let gravity = scene.in_plane_gravity();

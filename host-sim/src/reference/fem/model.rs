@@ -143,6 +143,16 @@ impl Model {
         reaction.z + clamp.q.x * reaction.y - clamp.q.y * reaction.x + own * hub.acceleration
     }
 
+    /// Returns a position in the global frame, m, as it is on a carrier that turns.
+    pub fn on_carrier(&self, q: &Vector3<f64>, t: f64) -> [f64; 2] {
+        let carrier = self.scene.mount.carrier;
+        if carrier == 0.0 {
+            return [q.x, q.y];
+        }
+        let (sin, cos) = (carrier * t).sin_cos();
+        [q.x * cos + q.y * sin, q.y * cos - q.x * sin]
+    }
+
     /// Returns the hub-frame Y of a position in the global frame, m.
     pub fn deflection(&self, q: &Vector3<f64>, hub: &HubState<f64>) -> f64 {
         if self.scene.mount.is_linear() {

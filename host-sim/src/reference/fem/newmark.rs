@@ -6,6 +6,7 @@ use stillbeam::hub::HubState;
 use super::block::Chain;
 use super::model::Model;
 use super::node::{Change, Deformation, Node};
+use crate::reference::carrying::from_outside;
 use crate::reference::{ReferenceError, Sample};
 
 /// Newton steps that are allowed for an equilibrium.
@@ -66,7 +67,8 @@ impl March {
     pub fn restart(&mut self, hub: &HubState<f64>, time: f64) -> Result<(), ReferenceError> {
         self.next.clone_from(&self.state);
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
-        self.equilibrate(hub, &change, time)?;
+        let hub = from_outside(&self.model.scene, hub, time);
+        self.equilibrate(&hub, &change, time)?;
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
     }
@@ -82,7 +84,8 @@ impl March {
             self.next.a[i] = a;
         }
         let change = Change { displacement: 1.0, rate: 2.0 / h, acceleration: 4.0 / (h * h) };
-        self.equilibrate(hub, &change, time)?;
+        let hub = from_outside(&self.model.scene, hub, time);
+        self.equilibrate(&hub, &change, time)?;
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
     }
@@ -123,7 +126,8 @@ impl March {
     /// Returns the present state of the arm, its hub as given.
     pub fn sample(&mut self, t: f64, hub: &HubState<f64>) -> Sample {
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
-        self.model.place(hub, &self.state, &mut self.nodes);
+        let outside = from_outside(&self.model.scene, hub, t);
+        self.model.place(&outside, &self.state, &mut self.nodes);
         self.model.residual(&self.nodes, &change, &mut self.residual, &mut self.tangent);
         let tip = self.nodes[self.nodes.len() - 1].q;
         Sample {
@@ -131,8 +135,8 @@ impl March {
             angle: hub.angle.radians(),
             rate: hub.rate,
             acceleration: hub.acceleration,
-            tip: [tip.x, tip.y],
-            deflection: self.model.deflection(&tip, hub),
+            tip: self.model.on_carrier(&tip, t),
+            deflection: self.model.deflection(&tip, &outside),
             torque: self.model.torque(&self.residual[0], &self.nodes[0], hub),
         }
     }
