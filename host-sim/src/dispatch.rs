@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::flight::Flight;
 use crate::progress;
 use crate::scene_file::SceneFile;
-use crate::solver::{Mass, Method, Quality, Scalar, Solver};
+use crate::solver::{Mass, Method, Quality, Scalar, Solver, no_such_mesh};
 
 /// Action on a model whose type is known only here.
 pub trait Visitor {
@@ -48,7 +48,7 @@ pub fn with_model<V: Visitor>(
         (Mass::Lumped, 4) => visitor.visit(Model::<4, 4>::lumped::<8>(scene)?),
         (Mass::Lumped, 8) if tip_turns => visitor.visit(Model::<9, 9>::lumped::<16>(scene)?),
         (Mass::Lumped, 8) => visitor.visit(Model::<8, 8>::lumped::<16>(scene)?),
-        (_, n) => Err(Error::new(format_args!("solver.elements = {n}: must be 1, 2, 4 or 8"))),
+        (_, n) => Err(no_such_mesh(n)),
     }
 }
 

@@ -20,6 +20,7 @@ pub mod document;
 pub mod error;
 mod flight;
 pub mod limits;
+pub mod number;
 pub mod output;
 pub mod plan;
 pub mod plot;

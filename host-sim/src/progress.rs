@@ -21,8 +21,8 @@ pub fn percent(what: &str) -> ProgressBar {
     bar(what, 100)
 }
 
-/// Creates a bar in percent for a task that is mostly short. It shows after a second and goes away
-/// when dropped.
+/// Creates a bar for a task that is mostly short. It shows after a second and goes away when
+/// dropped.
 pub fn late(what: &str) -> Late {
     Late { what: what.to_owned(), begun: Instant::now(), bar: OnceCell::new() }
 }
@@ -38,16 +38,43 @@ pub struct Late {
 impl Late {
     /// Shows the fraction that is done, 0 to 1.
     pub fn set(&self, done: f64) {
-        if self.begun.elapsed() > Duration::from_secs(1) {
+        if self.is_due() {
             self.bar.get_or_init(|| percent(&self.what)).set_position((100.0 * done) as u64);
         }
     }
+
+    /// Shows what the task is at, in place of a fraction that nobody knows.
+    pub fn turn(&self, at: impl FnOnce() -> String) {
+        if self.is_due() {
+            let bar = self.bar.get_or_init(spinner);
+            bar.set_message(format!("{}: {}", self.what, at()));
+            bar.inc(1);
+        }
+    }
+
+    /// Takes the bar from the terminal, so that another one has its line.
+    pub fn clear(&self) {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn is_due(&self) -> bool {
+        self.begun.elapsed() > Duration::from_secs(1)
+    }
+}
+
+/// Creates a sign of life for a task whose number of steps is unknown.
+fn spinner() -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}  {elapsed}") {
+        bar.set_style(style);
+    }
+    bar
 }
 
 impl Drop for Late {
     fn drop(&mut self) {
-        if let Some(bar) = self.bar.get() {
-            bar.finish_and_clear();
-        }
+        self.clear();
     }
 }

@@ -10,6 +10,7 @@ use stillbeam::{AxisKind, Error as CoreError, Generator, Move, Scalar as Real, S
 
 use crate::dispatch::{StepperVisitor, with_chosen, with_stepper};
 use crate::error::Error;
+use crate::limits::load::Progress;
 use crate::limits::{self, Excess, Peak, Quantity, Refusal, Way, remedy};
 use crate::scene_file::SceneFile;
 use crate::solver::Solver;
@@ -28,12 +29,12 @@ pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
 }
 
 /// [`run`] with the choice that `auto` has already made, if that is the method. `progress` is
-/// called with the fraction of the limits' check that is done, 0 to 1.
+/// called with what the limits' check is at.
 pub fn run_with(
     scene: &SceneFile,
     solver: &Solver,
     choice: Option<&Choice>,
-    progress: &dyn Fn(f64),
+    progress: &dyn Fn(Progress),
 ) -> Result<Vec<Row>, Error> {
     refused_or_run(scene, solver, choice, progress).map_err(|error| error.on(scene.arm.mount.axis))
 }
@@ -67,17 +68,18 @@ pub fn admit_loads(
     scene: &SceneFile,
     tick: f64,
     commanded: &dyn Fn(&[Step]) -> bool,
-    progress: &dyn Fn(f64),
+    progress: &dyn Fn(Progress),
 ) -> Result<(), Error> {
     if !limits::load::limited(&scene.limits) {
         return Ok(());
     }
     let case = scene.case(tick);
     let trajectory = scene.trajectory(tick)?;
-    match limits::load::excess(&case, &trajectory, &scene.limits, progress)? {
+    let limits = &scene.limits;
+    let checked = |done| progress(Progress::Checked(done));
+    match limits::load::excess(&case, &trajectory, limits, &checked)? {
         Some(found) => {
-            let limits = &scene.limits;
-            Err(remedy::of_loads(&case, &trajectory, limits, &found, commanded)?.into())
+            Err(remedy::of_loads(&case, &trajectory, limits, &found, commanded, progress)?.into())
         }
         None => Ok(()),
     }

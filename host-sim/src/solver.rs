@@ -1,55 +1,88 @@
 //! The solver of a run: the command line precedes the scene file, the scene file the defaults.
 
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
-/// How the arm is stepped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// The arm does not bend.
-    Rigid,
-    /// The paper's time marching, small deflections.
-    Newmark,
-    /// Small deflections in a few modes, each advanced exactly.
-    Modal,
-    /// Exact kinematics in up to three modes.
-    Elastica,
-    /// The cheapest of rigid, modal and elastica that is good enough for the scene's moves.
-    Auto,
+/// Declares the words of one key: each variant with the name by which it is typed, in a scene file
+/// and on the command line.
+macro_rules! words {
+    ($(#[$about:meta])* $key:ident { $($(#[$meaning:meta])* $variant:ident = $name:literal,)* }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
+        pub enum $key {
+            $($(#[$meaning])* #[serde(rename = $name)] #[value(name = $name)] $variant,)*
+        }
+
+        impl $key {
+            /// Every word, in the order of the list.
+            pub const ALL: &[Self] = &[$(Self::$variant),*];
+
+            /// Returns the name as it is typed.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)*
+                }
+            }
+        }
+    };
 }
 
-/// How much work a tick of elastica does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum Quality {
-    /// One evaluation a tick.
-    Fast,
-    /// Two half-steps.
-    Fine,
+words! {
+    /// How the arm is stepped.
+    Method {
+        /// The arm does not bend.
+        Rigid = "rigid",
+        /// The paper's time marching, small deflections.
+        Newmark = "newmark",
+        /// Small deflections in a few modes, each advanced exactly.
+        Modal = "modal",
+        /// Exact kinematics in up to three modes.
+        Elastica = "elastica",
+        /// The cheapest of rigid, modal and elastica that is good enough for the scene's moves.
+        Auto = "auto",
+    }
 }
 
-/// How the elements' mass is spread.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum Mass {
-    /// By the element's shape functions.
-    Consistent,
-    /// Half at each node.
-    Lumped,
+words! {
+    /// How much work a tick of elastica does.
+    Quality {
+        /// One evaluation a tick.
+        Fast = "fast",
+        /// Two half-steps.
+        Fine = "fine",
+    }
 }
 
-/// Precision of the tick; set-up is always f64.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
-#[serde(rename_all = "kebab-case")]
-pub enum Scalar {
-    /// As on the target.
-    F32,
-    /// To tell rounding from method.
-    F64,
+words! {
+    /// How the elements' mass is spread.
+    Mass {
+        /// By the element's shape functions.
+        Consistent = "consistent",
+        /// Half at each node.
+        Lumped = "lumped",
+    }
 }
+
+words! {
+    /// Precision of the tick; set-up is always f64.
+    Scalar {
+        /// As on the target.
+        F32 = "f32",
+        /// To tell rounding from method.
+        F64 = "f64",
+    }
+}
+
+/// Numbers of beam elements that a model is built for.
+pub const ELEMENTS: [usize; 4] = [1, 2, 4, 8];
+
+/// Numbers of modes that modal and elastica are built for.
+pub const MODES: RangeInclusive<usize> = 1..=3;
 
 /// The `[solver]` table, and the same keys on the command line. What is absent is left to the
 /// next in line.
@@ -114,51 +147,10 @@ pub struct Solver {
 }
 
 impl Method {
-    /// Returns the name as it is typed.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rigid => "rigid",
-            Self::Newmark => "newmark",
-            Self::Modal => "modal",
-            Self::Elastica => "elastica",
-            Self::Auto => "auto",
-        }
-    }
-
     /// Returns the default number of beam elements. They cost newmark time in the tick, modal only
     /// in set-up.
     fn elements(self) -> usize {
         if self == Self::Modal { 8 } else { 1 }
-    }
-}
-
-impl Quality {
-    /// Returns the name as it is typed.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fast => "fast",
-            Self::Fine => "fine",
-        }
-    }
-}
-
-impl Mass {
-    /// Returns the name as it is typed.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Consistent => "consistent",
-            Self::Lumped => "lumped",
-        }
-    }
-}
-
-impl Scalar {
-    /// Returns the name as it is typed.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::F32 => "f32",
-            Self::F64 => "f64",
-        }
     }
 }
 
@@ -249,7 +241,7 @@ impl SolverKeys {
         let mut unread = Vec::new();
         for (k, value) in self.values().into_iter().enumerate() {
             let Some(value) = value.filter(|_| !reads(method)[k]) else { continue };
-            let others = Method::value_variants().iter().filter(|&&other| reads(other)[k]);
+            let others = Method::ALL.iter().filter(|&&other| reads(other)[k]);
             let others: Vec<&str> = others.map(|other| other.name()).collect();
             unread.push(format!(
                 "solver.{} = {value}: {} does not read it, must be absent or with {}",
@@ -300,19 +292,17 @@ impl SolverKeys {
         let method = self.method.unwrap_or(default.method);
         let elements = match self.elements {
             None => method.elements(),
-            Some(n @ (1 | 2 | 4 | 8)) => n as usize,
             Some(n) => {
-                return Err(Error::new(format_args!(
-                    "solver.elements = {n}: must be 1, 2, 4 or 8"
-                )));
+                let known = usize::try_from(n).ok().filter(|n| ELEMENTS.contains(n));
+                known.ok_or_else(|| no_such_mesh(n))?
             }
         };
         let modes = match self.modes {
             None => default.modes,
-            Some(n @ 1..=3) => n as usize,
-            Some(n) => {
-                return Err(Error::new(format_args!("solver.modes = {n}: must be 1 to 3")));
-            }
+            Some(n) => usize::try_from(n).ok().filter(|n| MODES.contains(n)).ok_or_else(|| {
+                let [least, most] = [*MODES.start(), *MODES.end()];
+                Error::new(format_args!("solver.modes = {n}: must be {least} to {most}"))
+            })?,
         };
         let tick = self.tick.unwrap_or(default.tick);
         if !(1e-6..=1.0).contains(&tick) {
@@ -341,6 +331,13 @@ impl SolverKeys {
             spin: self.spin.unwrap_or(default.spin),
         })
     }
+}
+
+/// Returns the error of a number of elements that is not one of [`ELEMENTS`].
+pub(crate) fn no_such_mesh(elements: impl Display) -> Error {
+    let [few @ .., most] = ELEMENTS.map(|n| n.to_string());
+    let few = few.join(", ");
+    Error::new(format_args!("solver.elements = {elements}: must be {few} or {most}"))
 }
 
 /// Returns a tolerance, or an error if the value cannot be one.

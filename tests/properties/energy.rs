@@ -5,14 +5,11 @@ use proptest::test_runner::TestCaseResult;
 use stillbeam::math::Band;
 use stillbeam::model::{EightElements, FourElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality};
-use stillbeam::{Generator, Move, Scene, Stepper};
+use stillbeam::{Angle, Generator, HubState, Move, Scene, Stepper};
+use stillbeam_energy as energy;
 
 use crate::arms::{BEND, TICK, Turn, arms, level_arms, turns};
 use crate::cases;
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
 
 /// True if `xᵀAx` is positive for every `x`, by the signs of the pivots; and for this one.
 fn positive<const N: usize, const W: usize>(a: &Band<f64, N, W>, x: &[f64]) -> TestCaseResult {
@@ -69,17 +66,18 @@ fn newmark(scene: &Scene, turn: &Turn) -> Vec<f64> {
     let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("a stepper");
     afterwards(stepper, turn, |arm| {
         let (q, rate) = (arm.state().deflection, arm.stepper().deflection_rate(arm.state()));
-        model.mass().half_form().at(&rate) + model.stiffness().half_form().at(&q)
+        energy::small(&model, arm.hub(), &q, &rate).of_vibration()
     })
 }
 
 fn modal(scene: &Scene, turn: &Turn) -> Vec<f64> {
     let model = EightElements::consistent(scene).expect("a model");
-    let omega = Modes::of(&model).frequency;
+    let modes = Modes::of(&model);
     let stepper = Modal::<f64, 3>::new(&model, TICK).expect("a stepper");
     afterwards(stepper, turn, |arm| {
-        let bent: [f64; 3] = core::array::from_fn(|k| omega[k] * arm.state().coordinate[k]);
-        0.5 * (dot(&arm.state().rate, &arm.state().rate) + dot(&bent, &bent))
+        let state = arm.state();
+        let [q, rate] = [&state.coordinate, &state.rate].map(|modal| energy::nodal(&modes, modal));
+        energy::small(&model, arm.hub(), &q, &rate).of_vibration()
     })
 }
 
@@ -88,9 +86,7 @@ fn elastica(scene: &Scene, turn: &Turn) -> Vec<f64> {
     let stepper = Elastica::<f64, 2>::new(&rod, TICK, Quality::Fine, 1.5 * BEND);
     afterwards(stepper.expect("a stepper"), turn, |arm| {
         let flex = arm.stepper().arm_state(arm.state(), arm.hub());
-        let moved = rod.kinetics(&flex.coordinate).mass.map(|row| dot(&row, &flex.rate));
-        let bent: [f64; 2] = core::array::from_fn(|k| rod.frequency()[k] * flex.coordinate[k]);
-        0.5 * (dot(&moved, &flex.rate) + dot(&bent, &bent))
+        energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate).of_vibration()
     })
 }
 
@@ -112,13 +108,11 @@ proptest! {
     #[test]
     fn kinetic_energy_is_positive(scene in arms(), x in vector(), omega in -1.0..1.0) {
         let rod = Rod::<3>::new(&scene).expect("a rod");
-        let kinetics = rod.kinetics(&core::array::from_fn(|k| x[k] / rod.tip_slope()[k]));
+        let a = core::array::from_fn(|k| x[k] / rod.tip_slope()[k]);
+        let kinetics = rod.kinetics(&a);
         let v: [f64; 3] = core::array::from_fn(|k| x[3 + k] / kinetics.mass[k][k].sqrt());
-        let omega = omega / kinetics.inertia.sqrt();
-        let moved = kinetics.mass.map(|row| dot(&row, &v));
-        let energy = 0.5 * dot(&moved, &v)
-            + omega * dot(&kinetics.coupling, &v)
-            + 0.5 * omega * omega * kinetics.inertia;
+        let hub = HubState::turning(Angle::from_radians(0.0), omega / kinetics.inertia.sqrt());
+        let energy = energy::exact(&rod, &hub, &a, &v).carried;
         prop_assert!(energy > 0.0, "{energy:e}");
     }
 

@@ -90,7 +90,7 @@ fn the_ladder_is_in_the_order_of_measured_instructions() {
 /// The test above can fail.
 #[test]
 fn a_rung_out_of_order_would_be_found() {
-    let rows = format!("{}\nrigid,0,,,200,,,,,,,\nmodal,1,,,160,,,,,,,\n", instructions::HEADER);
+    let rows = format!("{}\nrigid,0,,,200,,,,,,,\nmodal,1,,,160,,,,,,,\n", instructions::header());
     assert_eq!(worst(&rows, Rung::Rigid, ""), Some(200));
     assert!(cost(&rows, Rung::Rigid, "") > cost(&rows, Rung::Modal(1), ""));
     assert_eq!(worst(&rows, Rung::Modal(1), "no-gravity"), None);

@@ -1,125 +1,19 @@
 //! The work of the hub torque is the change of energy plus what damping takes.
 
-use stillbeam::hub::HubState;
+use stillbeam::Generator;
 use stillbeam::model::{EightElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, ModalState, Newmark, Quality, Stepper};
-use stillbeam::{Generator, Scene};
+use stillbeam_energy::{self as energy, Balance, Energy, imbalance};
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_tests::{TRUTH_SCENES, truth};
 
 const TICK: f64 = 0.001;
 
-/// Powers at one instant, and the energy.
-#[derive(Clone, Copy)]
-struct Balance {
-    work: f64,
-    dissipation: f64,
-    energy: f64,
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-/// `T = ½(J_h + J_r)ω² + ωFᵀq̇ + ½q̇ᵀMq̇ − ½ω²qᵀGq`,
-/// `V = ½qᵀKq + g[sinθ(S − ½qᵀK_Pq) + cosθ f_gᵀq]`; drag takes `2α T` of link and payload,
-/// the strip `β q̇ᵀKq̇`.
-fn balance<const N: usize, const W: usize>(
-    model: &Model<N, W>,
-    hub: &HubState<f64>,
-    [q, q_dot]: [[f64; N]; 2],
-    torque: f64,
-) -> Balance {
-    let scene = model.scene();
-    let omega = hub.rate;
-    let carried = 0.5 * scene.rigid_inertia() * omega * omega
-        + omega * dot(model.coupling(), &q_dot)
-        + 0.5 * dot(&model.mass().times(&q_dot), &q_dot)
-        - 0.5 * omega * omega * dot(&model.spin().times(&q), &q);
-    let bending = 0.5 * dot(&model.stiffness().times(&q), &q);
-    let shortened = 0.5 * dot(&model.tension().times(&q), &q);
-    let across = dot(model.weight(), &q);
-    let raised = scene.in_plane_gravity()
-        * (hub.cos * across - hub.sin * shortened + raised_by_hub(scene, hub));
-    let damping = scene.damping;
-    Balance {
-        work: torque * omega,
-        dissipation: 2.0 * damping.alpha * carried
-            + damping.beta * dot(&model.stiffness().times(&q_dot), &q_dot),
-        energy: 0.5 * scene.hub.inertia * omega * omega + carried + bending + raised,
-    }
-}
-
-/// `S sin χ`: how high the hub's turn raises the straight arm, times its mass. A carriage raises all
-/// of its mass by `s cos χ`.
-fn raised_by_hub(scene: &Scene, hub: &HubState<f64>) -> f64 {
-    if scene.mount.is_linear() {
-        hub.cos * hub.angle.radians() * scene.first_moment()
-    } else {
-        hub.sin * scene.first_moment()
-    }
-}
-
-/// Nodal coordinates and rates of modal ones.
-fn nodal<const N: usize, const K: usize>(
-    modes: &Modes<N>,
-    state: &ModalState<f64, K>,
-) -> [[f64; N]; 2] {
-    [state.coordinate, state.rate].map(|modal| {
-        std::array::from_fn(|i| {
-            (0..K).map(|k| modes.shape[k][i] * modal[k] / modes.frequency[k]).sum()
-        })
-    })
-}
-
-/// The same of the exact kinematics: `T = ½J_hω² + ½vᵀMv + ωhᵀv + ½ω²T_θθ`,
-/// `V = ½Σωₖ²aₖ² + g(X sinχ + Y cosχ)`; the strip takes `βΣωₖ²vₖ²`.
-fn exact_balance<const K: usize>(
-    rod: &Rod<K>,
-    arm: &Generator<Elastica<f64, K>, 8>,
-    torque: f64,
-) -> Balance {
-    let (hub, scene) = (arm.hub(), rod.scene());
-    let flex = arm.stepper().arm_state(arm.state(), hub);
-    let (a, v, omega) = (flex.coordinate, flex.rate, hub.rate);
-    let kinetics = rod.kinetics(&a);
-    let moved = kinetics.mass.map(|row| dot(&row, &v));
-    let carried = 0.5 * dot(&moved, &v)
-        + omega * dot(&kinetics.coupling, &v)
-        + 0.5 * omega * omega * kinetics.inertia;
-    let stiffness = rod.frequency().map(|omega| omega * omega);
-    let elastic = |x: [f64; K]| dot(&stiffness, &x.map(|x| x * x));
-    let [x, y] = kinetics.moment;
-    let bent = [x - scene.first_moment(), y];
-    let bent = if scene.mount.is_linear() { [x, y] } else { bent };
-    let raised = scene.in_plane_gravity()
-        * (hub.sin * bent[0] + hub.cos * bent[1] + raised_by_hub(scene, hub));
-    let damping = scene.damping;
-    Balance {
-        work: torque * omega,
-        dissipation: 2.0 * damping.alpha * carried + damping.beta * elastic(v),
-        energy: 0.5 * scene.hub.inertia * omega * omega + carried + 0.5 * elastic(a) + raised,
-    }
-}
-
-/// Simpson's rule over samples a tick apart, an even number of intervals.
-fn simpson(samples: &[Balance], of: impl Fn(&Balance) -> f64) -> f64 {
-    assert!(samples.len() % 2 == 1, "an even number of intervals");
-    let last = samples.len() - 1;
-    let weight = |i: usize| match i {
-        0 => 1.0,
-        i if i == last => 1.0,
-        i if i % 2 == 1 => 4.0,
-        _ => 2.0,
-    };
-    samples.iter().enumerate().map(|(i, s)| weight(i) * of(s)).sum::<f64>() * TICK / 3.0
-}
-
-/// |work − energy gained − dissipation| over the integral of the absolute power.
-fn imbalance<S: Stepper>(
+/// The imbalance of a scene's moves with a stepper; `energy` is the arm's at the present tick.
+fn along<S: Stepper<Scalar = f64>>(
     scene: &SceneFile,
     stepper: S,
-    balance: impl Fn(&Generator<S, 8>, S::Scalar) -> Balance,
+    energy: impl Fn(&Generator<S, 8>) -> Energy,
 ) -> f64 {
     assert_eq!(stepper.tick(), TICK);
     let mut arm = Generator::<_, 8>::new(stepper, scene.from).expect("generator");
@@ -137,21 +31,17 @@ fn imbalance<S: Stepper>(
         let torque = arm.tick().torque;
         // At a border the stretch before it ends with the left-hand torque.
         if ends.contains(&k) {
-            let left = balance(&arm, arm.setpoint_before().torque);
+            let left = arm.setpoint_before().torque;
+            let left = energy(&arm).under(left, arm.hub().rate);
             stretches.last_mut().expect("a stretch").push(left);
             stretches.push(Vec::new());
         }
         if k < total {
-            let right = balance(&arm, torque);
+            let right = energy(&arm).under(torque, arm.hub().rate);
             stretches.last_mut().expect("a stretch").push(right);
         }
     }
-    let stretches = &stretches[..stretches.len() - 1];
-    let sum = |of: fn(&Balance) -> f64| -> f64 { stretches.iter().map(|s| simpson(s, of)).sum() };
-    let gained =
-        stretches.last().and_then(|s| s.last()).expect("samples").energy - stretches[0][0].energy;
-    let balance = sum(|b| b.work) - gained - sum(|b| b.dissipation);
-    balance.abs() / sum(|b| b.work.abs())
+    imbalance(&stretches[..stretches.len() - 1], TICK)
 }
 
 /// Every truth scene's imbalance with a stepper that is set up for its scene, in the order of the
@@ -181,10 +71,10 @@ fn newmark_balances_its_own_energy() {
         &all(|scene| {
             let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
             let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
-            imbalance(scene, stepper, |arm, torque| {
+            along(scene, stepper, |arm| {
                 let state = arm.state();
                 let q_dot = arm.stepper().deflection_rate(state);
-                balance(&model, arm.hub(), [state.deflection, q_dot], torque)
+                energy::small(&model, arm.hub(), &state.deflection, &q_dot)
             })
         }),
     );
@@ -199,8 +89,10 @@ fn modal_balances_its_own_energy() {
             let model = EightElements::consistent(&scene.arm).expect("model");
             let modes = Modes::of(&model);
             let stepper = Modal::<f64, 2>::new(&model, TICK).expect("stepper");
-            imbalance(scene, stepper, |arm, torque| {
-                balance(&model, arm.hub(), nodal(&modes, arm.state()), torque)
+            along(scene, stepper, |arm| {
+                let ModalState { coordinate, rate, .. } = arm.state();
+                let [q, q_dot] = [coordinate, rate].map(|modal| energy::nodal(&modes, modal));
+                energy::small(&model, arm.hub(), &q, &q_dot)
             })
         }),
     );
@@ -210,7 +102,10 @@ fn elastica<const K: usize>(quality: Quality) -> Vec<(&'static str, f64)> {
     all(|scene| {
         let rod = Rod::<K>::new(&scene.arm).expect("rod");
         let stepper = Elastica::new(&rod, TICK, quality, 0.5).expect("stepper");
-        imbalance(scene, stepper, |arm, torque| exact_balance(&rod, arm, torque))
+        along(scene, stepper, |arm| {
+            let flex = arm.stepper().arm_state(arm.state(), arm.hub());
+            energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
+        })
     })
 }
 
@@ -251,25 +146,30 @@ fn the_force_on_a_carriage_balances_the_energy() {
     all_mounted(1e-4, |scene| {
         let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
         let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
-        imbalance(scene, stepper, |arm, torque| {
+        along(scene, stepper, |arm| {
             let state = arm.state();
             let q_dot = arm.stepper().deflection_rate(state);
-            balance(&model, arm.hub(), [state.deflection, q_dot], torque)
+            energy::small(&model, arm.hub(), &state.deflection, &q_dot)
         })
     });
     all_mounted(1e-5, |scene| {
         let model = EightElements::consistent(&scene.arm).expect("model");
         let modes = Modes::of(&model);
         let stepper = Modal::<f64, 2>::new(&model, TICK).expect("stepper");
-        imbalance(scene, stepper, |arm, torque| {
-            balance(&model, arm.hub(), nodal(&modes, arm.state()), torque)
+        along(scene, stepper, |arm| {
+            let ModalState { coordinate, rate, .. } = arm.state();
+            let [q, q_dot] = [coordinate, rate].map(|modal| energy::nodal(&modes, modal));
+            energy::small(&model, arm.hub(), &q, &q_dot)
         })
     });
     for quality in [Quality::Fast, Quality::Fine] {
         all_mounted(1e-4, |scene| {
             let rod = Rod::<2>::new(&scene.arm).expect("rod");
             let stepper = Elastica::new(&rod, TICK, quality, 0.7).expect("stepper");
-            imbalance(scene, stepper, |arm, torque| exact_balance(&rod, arm, torque))
+            along(scene, stepper, |arm| {
+                let flex = arm.stepper().arm_state(arm.state(), arm.hub());
+                energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
+            })
         });
     }
 }

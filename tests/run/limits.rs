@@ -1,8 +1,10 @@
 //! Limits on what is commanded: shaped or not, between the ticks, by the arm that the motor feels.
 
+use std::cell::RefCell;
+
 use stillbeam_sim::limits::{Quantity, kinematic, load};
 use stillbeam_sim::reference::rod;
-use stillbeam_sim::run::run;
+use stillbeam_sim::run::{admit_loads, run};
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver};
 use stillbeam_sim::trajectory::Side;
@@ -254,6 +256,31 @@ fn the_clamp_moment_is_limited_and_is_not_the_hub_torque() {
         rod::rest_loads(&arm, stillbeam::Angle::from_radians(0.0)).expect("rest");
     assert_near("torque", torque, 9.81 * (0.6 * 0.5 + 1.5 * 0.95), 1e-6);
     assert_near("moment", moment, 9.81 * (0.6 * 0.45 + 1.5 * 0.9), 1e-6);
+}
+
+/// The search takes seconds where arms are slow: it says what it tries, up to what it then names.
+#[test]
+fn the_search_for_a_duration_says_what_it_tries() {
+    let scene = parse(&format!(
+        "{LINK}{PAYLOAD}[limits]\nmoment = 0.1\n[move]\nprofile = \"cubic\"\nduration = 0.4\n\
+         to = 1.0\nsettle = 0.3\n"
+    ))
+    .expect("a scene");
+    let (checked, tried) = (RefCell::new(Vec::new()), RefCell::new(Vec::new()));
+    let error = admit_loads(&scene, 0.01, &|_| true, &|at| match at {
+        load::Progress::Checked(done) => checked.borrow_mut().push(done),
+        load::Progress::Tried(duration) => tried.borrow_mut().push(duration),
+    });
+    let error = error.expect_err("above the limit").to_string();
+    let (checked, tried) = (checked.into_inner(), tried.into_inner());
+    assert!(checked.iter().all(|done| (0.0..=1.0).contains(done)) && !checked.is_empty());
+    assert!(tried.iter().all(|&duration| duration > 0.4), "{tried:?}");
+    // More often than once a trial: a flight alone may take long.
+    let mut trials = tried.clone();
+    trials.dedup();
+    assert!(trials.len() >= 3 && tried.len() > 10 * trials.len(), "{} {trials:?}", tried.len());
+    let way = number_after(&error, "a duration of ");
+    assert!((tried.last().expect("a trial") - way).abs() < 1e-9, "{way}: {trials:?}");
 }
 
 const HEAVY: &str = "[link]\nlength = 0.9\nmass = 0.6\nbending_stiffness = 180.0\n[hub]\n\

@@ -2,24 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use stillbeam_golden::paths::PATHS;
+
 use crate::emulator::{self, Board, Clock, LIMIT};
 use crate::{firmware, image};
 
-/// Columns of the CSV: the key of a row, then the worst tick of each path.
-pub const HEADER: &str = "method,size,quality,skip,tick,next_segment,next_segment_still,landing,landing_still,cruise,\
-     at_rest,asleep";
-
-/// Names of the paths in the bench's output, in the order of the columns.
-pub const PATHS: [&str; 8] = [
-    "",
-    "next-segment",
-    "next-segment still",
-    "landing",
-    "landing still",
-    "cruise",
-    "at-rest",
-    "at-rest asleep",
-];
+/// Returns the header of the CSV: the key of a row, then a column for the worst tick of each path.
+pub fn header() -> String {
+    let paths = PATHS.map(|path| path.column).join(",");
+    format!("method,size,quality,skip,{paths}")
+}
 
 /// Key of a row: method, size, quality, skip.
 pub type Key = [String; 4];
@@ -154,7 +146,7 @@ pub fn csv(bench: &Bench) -> String {
     for count in bench.counts.iter().filter(|count| !repeats(count)) {
         let (terms, path) = split(&count.key[3]);
         let row = format!("{},{terms}", count.key[..3].join(","));
-        let column = PATHS.iter().position(|known| *known == path);
+        let column = PATHS.iter().position(|known| known.words == path);
         let column = column.unwrap_or_else(|| panic!("{path}: no column of this path"));
         let at = rows.iter().position(|(known, _)| *known == row).unwrap_or(rows.len());
         if at == rows.len() {
@@ -163,7 +155,7 @@ pub fn csv(bench: &Bench) -> String {
         rows[at].1[column] = count.worst.to_string();
     }
     let lines = rows.iter().map(|(row, worst)| format!("{row},{}\n", worst.join(",")));
-    format!("{HEADER}\n{}", lines.collect::<String>())
+    format!("{}\n{}", header(), lines.collect::<String>())
 }
 
 /// Reads the worst tick of each method, size, quality and skip in a CSV.
@@ -172,8 +164,9 @@ pub fn csv(bench: &Bench) -> String {
 /// An error is returned for the header or the first line that is not as expected.
 pub fn ticks(csv: &str) -> Result<BTreeMap<Key, u32>, String> {
     let mut lines = csv.lines();
-    if lines.next() != Some(HEADER) {
-        return Err(format!("the columns are to be {HEADER}"));
+    let header = header();
+    if lines.next() != Some(&header) {
+        return Err(format!("the columns are to be {header}"));
     }
     let mut ticks = BTreeMap::new();
     for line in lines {
@@ -183,7 +176,7 @@ pub fn ticks(csv: &str) -> Result<BTreeMap<Key, u32>, String> {
         }
         for (path, worst) in PATHS.iter().zip(&fields[4..]).filter(|(_, worst)| !worst.is_empty()) {
             let worst = worst.parse().map_err(|_| format!("not a number: {line}"))?;
-            let skip = [fields[3], path].join(" ");
+            let skip = [fields[3], path.words].join(" ");
             let key = [fields[0], fields[1], fields[2], skip.trim()].map(str::to_owned);
             ticks.insert(key, worst);
         }

@@ -12,6 +12,7 @@ use stillbeam::{
 };
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
+use stillbeam_golden::paths::PATHS;
 
 const TICK: f64 = 0.010;
 const FROM: f64 = -0.3;
@@ -126,7 +127,7 @@ impl<C: Counter, W: Write> Bench<'_, C, W> {
         {
             write!(self.output, "tick,{},{},{},{quality},", M::ID, M::METHOD, M::SIZE)
                 .expect("the host takes the lines");
-            let words = skip.iter().chain([path]).filter(|word| !word.is_empty());
+            let words = skip.iter().chain([&path.words]).filter(|word| !word.is_empty());
             for (i, word) in words.enumerate() {
                 let gap = if i == 0 { "" } else { " " };
                 write!(self.output, "{gap}{word}").expect("the host takes the lines");
@@ -158,20 +159,8 @@ fn tick<S: Stepper<Scalar = f32>>(arm: &mut Generator<S, 16>) -> Setpoint<f32> {
     arm.tick()
 }
 
-/// Words for the paths of a tick: inside a move; taking up the next segment of a move, the hub
-/// turning or `still`; taking up the hold after the last, likewise; holding a rate; at rest, the
-/// arm ringing; at rest and asleep.
-const PATHS: [&str; 8] = [
-    "",
-    "next-segment",
-    "next-segment still",
-    "landing",
-    "landing still",
-    "cruise",
-    "at-rest",
-    "at-rest asleep",
-];
-const ASLEEP: usize = 7;
+/// Index in [`PATHS`] of the last one.
+const ASLEEP: usize = PATHS.len() - 1;
 
 /// At which ticks a segment ends.
 #[derive(Default)]

@@ -13,7 +13,22 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use stillbeam_sim::console::{note, open};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::{println, scenes};
+use stillbeam_sim::limits::load::Progress;
+use stillbeam_sim::{println, progress, scenes};
+
+/// Runs a task that checks a scene's load limits and shows what it is at. The search for a duration
+/// that keeps them has no end that could be told beforehand.
+fn with_limits_shown<T>(task: impl FnOnce(&dyn Fn(Progress)) -> T) -> T {
+    let check = progress::late("limits, by the rod");
+    let search = progress::late("a duration within the limits");
+    task(&|at| match at {
+        Progress::Checked(done) => check.set(done),
+        Progress::Tried(duration) => {
+            check.clear();
+            search.turn(|| format!("trying {duration:.3} s"));
+        }
+    })
+}
 
 /// Feed-forward setpoints for flexible robot links, tried on the desktop.
 ///

@@ -36,10 +36,7 @@ impl ReferenceArgs {
                 trajectory.duration()
             )));
         }
-        let late = progress::late("limits, by the rod");
-        let kept = run::admit_loads(&scene, tick, &|_| true, &|done| late.set(done));
-        drop(late);
-        kept?;
+        super::with_limits_shown(|progress| run::admit_loads(&scene, tick, &|_| true, progress))?;
         let bar = progress::percent(&scene.name);
         let times = truth::times(&trajectory, every);
         let rows = truth::solve(self.solver, &scene, &trajectory, &times, &|done| {

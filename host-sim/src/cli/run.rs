@@ -9,7 +9,7 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{axis_units, dispatch, println, progress, run, table};
+use stillbeam_sim::{axis_units, dispatch, println, run, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -46,10 +46,9 @@ impl RunArgs {
             Method::Auto => Some(chosen(&scene, &solver, &keys, &mut notes)?),
             _ => None,
         };
-        let rows = {
-            let late = progress::late("limits, by the rod");
-            run::run_with(&scene, &solver, choice.as_ref(), &|done| late.set(done))?
-        };
+        let rows = super::with_limits_shown(|progress| {
+            run::run_with(&scene, &solver, choice.as_ref(), progress)
+        })?;
         if choice.is_none() {
             notes.extend(remark(&scene, &solver));
         }

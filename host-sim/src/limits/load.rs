@@ -17,6 +17,15 @@ pub const QUICK: Options = Options { order: 5, tolerance: 1e-5, integrator: None
 /// Fraction of a limit below which the first check suffices, because its error is smaller.
 const CLEARLY: f64 = 0.9;
 
+/// What a check of the load limits is at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// Fraction of the check that is done, 0 to 1.
+    Checked(f64),
+    /// Duration that is tried in the search for the shortest one that keeps the limits, s.
+    Tried(f64),
+}
+
 /// Greatest magnitudes over a time, N m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peaks {

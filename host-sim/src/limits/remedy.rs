@@ -55,13 +55,14 @@ pub fn of_motion(
 
 /// Returns the refusal of a motion along which the rod exceeds a load limit. `admit` gets the moves
 /// with a duration that keeps the rod's limits. It returns true if whoever commands the motion
-/// accepts them too.
+/// accepts them too. `progress` is called with the durations that are tried, throughout the search.
 pub fn of_loads(
     case: &Case<'_>,
     trajectory: &Trajectory,
     limits: &Limits,
     found: &load::Found,
     admit: &dyn Fn(&[Step]) -> bool,
+    progress: &dyn Fn(load::Progress),
 ) -> Result<Refusal, Error> {
     let excess = found.excess;
     let refusal = |way| Refusal { excess, count: case.steps.len(), way };
@@ -83,6 +84,8 @@ pub fn of_loads(
         flown.get() < BUDGET
     };
     let keeps_in = |options: &Options, state: &Option<Resume>, ticks| {
+        let tried = |_| progress(load::Progress::Tried(f64::from(ticks) * case.tick));
+        tried(0.0);
         let steps = lasting(case, excess.index, ticks);
         let case = case.with(&steps);
         let Ok(trajectory) = case.trajectory() else { return Ok(Some(1.5)) };
@@ -93,7 +96,7 @@ pub fn of_loads(
         let Some(window) = windows.iter().find(|window| window.index == excess.index) else {
             return Ok(None);
         };
-        let (peaks, _) = load::fly(&case, &trajectory, window, options, state.as_ref(), &|_| ())?;
+        let (peaks, _) = load::fly(&case, &trajectory, window, options, state.as_ref(), &tried)?;
         Ok(peaks.excess(limits, excess.index).map(|excess| excess.quantity.stretch(excess.ratio())))
     };
     let [fine, quick] = &found.states;

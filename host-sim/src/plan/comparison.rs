@@ -9,6 +9,7 @@ use stillbeam::{Error as CoreError, Move, Profile, Scene};
 
 use super::judge::{self, Judgement, Motion};
 use crate::error::Error;
+use crate::number::Digits;
 use crate::reference::rod;
 
 /// Frequency errors of the table's columns.
@@ -55,7 +56,7 @@ impl Entry {
     pub fn cells(&self, duration: f64) -> Vec<String> {
         let nominal = self.nominal();
         std::iter::once(self.name.clone())
-            .chain(self.residuals().map(percent))
+            .chain(self.residuals().map(|residual| Digits::Column.show(100.0 * residual)))
             .chain([
                 format!("{:.2}", nominal.rate * duration / PI),
                 format!("{:.2}", nominal.acceleration * duration * duration / PI),
@@ -127,16 +128,6 @@ pub(super) fn motions(
         }
     }
     Ok(all)
-}
-
-/// Formats a fraction as per cent: three digits, 0.001 at the finest.
-pub fn percent(fraction: f64) -> String {
-    let value = 100.0 * fraction;
-    match value {
-        _ if value >= 10.0 => format!("{value:.1}"),
-        _ if value >= 1.0 => format!("{value:.2}"),
-        _ => format!("{value:.3}"),
-    }
 }
 
 /// Shortest base motion of a shaped one, first periods.

@@ -3,6 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::error::Error;
+use crate::number::{self, Digits};
 use crate::plot::Chart;
 
 /// Returns a whole self-contained page.
@@ -76,12 +77,17 @@ pub fn ms(seconds: f64, decimals: usize) -> String {
 
 /// Formats a fraction as a percentage with that many decimals, with its sign.
 pub fn percent(fraction: f64, decimals: usize) -> String {
-    format!("{}\u{a0}%", fixed(1e2 * fraction, decimals))
+    typeset(&number::percent(fraction, 1.0, Digits::Decimals(decimals)))
 }
 
 /// Formats a number with that many decimals.
 pub fn fixed(value: f64, decimals: usize) -> String {
-    format!("{value:.decimals$}").replace('-', "\u{2212}")
+    typeset(&Digits::Decimals(decimals).show(value))
+}
+
+/// Returns a number with a true minus, and its unit on the same line.
+fn typeset(number: &str) -> String {
+    number.replace('-', "\u{2212}").replace(' ', "\u{a0}")
 }
 
 /// Converts metres over time to millimetres over time.

@@ -3,7 +3,7 @@
 use super::{Run, tip_path};
 use crate::dispatch::first_period;
 use crate::error::Error;
-use crate::solver::{Mass, Scalar, SolverKeys};
+use crate::solver::{ELEMENTS, Mass, Scalar, SolverKeys};
 
 /// Runs and periods of member D over the number of elements.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ impl Elements {
                 consistent: variant(elements, Mass::Consistent)?,
             })
         };
-        let meshes = [1, 2, 4, 8].into_iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
+        let meshes = ELEMENTS.into_iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
         let arm = meshes[0].consistent.run.scene.arm;
         let link = arm.link;
         let slowness = (arm.mass_per_length() / link.bending_stiffness).sqrt();

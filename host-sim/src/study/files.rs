@@ -155,17 +155,9 @@ impl Study {
     }
 
     fn stillness_columns(&self) -> Columns {
-        let curves = &self.stillness.curves;
-        let header = std::iter::once("frequency_error".to_owned())
-            .chain(curves.iter().map(|curve| format!("residual_{}_l", column(&curve.motion))));
-        let count = curves.first().map_or(0, |curve| curve.points.len());
-        let row = |k: usize| {
-            std::iter::once(curves[0].points[k].0)
-                .chain(curves.iter().map(|curve| curve.points[k].1))
-                .collect()
-        };
-        let rows = (0..count).map(row).collect();
-        Columns { file: "stillness.csv", header: header.collect(), rows }
+        let curves = self.stillness.curves.iter();
+        let curves = curves.map(|curve| (column(&curve.motion), &curve.points[..]));
+        residual_columns("stillness.csv", "frequency_error", curves)
     }
 
     fn swing_columns(&self) -> Columns {
@@ -183,18 +175,26 @@ impl Study {
     }
 
     fn profile_columns(&self) -> Columns {
-        let curves = &self.profiles.curves;
-        let header = std::iter::once("duration_periods".to_owned())
-            .chain(curves.iter().map(|curve| format!("residual_{}_l", curve.profile.name())));
-        let count = curves.first().map_or(0, |curve| curve.points.len());
-        let row = |k: usize| {
-            std::iter::once(curves[0].points[k].0)
-                .chain(curves.iter().map(|curve| curve.points[k].1))
-                .collect()
-        };
-        let rows = (0..count).map(row).collect();
-        Columns { file: "profiles.csv", header: header.collect(), rows }
+        let curves = self.profiles.curves.iter();
+        let curves = curves.map(|curve| (curve.profile.name().to_owned(), &curve.points[..]));
+        residual_columns("profiles.csv", "duration_periods", curves)
     }
+}
+
+/// Returns residuals, fraction of L, over what they share: a column a curve, by name.
+fn residual_columns<'a>(
+    file: &'static str,
+    over: &str,
+    curves: impl Iterator<Item = (String, &'a [(f64, f64)])> + Clone,
+) -> Columns {
+    let names = curves.clone().map(|(name, _)| format!("residual_{name}_l"));
+    let header = std::iter::once(over.to_owned()).chain(names).collect();
+    let points = || curves.clone().map(|(_, points)| points);
+    let row = |(k, &(x, _)): (usize, &(f64, f64))| {
+        std::iter::once(x).chain(points().map(|points| points[k].1)).collect()
+    };
+    let shared = points().next().unwrap_or_default();
+    Columns { file, header, rows: shared.iter().enumerate().map(row).collect() }
 }
 
 /// Converts a motion's name to a part of a column's name.

@@ -18,7 +18,7 @@ use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::scenes;
-use stillbeam_sim::solver::Solver;
+use stillbeam_sim::solver::{ELEMENTS, Solver};
 
 const SOLVERS: &str = r#"
     scenes = ["b-tip30"]
@@ -116,7 +116,7 @@ fn textbook(c: &mut Criterion) {
     let arm = scene();
     let hub = black_box(turning::<f64>());
     let mut group = c.benchmark_group("textbook");
-    for elements in [1, 2, 4, 8] {
+    for elements in ELEMENTS {
         let mut textbook = Textbook::new(&arm.arm, elements, 0.01);
         group.bench_function(BenchmarkId::new("elements", elements), |b| {
             b.iter(|| {

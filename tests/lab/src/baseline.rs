@@ -208,13 +208,13 @@ mod tests {
     use super::*;
     use stillbeam_sim::run::run;
     use stillbeam_sim::scenes;
-    use stillbeam_sim::solver::{Scalar, Solver};
+    use stillbeam_sim::solver::{ELEMENTS, Scalar, Solver};
     use stillbeam_sim::trajectory::Side;
 
     #[test]
     fn gives_what_newmark_gives() {
         for name in ["d-fast", "s-gravity", "b-tip30-damped-hub", "pick-and-place"] {
-            for elements in [1, 2, 4, 8] {
+            for elements in ELEMENTS {
                 let scene = scenes::open(name).unwrap();
                 let solver = Solver { elements, scalar: Scalar::F64, ..Solver::PAPER };
                 let rows = run(&scene, &solver).unwrap();

@@ -11,6 +11,7 @@ use super::verdict::Verdict;
 use crate::markers::{self, Block};
 use crate::table::{aligned, grouped, quantile};
 use stillbeam_sim::error::Error;
+use stillbeam_sim::number::{self, Digits};
 use stillbeam_sim::plot::{Axis, Chart, Colour, Dash, Series};
 
 /// Borders of the histogram of true error over tolerance.
@@ -242,7 +243,7 @@ fn line(a: &str, b: &str, c: &str) -> Vec<String> {
 }
 
 fn percent(n: usize, of: usize) -> String {
-    if of == 0 { "–".into() } else { format!("{:.2} %", 100.0 * n as f64 / of as f64) }
+    number::percent(n as f64, of as f64, Digits::Decimals(2))
 }
 
 fn thousands(n: usize) -> String {

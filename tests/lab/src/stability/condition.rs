@@ -7,7 +7,7 @@ use stillbeam::model::Model;
 use super::probe;
 use stillbeam_sim::dispatch::{Visitor, with_model};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::solver::Mass;
+use stillbeam_sim::solver::{ELEMENTS, Mass};
 
 /// Rounding errors for one number of elements at one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub fn losses(turns: &[f64]) -> Result<Vec<Loss>, Error> {
     let omega = 1.0;
     let arm = probe::arm(omega)?;
     let mut all = Vec::new();
-    for elements in [1, 2, 4, 8] {
+    for elements in ELEMENTS {
         for &turn in turns {
             let of = Of { arm: &arm, elements, tick: turn / omega };
             all.push(with_model(&arm, elements, Mass::Consistent, of)?);

@@ -12,6 +12,7 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::output::Files;
 use stillbeam_sim::plot::{Axis, Chart, Dash, Series};
 use stillbeam_sim::report::parts::{figure, page};
+use stillbeam_sim::solver::ELEMENTS;
 
 /// Name of the table beside the page.
 const DATA: &str = "maps.csv";
@@ -116,7 +117,7 @@ fn solution_chart(losses: &[Loss]) -> Chart {
         Axis::log("\u{3c9}\u{2081}h, rad"),
         Axis::log("tip off by, of itself"),
     )
-    .with_all([1, 2, 4, 8].map(|n| {
+    .with_all(ELEMENTS.map(|n| {
         let label = if n == 1 { "1 element".to_owned() } else { format!("{n} elements") };
         Series::line(label, of(n, 0))
     }))

@@ -11,8 +11,9 @@ use super::duration::durations;
 use crate::markers::Block;
 use crate::table::aligned;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::number::Digits;
 use stillbeam_sim::output::Files;
-use stillbeam_sim::plan::comparison::{self, ERRORS, Entry, percent};
+use stillbeam_sim::plan::comparison::{self, ERRORS, Entry};
 use stillbeam_sim::plan::judge::Motion;
 use stillbeam_sim::plan::picture;
 use stillbeam_sim::reference::rod;
@@ -89,7 +90,7 @@ fn residuals(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
             for ratio in RATIOS {
                 let plan = planner.plan(&half_turn(ratio * period))?;
                 let judged = Motion::of(0.0, plan.motion(), tick).judge(&arm, 0.0)?;
-                line.push(percent(judged.residual));
+                line.push(Digits::Column.show(100.0 * judged.residual));
                 done();
             }
             Ok(line)
@@ -146,7 +147,7 @@ fn robust_table(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
             };
             let motion = Motion::of(0.0, plan.motion(), tick);
             for error in ERRORS {
-                line.push(percent(motion.judge(arm, error)?.residual));
+                line.push(Digits::Column.show(100.0 * motion.judge(arm, error)?.residual));
             }
             let duration = plan.duration();
             line.push(format!("{:.2}", plan.peaks.acceleration * duration * duration / PI));

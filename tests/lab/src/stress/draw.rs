@@ -8,7 +8,7 @@ use stillbeam::scene::Varied;
 use stillbeam::{Damping, Hub, Limits, Link, Mount, Move, Payload, Profile, Scene};
 
 use stillbeam_sim::scene_file::SceneFile;
-use stillbeam_sim::solver::{Mass, Method, Quality, Scalar, Solver, SolverKeys};
+use stillbeam_sim::solver::{ELEMENTS, Mass, Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
 /// Drawn quantities and their ranges, for a page.
@@ -171,7 +171,7 @@ fn moves(rng: &mut StdRng, omega: f64, tick: f64, bends: f64) -> (f64, Vec<Step>
 fn solvers(rng: &mut StdRng, tick: f64) -> Vec<Solver> {
     let base = Solver { tick, scalar: Scalar::F64, ..Solver::PAPER };
     let pick = |rng: &mut StdRng, n: usize| rng.random_range(0..n);
-    let elements = [1, 2, 4, 8][pick(rng, 4)];
+    let elements = ELEMENTS[pick(rng, ELEMENTS.len())];
     let mass = [Mass::Consistent, Mass::Lumped][pick(rng, 2)];
     let quality = [Quality::Fast, Quality::Fine][pick(rng, 2)];
     let mut all = vec![

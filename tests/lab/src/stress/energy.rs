@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use stillbeam::hub::HubState;
 use stillbeam::model::{Model, Modes, Rod};
 use stillbeam::stepper::{self, AnyMotion, AtRest, Elastica, Modal, Newmark, Stepper};
-use stillbeam::{Damping, Generator, Move, Scalar as Real, Scene};
+use stillbeam::{Angle, Damping, Generator, Move, Scalar as Real, Scene};
+use stillbeam_energy::{exact, nodal, small};
 
 use super::draw::draw;
 use stillbeam_sim::error::Error;
@@ -102,25 +103,25 @@ fn of_arm<T: Real>(arm: &Arm, ticks: u64, scalar: &str, rings: &mut Vec<Ring>) {
     }
 }
 
+/// A hub at rest. The arms are level, so that its angle does not count.
+const REST: HubState<f64> = HubState::at_rest(Angle { turns: 0, part: 0.0 });
+
 fn newmark<T: Real, const N: usize>(arm: &Arm, ticks: u64) -> Result<(f64, f64), Error> {
     let model = Model::<N, 4>::consistent(&arm.arm)?;
-    let (mass, stiffness) = (model.mass().half_form(), model.stiffness().half_form());
     let per_half = 2.0 / arm.tick;
     ring_on(Newmark::<T, N, 4>::new(&model, arm.tick)?, arm, ticks, |_, state, _| {
         let rate = state.gain.map(|gain| per_half * gain.to_f64());
-        mass.at(&rate) + stiffness.at(&state.deflection.map(T::to_f64))
+        small(&model, &REST, &state.deflection.map(T::to_f64), &rate).of_vibration()
     })
 }
 
 fn modal<T: Real>(arm: &Arm, ticks: u64) -> Result<(f64, f64), Error> {
     let model = Model::<16, 4>::consistent(&arm.arm)?;
-    let omega = Modes::of(&model).frequency;
+    let modes = Modes::of(&model);
     ring_on(Modal::<T, 2>::new(&model, arm.tick)?, arm, ticks, |_, state, _| {
-        let of = |k: usize| {
-            let (bent, rate) = (state.coordinate[k].to_f64(), state.rate[k].to_f64() / omega[k]);
-            bent * bent + rate * rate
-        };
-        of(0) + of(1)
+        let [q, rate] =
+            [state.coordinate, state.rate].map(|modal| nodal(&modes, &modal.map(T::to_f64)));
+        small(&model, &REST, &q, &rate).of_vibration()
     })
 }
 
@@ -135,16 +136,7 @@ fn elastica<T: Real, const K: usize>(
     ring_on(stepper, arm, ticks, |stepper, state, hub| {
         let flex = stepper.arm_state(state, hub);
         let (a, v) = (flex.coordinate.map(T::to_f64), flex.rate.map(T::to_f64));
-        let mass = rod.kinetics(&a).mass;
-        let mut energy = 0.0;
-        for k in 0..K {
-            let bent = rod.frequency()[k] * a[k];
-            energy += bent * bent;
-            for j in 0..K {
-                energy += v[k] * mass[k][j] * v[j];
-            }
-        }
-        energy
+        exact(&rod, &REST, &a, &v).of_vibration()
     })
 }
 

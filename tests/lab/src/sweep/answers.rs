@@ -1,8 +1,8 @@
 //! Costs of a choice, everything else equal: pairs of rows that differ in one key.
 
 use super::row::Row;
+use stillbeam_sim::number::{self, Digits};
 use stillbeam_sim::solver::{Mass, Scalar, Solver, SolverKeys};
-use stillbeam_sim::table::significant;
 
 /// A choice that a reader has to make.
 pub struct Question {
@@ -118,41 +118,12 @@ fn compare(a: &str, b: &str, x: f64, y: f64) -> String {
     }
 }
 
-/// Formats a fraction as percent, three digits.
-pub fn percent(fraction: f64) -> String {
-    let unit = if fraction.is_finite() { " %" } else { "" };
-    format!("{}{unit}", short(100.0 * fraction))
-}
-
-/// Formats three significant digits, plain if that is short. An infinite value has diverged.
+/// Formats three significant digits.
 pub fn short(x: f64) -> String {
-    let x = significant(x, 3);
-    let digits = if x == 0.0 { 0 } else { 2 - x.abs().log10().floor() as i32 };
-    match digits {
-        _ if x.is_infinite() => "diverges".into(),
-        ..=0 => format!("{x:.0}"),
-        1..=6 => format!("{x:.*}", digits as usize),
-        _ => format!("{x:.2e}"),
-    }
+    Digits::Three.show(x)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::short;
-
-    #[test]
-    fn three_digits() {
-        let cases = [
-            (0.0, "0"),
-            (13.04, "13.0"),
-            (9.996, "10.0"),
-            (0.001234, "0.00123"),
-            (1234.0, "1230"),
-            (1.234e-6, "1.23e-6"),
-            (f64::INFINITY, "diverges"),
-        ];
-        for (x, text) in cases {
-            assert_eq!(short(x), text);
-        }
-    }
+/// Formats a fraction as a percentage of three significant digits.
+pub fn percent(fraction: f64) -> String {
+    number::percent(fraction, 1.0, Digits::Three)
 }
