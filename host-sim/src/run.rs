@@ -43,7 +43,7 @@ fn refused_or_run(
     scene: &SceneFile,
     solver: &Solver,
     choice: Option<&Choice>,
-    progress: &dyn Fn(f64),
+    progress: &dyn Fn(Progress),
 ) -> Result<Vec<Row>, Error> {
     let commanded = |steps: &[Step]| {
         let scene = SceneFile { moves: steps.to_vec(), ..scene.clone() };

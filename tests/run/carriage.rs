@@ -60,9 +60,12 @@ fn both_references_agree_on_a_carriage() {
     }
 }
 
+/// On a vertical axis, behind an input shaper.
+const SHAPED: &str = "gravity.acceleration = 9.81\npayload.mass = 0.03\nshaper.kind = \"zv\"\n";
+
 #[test]
 fn elastica_follows_the_rod_on_a_carriage() {
-    for head in ["", HEAVY, LIFTED, HANGING] {
+    for head in ["", HEAVY, LIFTED, HANGING, SHAPED] {
         let solver = Solver {
             method: Method::Elastica,
             modes: 2,
