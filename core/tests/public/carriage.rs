@@ -259,3 +259,29 @@ fn a_carrier_is_a_spin_up_long_before() {
     // A stepper that does not know of the carrier refuses it.
     assert!(Rigid::<f64>::new(&Scene { mount, ..scene }, TICK).is_err());
 }
+
+/// A link cannot tell an even velocity from rest: what a fast run-up leaves rings on as it would on
+/// a carriage that rests, whatever the velocity.
+#[test]
+fn an_even_velocity_does_nothing_to_the_link() {
+    for velocity in [1.0, 8.0] {
+        let run_up = [
+            Move::SpinUp { duration: 0.13 * velocity + 0.05, rate: velocity },
+            Move::Dwell { duration: 2.0 },
+        ];
+        let rod = Rod::new(&carried()).unwrap();
+        let bend = rod.bend(16.0);
+        let exact = Elastica2::<f64>::new(&rod, TICK, Quality::Fine, bend).unwrap();
+        let model = EightElements::consistent(&carried()).unwrap();
+        let linear = Modal2::<f64>::new(&model, TICK).unwrap();
+        let [exact, linear] = [setpoints(exact, &run_up), setpoints(linear, &run_up)];
+        let most = |run: &[Setpoint<f64>], from: usize| {
+            run[from..from + 250].iter().map(|s| s.deflection().abs()).fold(0.0, f64::max)
+        };
+        let arrival = (run_up[0].ticks(TICK).unwrap()) as usize;
+        let (first, last) = (most(&exact, arrival), most(&exact, arrival + 750));
+        assert!(last < 1.02 * first + 1e-6, "{velocity} m/s: {first} m, then {last} m");
+        let expected = most(&linear, arrival + 750);
+        assert_near("amplitude", last, expected, 0.1 * expected + 1e-4 * LENGTH);
+    }
+}
