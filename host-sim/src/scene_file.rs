@@ -11,6 +11,7 @@ use std::path::Path;
 use serde::Deserialize;
 use stillbeam::material::{MATERIALS, Material, Strip};
 use stillbeam::motion::Shaper;
+use stillbeam::scene::Varied;
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Scene};
 
 use self::moves::{MoveTable, Planning};
@@ -137,9 +138,14 @@ impl SceneFile {
         let gravity = file.gravity.acceleration;
         let arm = Scene {
             link: file.link.build()?,
-            hub: Hub { radius: file.hub.radius, inertia: file.hub.inertia },
-            payload: Payload { mass: file.payload.mass, inertia: file.payload.inertia },
-            damping: Damping { alpha: file.damping.alpha, beta: file.damping.beta },
+            shape: Varied::UNIFORM,
+            hub: Hub { radius: file.hub.radius, inertia: file.hub.inertia, stiffness: None },
+            payload: Payload {
+                mass: file.payload.mass,
+                inertia: file.payload.inertia,
+                offset: 0.0,
+            },
+            damping: Damping { alpha: file.damping.alpha, beta: file.damping.beta, joint: 0.0 },
             gravity,
         }
         .validate()?;

@@ -76,8 +76,10 @@ fn a_payload_that_hides_the_arm_from_a_float_is_refused() {
         let Scene { link, .. } = configuration.scene;
         for mass in [0.0, 1e-30, 1e-3, 0.05] {
             let most = 100.0 * (link.mass + mass) * link.length * link.length;
-            let with =
-                |inertia| Scene { payload: Payload { mass, inertia }, ..configuration.scene };
+            let with = |inertia| Scene {
+                payload: Payload { mass, inertia, offset: 0.0 },
+                ..configuration.scene
+            };
             let error = with(1.001 * most).validate().expect_err("beyond ten lengths");
             assert!(error.to_string().starts_with("payload.inertia = "), "{error}");
             let model = OneElement::consistent(&with(most)).expect("a model");

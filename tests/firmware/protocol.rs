@@ -31,7 +31,11 @@ fn commands() -> impl Strategy<Value = Command> {
         Just(Command::Status),
         (any(), prop::option::of(any())).prop_map(|(to, duration)| Command::Still { to, duration }),
         moves.prop_map(Command::Move),
-        (any(), any()).prop_map(|(mass, inertia)| Command::Payload(Payload { mass, inertia })),
+        (any(), any()).prop_map(|(mass, inertia)| Command::Payload(Payload {
+            mass,
+            inertia,
+            offset: 0.0
+        })),
         any().prop_map(Command::Home),
     ]
 }

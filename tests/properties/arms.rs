@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 use stillbeam::model::Rod;
+use stillbeam::scene::Varied;
 use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 
 /// h, s.
@@ -27,12 +28,18 @@ pub fn arms() -> impl Strategy<Value = Scene> {
                 let sag = moved * 9.81 * length * length / (3.0 * stiffness);
                 Scene {
                     link: Link { length, mass, bending_stiffness: stiffness },
-                    hub: Hub { radius: radius * length, inertia: 0.1 * mass * length * length },
+                    shape: Varied::UNIFORM,
+                    hub: Hub {
+                        radius: radius * length,
+                        inertia: 0.1 * mass * length * length,
+                        stiffness: None,
+                    },
                     payload: Payload {
                         mass: payload * mass,
                         inertia: inertia * mass * length * length,
+                        offset: 0.0,
                     },
-                    damping: Damping { alpha, beta: beta * period },
+                    damping: Damping { alpha, beta: beta * period, joint: 0.0 },
                     // Weight only where the arm carries it without bending far.
                     gravity: if upright && sag < 0.1 { 9.81 } else { 0.0 },
                 }

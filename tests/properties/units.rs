@@ -27,9 +27,22 @@ impl Units {
                 mass: s.link.mass * mass,
                 bending_stiffness: s.link.bending_stiffness * inertia * length / (time * time),
             },
-            hub: Hub { radius: s.hub.radius * length, inertia: s.hub.inertia * inertia },
-            payload: Payload { mass: s.payload.mass * mass, inertia: s.payload.inertia * inertia },
-            damping: Damping { alpha: s.damping.alpha / time, beta: s.damping.beta * time },
+            shape: s.shape,
+            hub: Hub {
+                radius: s.hub.radius * length,
+                inertia: s.hub.inertia * inertia,
+                stiffness: None,
+            },
+            payload: Payload {
+                mass: s.payload.mass * mass,
+                inertia: s.payload.inertia * inertia,
+                offset: 0.0,
+            },
+            damping: Damping {
+                alpha: s.damping.alpha / time,
+                beta: s.damping.beta * time,
+                joint: 0.0,
+            },
             gravity: s.gravity * length / (time * time),
         }
     }

@@ -2,10 +2,10 @@
 
 use crate::hub::HubState;
 use crate::math::{Band, Scalar, cast, dot, round};
-use crate::model::{POINTS, Rod};
+use crate::model::{LINK_STATIONS, POINTS, Rod};
 
-/// The points of the link, and the tip.
-const STATIONS: usize = POINTS + 1;
+/// The stations of the link, and the payload.
+const STATIONS: usize = LINK_STATIONS + 1;
 
 /// Most steps a tick.
 const MAX_STEPS: f64 = 128.0;
@@ -39,7 +39,7 @@ pub(super) struct Shape<T, const MODES: usize> {
     v: [T; MODES],
 }
 
-/// `φ = Σ aₖψₖ`, `X = r + ∫cos φ`, `Y = ∫sin φ` at eight Gauss points and the tip, Lagrange's
+/// `φ = Σ aₖψₖ`, `X = r + ∫cos φ`, `Y = ∫sin φ` by the angle at eight points, Lagrange's
 /// equations without an expansion in `a`, classical Runge-Kutta of fourth order.
 ///
 /// The steps are made for the second highest mode, or where a flight of so many ticks would take
@@ -58,7 +58,9 @@ pub(super) struct Exact<T, const MODES: usize> {
     tip_slope: [T; MODES],
     /// From the clamp to each station, length multiplied in.
     integral: [[T; POINTS]; STATIONS],
-    /// `ρAL wₚ`, and the payload's.
+    /// From the clamp to the tip, likewise.
+    to_tip: [T; POINTS],
+    /// Of the stations.
     mass: [T; STATIONS],
     /// `J_p`.
     twist: T,
@@ -116,10 +118,11 @@ impl<T: Scalar, const MODES: usize> Forces<T, MODES> {
 impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
     /// For `ticks` ticks of `tick` s.
     pub fn new(rod: &Rod<MODES>, tick: f64, ticks: f64) -> Self {
-        let (scene, rule) = (rod.scene(), rod.rule());
+        let (scene, link) = (rod.scene(), rod.stations());
         let length = scene.link.length;
         let squared = rod.frequency().map(|omega| omega * omega);
-        let loss = squared.map(|w2| scene.damping.beta * w2);
+        let beta = rod.stiffness_damping();
+        let loss: [f64; MODES] = core::array::from_fn(|k| beta[k] * squared[k]);
         let wanted = |mode: usize| {
             let fastest = rod.frequency()[mode].max(loss[mode]);
             libm::ceil(tick * fastest / MOST).clamp(1.0, MAX_STEPS)
@@ -130,15 +133,16 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         Self {
             steps_a_tick: steps,
             tick,
-            slope: rule.slope.map(|slope| cast(&slope)),
+            slope: rod.slope().map(|slope| cast(&slope)),
             tip_slope: cast(rod.tip_slope()),
             integral: core::array::from_fn(|s| {
-                let row = rule.running.get(s).unwrap_or(rule.weights);
+                let row = link.running.get(s).unwrap_or(&link.to_payload);
                 cast(&row.map(|weight| length * weight))
             }),
+            to_tip: cast(&link.to_tip.map(|weight| length * weight)),
             mass: core::array::from_fn(|s| {
-                let link = rule.weights.get(s).map(|weight| scene.link.mass * weight);
-                T::from_f64(link.unwrap_or(scene.payload.mass))
+                let own = link.weights.get(s).map(|weight| link.mass * weight);
+                T::from_f64(own.unwrap_or(scene.payload.mass))
             }),
             twist: round(scene.payload.inertia),
             stiffness: cast(&squared),
@@ -220,16 +224,18 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
                 mass.add(k, j, self.twist * self.tip_slope[k] * self.tip_slope[j]);
             }
         }
-        let mut tip = [T::ZERO; 2];
+        let tip = [dot(&self.to_tip, &rest[0]) + self.radius, dot(&self.to_tip, &rest[1])];
         let mut fixed = [self.twist * turning, T::ZERO];
         let mut moving = [self.tip_slope.map(|slope| self.twist * slope), [T::ZERO; MODES]];
         for s in 0..STATIONS {
+            if self.mass[s] == T::ZERO {
+                continue;
+            }
             let row = &self.integral[s];
             let along: [T; MODES] = core::array::from_fn(|k| dot(row, &x_slope[k]));
             let across: [T; MODES] = core::array::from_fn(|k| dot(row, &y_slope[k]));
             let [x, y, x_rest, y_rest]: [T; 4] = core::array::from_fn(|i| dot(row, &rest[i]));
             let x = x + self.radius;
-            tip = [x, y];
             let (x_rate, y_rate) = (dot(&along, v), dot(&across, v));
             let x_load = x_rest - T::TWO * omega * y_rate - faster * y - omega * omega * x
                 + alpha * (x_rate - omega * y)
@@ -238,8 +244,8 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
                 + alpha * (y_rate + omega * x)
                 + self.gravity * hub.cos;
             let (x_load, y_load) = (self.mass[s] * x_load, self.mass[s] * y_load);
-            let (x_mass, y_mass) = (self.mass[s] * tip[0], self.mass[s] * tip[1]);
-            fixed[0] += tip[0] * y_load - tip[1] * x_load;
+            let (x_mass, y_mass) = (self.mass[s] * x, self.mass[s] * y);
+            fixed[0] += x * y_load - y * x_load;
             fixed[1] += y_load;
             for k in 0..MODES {
                 moving[0][k] += x_mass * across[k] - y_mass * along[k];

@@ -5,7 +5,7 @@ use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Scalar, round};
 use crate::motion::Peaks;
-use crate::scene::Scene;
+use crate::scene::{LinkShape, Scene};
 
 /// Rigid arm: `τ = (J_h + J_r)θ̈ + J_r αθ̇ + g cosθ S`, the tip at `(r + L, 0)`.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub struct Rigid<T> {
 
 impl<T: Scalar> Rigid<T> {
     /// `tick` in s.
-    pub fn new<P: Scalar>(scene: &Scene<P>, tick: f64) -> Result<Self, Error> {
+    pub fn new<P: Scalar, S: LinkShape>(scene: &Scene<P, S>, tick: f64) -> Result<Self, Error> {
         let scene = scene.validate()?;
         let tick = super::check_tick(tick)?;
         let inertia = scene.rigid_inertia();

@@ -1,7 +1,7 @@
 //! Terms of a tick that a scene needs.
 
-use crate::Scene;
 use crate::math::Scalar;
+use crate::scene::{LinkShape, Scene};
 
 /// Terms that the scene needs; the others cost nothing but a branch that never changes.
 #[derive(Clone, Copy, Debug)]
@@ -12,12 +12,7 @@ pub(super) struct Terms {
 }
 
 impl Terms {
-    pub fn of<P: Scalar>(scene: &Scene<P>) -> Self {
-        let damping = scene.damping;
-        Self {
-            spin: true,
-            gravity: scene.gravity != P::ZERO,
-            damping: damping.alpha != P::ZERO || damping.beta != P::ZERO,
-        }
+    pub fn of<P: Scalar, S: LinkShape>(scene: &Scene<P, S>) -> Self {
+        Self { spin: true, gravity: scene.gravity != P::ZERO, damping: !scene.damping.is_zero() }
     }
 }

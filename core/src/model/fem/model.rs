@@ -4,7 +4,7 @@ use super::assembly::{Assembly, CHAIN, MassMatrix};
 use super::lumped::Condensation;
 use crate::Error;
 use crate::math::{Band, Scalar};
-use crate::scene::Scene;
+use crate::scene::{LinkShape, Scene, Uniform};
 
 /// One consistent element, the paper's choice.
 pub type OneElement<T = f64> = Model<2, 2, T>;
@@ -23,7 +23,10 @@ pub type EightElements<T = f64> = Model<16, 4, T>;
 /// matrices of band width `W`. SI units, in the precision of the scene, immutable once built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model<const N: usize, const W: usize, T = f64> {
-    scene: Scene<T>,
+    scene: Scene<T, Uniform>,
+    /// `J_r` and S of the undeformed arm about the axis, see [`Scene::rigid_inertia`].
+    rigid_inertia: T,
+    first_moment: T,
     mass: Band<T, N, W>,
     stiffness: Band<T, N, W>,
     spin: Band<T, N, W>,
@@ -31,6 +34,7 @@ pub struct Model<const N: usize, const W: usize, T = f64> {
     shortening: Band<T, N, W>,
     coupling: [T; N],
     weight: [T; N],
+    root: [T; N],
     tip: usize,
 }
 
@@ -38,7 +42,7 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
     /// The model with consistent mass, `N/2` elements: 1, 2, 4 or 8.
     ///
     /// Use the aliases [`OneElement`] to [`EightElements`]; other shapes do not compile.
-    pub fn consistent(scene: &Scene<T>) -> Result<Self, Error> {
+    pub fn consistent<S: LinkShape>(scene: &Scene<T, S>) -> Result<Self, Error> {
         const {
             assert!(matches!(N, 2 | 4 | 8 | 16), "1, 2, 4 or 8 elements");
             assert!(W == if N < CHAIN { N } else { CHAIN }, "band width of a chain of elements");
@@ -55,7 +59,9 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
             band
         };
         Self {
-            scene,
+            rigid_inertia: scene.rigid_inertia(),
+            first_moment: scene.first_moment(),
+            scene: scene.shaped(Uniform),
             mass: narrow(&chain.mass),
             stiffness: narrow(&chain.stiffness),
             spin: narrow(&chain.spin),
@@ -63,6 +69,7 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
             shortening: narrow(&chain.shortening),
             coupling: chain.coupling,
             weight: chain.weight,
+            root: chain.root,
             tip: N - 2,
         }
         .upright()
@@ -80,9 +87,19 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
         self.tangent(T::ZERO, sin).factor().solve(&load)
     }
 
-    /// The scene this was built from.
-    pub fn scene(&self) -> &Scene<T> {
+    /// The scene this was built from, its link's shape left out.
+    pub fn scene(&self) -> &Scene<T, Uniform> {
         &self.scene
+    }
+
+    /// `J_r`: inertia of the undeformed link and payload about the axis, kg m².
+    pub fn rigid_inertia(&self) -> T {
+        self.rigid_inertia
+    }
+
+    /// `S`: first moment of mass of the undeformed link and payload about the axis, kg m.
+    pub fn first_moment(&self) -> T {
+        self.first_moment
     }
 
     /// `M`, payload included.
@@ -120,6 +137,23 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
         &self.weight
     }
 
+    /// The root's angle, `φ₀ = rootᵀq`: zero where the link is clamped without give.
+    pub fn root(&self) -> &[T; N] {
+        &self.root
+    }
+
+    /// `β_J k φ₀φ₀ᵀ` over `q`: the joint's own damping, beside Rayleigh's `αM + βK`.
+    pub fn joint_damping(&self) -> Band<T, N, W> {
+        let loss = self.scene.damping.joint * self.scene.hub.stiffness.unwrap_or(T::ZERO);
+        let mut damping = Band::ZERO;
+        for i in 0..W.min(N) {
+            for j in 0..=i {
+                damping.add(i, j, loss * self.root[i] * self.root[j]);
+            }
+        }
+        damping
+    }
+
     /// Index of the tip's deflection in `q`.
     pub fn tip(&self) -> usize {
         self.tip
@@ -142,7 +176,7 @@ impl<const N: usize> Model<N, N> {
     /// The massless rotations are condensed statically, `A → TᵀAT` with
     /// `T = [I; −K_φφ⁻¹K_φw]`, which fills the matrices: `N` is the number of elements, one more
     /// where the payload's rotary inertia keeps the tip's rotation.
-    pub fn lumped<const D: usize>(scene: &Scene) -> Result<Self, Error> {
+    pub fn lumped<const D: usize>(scene: &Scene<f64, impl LinkShape>) -> Result<Self, Error> {
         const { assert!(matches!(D, 2 | 4 | 8 | 16), "1, 2, 4 or 8 elements") }
         let scene = scene.validate()?;
         let chain = Assembly::<f64, D>::new(&scene, MassMatrix::Lumped);
@@ -152,7 +186,9 @@ impl<const N: usize> Model<N, N> {
         }
         let t = Condensation::<D, N>::new(&chain);
         Self {
-            scene,
+            rigid_inertia: scene.rigid_inertia(),
+            first_moment: scene.first_moment(),
+            scene: scene.shaped(Uniform),
             mass: t.matrix(&chain.mass),
             stiffness: t.matrix(&chain.stiffness),
             spin: t.matrix(&chain.spin),
@@ -160,6 +196,7 @@ impl<const N: usize> Model<N, N> {
             shortening: t.matrix(&chain.shortening),
             coupling: t.vector(&chain.coupling),
             weight: t.vector(&chain.weight),
+            root: t.vector(&chain.root),
             tip: D / 2 - 1,
         }
         .upright()

@@ -157,8 +157,8 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         let tick = super::check_tick(tick)?;
         let (least, most) = Self::BEND;
         let bend = Error::check("bend", bend, 0.0, most, "rad")?.max(least);
-        let damping = rod.scene().damping;
-        check_turns(rod.frequency(), damping.alpha, damping.beta, tick)?;
+        let alpha = rod.scene().damping.alpha;
+        check_turns(rod.frequency(), alpha, &rod.stiffness_damping(), tick)?;
         let stepper = Self::fitted(rod, tick, quality, bend, bend);
         if !stepper.is_stable_at_rest() {
             let mut shorter = tick;
@@ -183,26 +183,26 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         let scene = rod.scene();
         let range = rod.range(range);
         let expansion = Expansion::fit(rod, &range);
-        let damping = scene.damping;
+        let (alpha, beta) = (scene.damping.alpha, rod.stiffness_damping());
         Self {
             tick,
             quality,
             per_tick: T::from_f64(1.0 / tick),
             quarter: T::from_f64(0.25),
             eighth_tick: T::from_f64(0.125 * tick),
-            alpha: T::from_f64(damping.alpha),
+            alpha: T::from_f64(alpha),
             modes: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                Mode::new(omega, damping.alpha, damping.beta, b, step)
+                Mode::new(omega, alpha, beta[k], b, step)
             }),
             kink: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                let [a, p] = kick::<f64>(omega, damping.alpha, damping.beta, b, tick);
+                let [a, p] = kick::<f64>(omega, alpha, beta[k], b, tick);
                 [omega * a, p].map(T::from_f64)
             }),
             kicks: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                Kicks::new(omega, damping.alpha, damping.beta, b, tick)
+                Kicks::new(omega, alpha, beta[k], b, tick)
             }),
             nonlinear: Nonlinear::new(rod, &expansion, &range),
             numerical_damping: NumericalDamping::new(rod, step, &range),

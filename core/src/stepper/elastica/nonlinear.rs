@@ -74,6 +74,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         let f = T::from_f64;
         let (scene, omega) = (rod.scene(), rod.frequency());
         let g = scene.gravity;
+        let beta = rod.stiffness_damping();
         let (terms, odd) = (&expansion.even, &expansion.odd);
         let even = |of: &dyn Fn(usize) -> f64| Even::new(&EVEN, omega, of);
         let linear = &expansion.linear;
@@ -98,11 +99,11 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
                 Odd::new(&ODD, omega, |k| linear[k].tip, |n| odd[n].tip),
             ),
             omega: cast(omega),
-            loss: cast(&omega.map(|omega| scene.damping.beta * omega * omega)),
+            loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
             alpha: f(scene.damping.alpha),
             drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
             gravity: g != 0.0,
-            damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
+            damping: !scene.damping.is_zero(),
             reach: Reach::new(omega, range),
         }
     }

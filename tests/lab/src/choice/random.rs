@@ -125,7 +125,8 @@ fn arm(rng: &mut StdRng) -> Result<Scene, Error> {
     if rng.random_bool(0.7) {
         let mass = rng.random_range(0.0f64..2.0).powi(2) * mass;
         let twist = if rng.random_bool(0.3) { rng.random_range(0.0..0.05) } else { 0.0 };
-        arm.payload = Payload { mass, inertia: twist * arm.link.mass * length * length };
+        arm.payload =
+            Payload { mass, inertia: twist * arm.link.mass * length * length, offset: 0.0 };
     }
     if rng.random_bool(0.5) {
         arm.hub = Hub { radius: rng.random_range(0.0..1.0) * length, inertia: 0.0 };

@@ -66,8 +66,8 @@ const COMPARED: f64 = 60.0;
 /// L, and that first frequency in rad/s.
 pub fn arm(omega: f64) -> Result<Scene, Error> {
     let unit = Scene {
-        hub: Hub { radius: 0.1 * LENGTH, inertia: 0.0 },
-        payload: Payload { mass: 0.05, inertia: 0.0 },
+        hub: Hub { radius: 0.1 * LENGTH, inertia: 0.0, stiffness: None },
+        payload: Payload { mass: 0.05, inertia: 0.0, offset: 0.0 },
         ..Scene::new(Link { length: LENGTH, mass: 0.05, bending_stiffness: 1.0 })
     };
     let model = stillbeam::model::EightElements::consistent(&unit)?;

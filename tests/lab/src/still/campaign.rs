@@ -6,6 +6,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::model::Rod;
 use stillbeam::planner::{Kinematics, Planner, Request, StillMove, Target};
+use stillbeam::scene::Varied;
 use stillbeam::stepper::{ArmState, Elastica, Quality};
 use stillbeam::{
     Damping, Error as CoreError, Generator, Hub, Limits, Link, Move, Payload, Profile, Scene,
@@ -33,6 +34,7 @@ fn arm(rng: &mut StdRng) -> Scene {
     let sag = moved * 9.81 * length * length / (3.0 * bending_stiffness);
     Scene {
         link: Link { length, mass, bending_stiffness },
+        shape: Varied::UNIFORM,
         hub: Hub { radius: length * rng.random_range(0.0..0.3), inertia: 0.0 },
         payload: Payload {
             mass: payload * mass,

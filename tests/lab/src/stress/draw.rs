@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
+use stillbeam::scene::Varied;
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Profile, Scene};
 
 use stillbeam_sim::scene_file::SceneFile;
@@ -60,7 +61,8 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
     let hub_inertia = if rng.random_bool(0.5) { 0.0 } else { mass * decades(rng, -4.0, 1.0) };
     let arm = Scene {
         link: Link { length, mass, bending_stiffness: stiffness },
-        hub: Hub { radius, inertia: hub_inertia },
+        shape: Varied::UNIFORM,
+        hub: Hub { radius, inertia: hub_inertia, stiffness: None },
         payload,
         damping: damping(rng, omega),
         gravity: gravity(rng, moved * length * length / (3.0 * stiffness)),
@@ -104,7 +106,11 @@ fn damping(rng: &mut StdRng, omega: f64) -> Damping {
         1 => 1.0,
         _ => rng.random_range(0.0..1.0),
     };
-    Damping { alpha: 2.0 * ratio * omega * share, beta: 2.0 * ratio / omega * (1.0 - share) }
+    Damping {
+        alpha: 2.0 * ratio * omega * share,
+        beta: 2.0 * ratio / omega * (1.0 - share),
+        joint: 0.0,
+    }
 }
 
 /// Draws gravity. Half of the arms that feel it are given no more than they carry. `softness` is
