@@ -11,115 +11,51 @@ pub struct Material {
     pub youngs_modulus: f64,
     /// Density, kg/m³.
     pub density: f64,
-    /// Grade or form that the values are of, and their source.
-    pub source: &'static str,
 }
 
 /// Materials known by name, at room temperature.
 ///
-/// The values are typical, and how far an arm's own are from them differs: metals some 5 %, plastics
-/// 20 %, printed parts, wood and laminates 30 % and more. Nylon softens to half when it takes up
-/// moisture, and a printed part weighs and bears by its infill. Where that matters, weigh the link,
-/// measure its first frequency, and give `mass` and `frequency`.
+/// | name | values of | source |
+/// |---|---|---|
+/// | acrylic | the paper's | Kato and Isobe, table 1 |
+/// | aluminium | the paper's, density from mass over volume | Kato and Isobe, table 1 |
+/// | steel | carbon steel | handbook |
+/// | stainless-steel | AISI 304 | handbook |
+/// | spring-steel | patented wire, EN 10270-1 | EN 13906-1 |
+/// | brass | CuZn37, CW508L | Deutsches Kupferinstitut, data sheet |
+/// | titanium | Ti-6Al-4V | handbook |
+/// | glass-epoxy | woven laminate, FR4 | handbook |
+/// | carbon-epoxy | laminate, all fibres along the link | handbook |
+/// | cfrp-tube | pultruded, 60 % fibres along it, flexural | Goodwinds, technical specifications |
+/// | pla | printed solid and flat | Ultimaker PLA, data sheet |
+/// | petg | moulded, flexural | Eastman Eastar 6763, data sheet |
+/// | abs | moulded | INEOS Terluran GP-22, data sheet |
+/// | pom | copolymer, extruded | Ensinger TECAFORM AH, data sheet |
+/// | nylon | PA 66, extruded, dry | Ensinger TECAMID 66, data sheet |
+/// | wood | Sitka spruce along the grain, 12 % moisture | USDA Wood Handbook, table 5-3 |
+///
+/// An arm's own values differ from these: of metals by some 5 %, of plastics by 20 %, of printed
+/// parts, wood and laminates by 30 % and more. Nylon that takes up moisture softens to half, a
+/// printed part weighs and bears by its infill, a tube rolled of woven cloth has half the modulus
+/// of a pultruded one. Where that matters, weigh the link, measure its first frequency, and give
+/// `mass` and `frequency`.
 pub const MATERIALS: [Material; 16] = [
-    Material {
-        name: "acrylic",
-        youngs_modulus: 3.2e9,
-        density: 1190.0,
-        source: "Kato and Isobe, table 1",
-    },
-    Material {
-        name: "aluminium",
-        youngs_modulus: 69.0e9,
-        density: 2800.0,
-        source: "Kato and Isobe, table 1: modulus as printed, density from mass over volume",
-    },
-    Material {
-        name: "steel",
-        youngs_modulus: 200.0e9,
-        density: 7850.0,
-        source: "carbon steel, handbook value",
-    },
-    Material {
-        name: "stainless-steel",
-        youngs_modulus: 193.0e9,
-        density: 8000.0,
-        source: "AISI 304, handbook value",
-    },
-    Material {
-        name: "spring-steel",
-        youngs_modulus: 206.0e9,
-        density: 7850.0,
-        source: "EN 13906-1, patented cold-drawn wire of EN 10270-1",
-    },
-    Material {
-        name: "brass",
-        youngs_modulus: 110.0e9,
-        density: 8440.0,
-        source: "CuZn37 (CW508L), Deutsches Kupferinstitut, data sheet CuZn37",
-    },
-    Material {
-        name: "titanium",
-        youngs_modulus: 114.0e9,
-        density: 4430.0,
-        source: "Ti-6Al-4V, handbook value",
-    },
-    Material {
-        name: "glass-epoxy",
-        youngs_modulus: 24.0e9,
-        density: 1850.0,
-        source: "woven laminate FR4, handbook value",
-    },
-    Material {
-        name: "carbon-epoxy",
-        youngs_modulus: 120.0e9,
-        density: 1600.0,
-        source: "laminate with all fibres along the link, handbook value",
-    },
-    Material {
-        name: "cfrp-tube",
-        youngs_modulus: 127.0e9,
-        density: 1500.0,
-        source: "pultruded carbon tube, 60 % fibres along it, flexural modulus, Goodwinds, technical \
-                 specifications; tubes rolled of woven cloth have half of it",
-    },
-    Material {
-        name: "pla",
-        youngs_modulus: 3.25e9,
-        density: 1240.0,
-        source: "printed solid and flat, Ultimaker PLA, technical data sheet",
-    },
-    Material {
-        name: "petg",
-        youngs_modulus: 2.1e9,
-        density: 1270.0,
-        source: "moulded, flexural modulus, Eastman Eastar 6763, technical data sheet",
-    },
-    Material {
-        name: "abs",
-        youngs_modulus: 2.3e9,
-        density: 1040.0,
-        source: "moulded, INEOS Terluran GP-22, technical data sheet",
-    },
-    Material {
-        name: "pom",
-        youngs_modulus: 2.8e9,
-        density: 1410.0,
-        source: "copolymer, extruded, Ensinger TECAFORM AH natural, data sheet",
-    },
-    Material {
-        name: "nylon",
-        youngs_modulus: 3.5e9,
-        density: 1150.0,
-        source: "PA 66, dry, extruded, Ensinger TECAMID 66 natural, data sheet",
-    },
-    Material {
-        name: "wood",
-        youngs_modulus: 10.8e9,
-        density: 450.0,
-        source: "Sitka spruce along the grain at 12 % moisture, in bending, USDA Wood Handbook \
-                 FPL-GTR-190, table 5-3",
-    },
+    Material { name: "acrylic", youngs_modulus: 3.2e9, density: 1190.0 },
+    Material { name: "aluminium", youngs_modulus: 69.0e9, density: 2800.0 },
+    Material { name: "steel", youngs_modulus: 200.0e9, density: 7850.0 },
+    Material { name: "stainless-steel", youngs_modulus: 193.0e9, density: 8000.0 },
+    Material { name: "spring-steel", youngs_modulus: 206.0e9, density: 7850.0 },
+    Material { name: "brass", youngs_modulus: 110.0e9, density: 8440.0 },
+    Material { name: "titanium", youngs_modulus: 114.0e9, density: 4430.0 },
+    Material { name: "glass-epoxy", youngs_modulus: 24.0e9, density: 1850.0 },
+    Material { name: "carbon-epoxy", youngs_modulus: 120.0e9, density: 1600.0 },
+    Material { name: "cfrp-tube", youngs_modulus: 127.0e9, density: 1500.0 },
+    Material { name: "pla", youngs_modulus: 3.25e9, density: 1240.0 },
+    Material { name: "petg", youngs_modulus: 2.1e9, density: 1270.0 },
+    Material { name: "abs", youngs_modulus: 2.3e9, density: 1040.0 },
+    Material { name: "pom", youngs_modulus: 2.8e9, density: 1410.0 },
+    Material { name: "nylon", youngs_modulus: 3.5e9, density: 1150.0 },
+    Material { name: "wood", youngs_modulus: 10.8e9, density: 450.0 },
 ];
 
 impl Material {
@@ -182,7 +118,6 @@ mod tests {
         for material in &MATERIALS {
             let speed = libm::sqrt(material.youngs_modulus / material.density);
             assert!((1e3..1e4).contains(&speed), "{}: {speed} m/s", material.name);
-            assert!(material.source.len() > 10, "{}", material.name);
             assert_eq!(Material::named(material.name), Some(material));
         }
     }
