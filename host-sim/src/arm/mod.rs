@@ -1,0 +1,3 @@
+//! Natural frequencies of a scene's arm.
+
+pub mod natural;
