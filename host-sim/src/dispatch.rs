@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use stillbeam::model::{Model, Modes, Rod};
 use stillbeam::motion::{Commanded, Moves};
-use stillbeam::select::{Assessment, Auto, Choice, NoChoice, Tolerance};
+use stillbeam::select::{Assessment, Auto, Choice, NoChoice, Rung, Tolerance};
 use stillbeam::stepper::{Elastica, Modal, Newmark, Rigid, Stepper};
 use stillbeam::{Scalar as Real, Scene, select, stepper};
 
@@ -197,6 +197,18 @@ pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoCho
 /// commands.
 pub fn assess(scene: &SceneFile, solver: &Solver) -> Result<Assessment, Error> {
     with_stepper(scene, solver, Assess { scene })
+}
+
+/// Estimates the errors of a rung of `auto`'s ladder along the motion that the scene commands.
+/// `bend` is the tip angle that it is set up for, rad.
+pub fn assess_rung(
+    scene: &SceneFile,
+    solver: &Solver,
+    rung: Rung,
+    bend: f64,
+) -> Result<Assessment, Error> {
+    let stepper = Auto::<f32>::new(&scene.arm, solver.tick, rung, bend)?;
+    Assess { scene }.visit(stepper)
 }
 
 struct Assess<'a> {
