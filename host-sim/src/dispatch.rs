@@ -231,6 +231,18 @@ pub fn assess(scene: &SceneFile, solver: &Solver) -> Result<Assessment, Error> {
     with_stepper(scene, solver, Assess { scene })
 }
 
+/// Estimates the errors of a rung of `auto`'s ladder along the motion that the scene commands.
+/// `bend` is the tip angle that it is set up for, rad.
+pub fn assess_rung(
+    scene: &SceneFile,
+    solver: &Solver,
+    rung: Rung,
+    bend: f64,
+) -> Result<Assessment, Error> {
+    let stepper = Auto::<f32>::new(&scene.arm, solver.tick, rung, bend)?;
+    Assess { scene }.visit(stepper)
+}
+
 struct Assess<'a> {
     scene: &'a SceneFile,
 }

@@ -77,6 +77,10 @@ impl PlanArgs {
         let planned = request.carry_out(&|| bar.inc(1));
         bar.finish_and_clear();
         let planned = planned.map_err(|error| error.on(scene.arm.mount.axis))?;
+        // A refusal is one line.
+        for line in scene.deduced.lines() {
+            super::note(&line);
+        }
         let file = page::write(&self.out, &scene.name, &request, &planned)?;
         print(&scene.name, &request, &planned);
         println!("  {}", file.display());

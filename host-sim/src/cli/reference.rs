@@ -27,7 +27,8 @@ impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let scene = super::open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
-        let notes = scene.roundings(tick)?;
+        let mut notes = scene.deduced.lines();
+        notes.extend(scene.roundings(tick)?);
         let trajectory = scene.trajectory(tick)?;
         let every = self.every.unwrap_or(tick);
         if !(1e-6..=trajectory.duration()).contains(&every) {

@@ -40,6 +40,7 @@ impl RunArgs {
         if typed.method.is_none() {
             notes.extend(scene.solver.unread(solver.method));
         }
+        notes.extend(scene.deduced.lines());
         notes.extend(scene.roundings(solver.tick)?);
         let keys = typed.or(scene.solver);
         let choice = match solver.method {

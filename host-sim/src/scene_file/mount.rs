@@ -3,7 +3,7 @@
 
 use stillbeam::{AxisKind, Mount};
 
-use super::{CarrierTable, GravityTable, HubTable};
+use super::arm::{CarrierTable, GravityTable, HubTable};
 use crate::error::Error;
 
 /// Builds the mount. `axis` is the file's key, `rotary` without one.

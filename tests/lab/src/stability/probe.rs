@@ -8,7 +8,7 @@ use crate::stress::growth::grows;
 use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::run::each_tick;
-use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::scene_file::{Deduced, SceneFile};
 use stillbeam_sim::solver::{Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
@@ -98,6 +98,7 @@ pub fn scene(arm: &Scene, omega: f64, tick: f64, task: Task, after: f64) -> Scen
         moves: vec![Step { motion, settle: after * tick }],
         limits: Limits::default(),
         solver: SolverKeys::default(),
+        deduced: Deduced::default(),
         remarks: Vec::new(),
     }
 }

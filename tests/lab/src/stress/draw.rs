@@ -7,7 +7,7 @@ use rand::{Rng, SeedableRng};
 use stillbeam::scene::Varied;
 use stillbeam::{Damping, Hub, Limits, Link, Mount, Move, Payload, Profile, Scene};
 
-use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::scene_file::{Deduced, SceneFile};
 use stillbeam_sim::solver::{ELEMENTS, Mass, Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
@@ -79,6 +79,7 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
         moves,
         limits: Limits::default(),
         solver: SolverKeys::default(),
+        deduced: Deduced::default(),
         remarks: Vec::new(),
     };
     Drawn { scene, solvers, omega }
