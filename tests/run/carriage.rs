@@ -247,3 +247,12 @@ fn a_carrier_is_refused_with_what_it_has_no_equilibrium_with() {
     let error = SceneFile::parse("carrier", &text).expect_err("no turn").to_string();
     assert!(error.contains("carrier.rate = 8") && error.contains("linear"), "{error}");
 }
+
+#[test]
+fn a_carriage_is_described_by_the_mass_that_it_moves() {
+    let report = stillbeam_sim::arm::describe(&scene(LIFTED, "")).expect("a report");
+    assert_eq!((report.axis, report.inertia_kgm2), ("linear", None));
+    let moved = report.moved_mass_kg.expect("a mass");
+    assert!((moved - 0.3524).abs() < 1e-12, "{moved} kg");
+    assert_eq!(report.sag_m, report.sag_at_start_m);
+}

@@ -33,8 +33,13 @@ pub struct ArmReport {
     pub payload_offset_m: f64,
     /// Stiffness of the joint between hub and link, N m/rad. Absent if it does not give.
     pub hub_stiffness_nm_rad: Option<f64>,
-    /// Inertia of the straight arm about the motor axis, hub included, kg m².
-    pub inertia_kgm2: f64,
+    /// Kind of the axis, `rotary` or `linear`.
+    pub axis: &'static str,
+    /// Inertia of the straight arm about the motor axis, hub included, kg m². Absent on a linear
+    /// axis.
+    pub inertia_kgm2: Option<f64>,
+    /// Mass that a linear axis moves, the carriage's included, kg. Absent on one that turns.
+    pub moved_mass_kg: Option<f64>,
     /// EI of the link, N m²: of one that is not uniform as of one that a force at the tip bends as
     /// far.
     pub bending_stiffness_nm2: f64,
@@ -71,7 +76,10 @@ pub fn describe(scene: &SceneFile) -> Result<ArmReport, Error> {
     let frequency = natural::frequencies(arm)?;
     let ticks = frequency.map(|f| 1.0 / (f * tick));
     let mounted = arm.shape.masses().map(|mass| mass.mass).sum();
-    let method = if scene.moves.is_empty() { None } else { Some(advise(scene)?) };
+    // `auto` does not choose for a carrier that turns.
+    let chooses = !scene.moves.is_empty() && arm.mount.carrier == 0.0;
+    let method = if chooses { Some(advise(scene)?) } else { None };
+    let against = || arm.rigid_inertia() + arm.hub.inertia;
     Ok(ArmReport {
         scene: scene.name.clone(),
         length_m: arm.link.length,
@@ -82,13 +90,16 @@ pub fn describe(scene: &SceneFile) -> Result<ArmReport, Error> {
         payload_mass_kg: arm.payload.mass,
         payload_offset_m: arm.payload.offset,
         hub_stiffness_nm_rad: arm.hub.stiffness,
-        inertia_kgm2: arm.rigid_inertia() + arm.hub.inertia,
+        axis: if arm.mount.is_linear() { "linear" } else { "rotary" },
+        inertia_kgm2: (!arm.mount.is_linear()).then(against),
+        moved_mass_kg: arm.mount.is_linear().then(against),
         bending_stiffness_nm2: arm.link.bending_stiffness,
         is_uniform: arm.shape.is_uniform(),
         frequency_hz: frequency,
         period_s: frequency.map(f64::recip),
         damping_ratio: natural::damping_ratios(arm, &frequency)?,
-        sag_m: sag(arm, 0.0),
+        // Level is across gravity, wherever that is turned to.
+        sag_m: sag(arm, arm.mount.direction),
         sag_at_start_m: sag(arm, scene.from),
         tick_s: tick,
         ticks_per_period: ticks,

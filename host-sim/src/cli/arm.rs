@@ -52,7 +52,12 @@ fn print(report: &ArmReport) {
         println!("  payload    {} {place}", kilograms(report.payload_mass_kg));
     }
     println!("  hub        {}", hub(report));
-    println!("  inertia    {} kg m\u{b2} about the motor axis", digits(report.inertia_kgm2));
+    if let Some(inertia) = report.inertia_kgm2 {
+        println!("  inertia    {} kg m\u{b2} about the motor axis", digits(inertia));
+    }
+    if let Some(mass) = report.moved_mass_kg {
+        println!("  axis       linear, moves {} with the carriage", kilograms(mass));
+    }
     for line in report.deduced.lines() {
         println!("  deduced    {line}");
     }
@@ -71,7 +76,9 @@ fn print(report: &ArmReport) {
     println!("  tick       {}", resolved(report));
     match &report.method {
         Some(method) => print_method(method),
-        None => println!("  method     none chosen: the scene has no moves"),
+        None => {
+            println!("  method     none chosen: the scene has no moves, or a carrier that turns")
+        }
     }
 }
 
@@ -105,6 +112,7 @@ fn sag(report: &ArmReport) -> String {
         (Some(level), Some(start)) if level == 0.0 && start == 0.0 => {
             "none: no gravity acts in the plane of motion".to_owned()
         }
+        (level, _) if report.axis == "linear" => format!("{} on its carriage", of(level)),
         (level, start) => format!("{} held level, {} at the first angle", of(level), of(start)),
     }
 }
