@@ -127,7 +127,9 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     each_tick_of(stepper, scene.from, &motions, |generator, k, ends| {
         let setpoint = generator.tick();
         let shown = if ends { generator.setpoint_before() } else { setpoint };
-        rows.push(row(k as f64 * tick, scene.arm.mount.axis, &shown));
+        let tip_angle = generator.stepper().tip_angle(generator.state());
+        let centre = payload(scene, &shown, tip_angle);
+        rows.push(row(k as f64 * tick, scene.arm.mount.axis, &shown, centre));
     })?;
     Ok(rows)
 }
@@ -157,7 +159,8 @@ fn drive_shaped<S: Stepper>(
         let Response { torque, tip } = stepper.response::<AnyMotion>(&state, &hub);
         let HubState { angle, rate, acceleration, .. } = hub;
         let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
-        rows.push(row(f64::from(k) * tick, scene.arm.mount.axis, &setpoint));
+        let centre = payload(scene, &setpoint, stepper.tip_angle(&state));
+        rows.push(row(f64::from(k) * tick, scene.arm.mount.axis, &setpoint, centre));
     }
     Ok(rows)
 }
@@ -212,8 +215,24 @@ fn each_tick_of<S: Stepper>(
     Ok(())
 }
 
-/// Converts a setpoint of an axis of that kind to the units of the table.
-pub fn row<T: Real>(t: f64, axis: AxisKind, setpoint: &Setpoint<T>) -> Row {
+/// Returns the payload's centre in the global frame, m, if it is not the tip.
+fn payload<T: Real>(scene: &SceneFile, setpoint: &Setpoint<T>, tip_angle: T) -> Option<[f64; 2]> {
+    let offset = scene.arm.payload.offset;
+    (offset != 0.0).then(|| {
+        let centre = setpoint.payload_centre(T::from_f64(offset), tip_angle);
+        let centre = Setpoint { tip: centre, ..*setpoint };
+        centre.global_tip_on(scene.arm.mount.axis).map(T::to_f64)
+    })
+}
+
+/// Converts a setpoint of an axis of that kind to the units of the table. `payload` is the
+/// payload's centre in the global frame, m, if it is not the tip.
+pub fn row<T: Real>(
+    t: f64,
+    axis: AxisKind,
+    setpoint: &Setpoint<T>,
+    payload: Option<[f64; 2]>,
+) -> Row {
     let [x, y] = setpoint.global_tip_on(axis);
     Row {
         t_s: t,
@@ -224,5 +243,7 @@ pub fn row<T: Real>(t: f64, axis: AxisKind, setpoint: &Setpoint<T>) -> Row {
         tip_y_m: y.to_f64(),
         deflection_m: setpoint.deflection().to_f64(),
         torque_nm: setpoint.torque.to_f64(),
+        payload_x_m: payload.map(|[x, _]| x),
+        payload_y_m: payload.map(|[_, y]| y),
     }
 }

@@ -32,6 +32,12 @@ pub struct Row {
     /// Torque into the hub, N m; jumps with the acceleration. On a linear axis the force, N.
     #[serde(alias = "force_n")]
     pub torque_nm: f64,
+    /// The payload's centre, global X and Y, m: columns of arms whose payload has an offset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub payload_x_m: Option<f64>,
+    /// See [`Self::payload_x_m`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub payload_y_m: Option<f64>,
 }
 
 impl Row {
@@ -46,6 +52,8 @@ impl Row {
             tip_y_m: significant(self.tip_y_m, 9),
             deflection_m: significant(self.deflection_m, 9),
             torque_nm: significant(self.torque_nm, 9),
+            payload_x_m: self.payload_x_m.map(|x| significant(x, 9)),
+            payload_y_m: self.payload_y_m.map(|y| significant(y, 9)),
         }
     }
 }
@@ -79,6 +87,9 @@ const ROTARY: [&str; 8] = [
     "torque_nm",
 ];
 
+/// Columns of a payload whose centre is not the tip.
+const PAYLOAD: [&str; 2] = ["payload_x_m", "payload_y_m"];
+
 /// Returns the columns of an axis, in the order of [`Row`].
 pub fn columns(axis: AxisKind) -> [&'static str; 8] {
     match axis {
@@ -98,7 +109,9 @@ pub fn write(path: &Path, axis: AxisKind, rows: &[Row]) -> Result<(), Error> {
 pub fn add(files: &mut Files, path: &Path, axis: AxisKind, rows: &[Row]) -> Result<(), Error> {
     files.add(path, |file| {
         let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(file);
-        csv.write_record(columns(axis))?;
+        let has_payload = rows.first().is_some_and(|row| row.payload_x_m.is_some());
+        let payload: &[&str] = if has_payload { &PAYLOAD } else { &[] };
+        csv.write_record(columns(axis).iter().chain(payload))?;
         for row in rows {
             csv.serialize(row.rounded()).map_err(std::io::Error::other)?;
         }
@@ -125,6 +138,8 @@ pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
             row.tip_y_m,
             row.deflection_m,
             row.torque_nm,
+            row.payload_x_m.unwrap_or(0.0),
+            row.payload_y_m.unwrap_or(0.0),
         ]
         .iter()
         .all(|value| value.is_finite());

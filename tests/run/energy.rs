@@ -5,6 +5,7 @@ use stillbeam::model::{EightElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, ModalState, Newmark, Quality, Stepper};
 use stillbeam_energy::{self as energy, Balance, Energy, imbalance};
 use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_tests::features::featured;
 use stillbeam_tests::{TRUTH_SCENES, truth};
 
 const TICK: f64 = 0.001;
@@ -171,5 +172,34 @@ fn the_force_on_a_carriage_balances_the_energy() {
                 energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
             })
         });
+    }
+}
+
+/// Arms with joints that give, payloads beyond the tip, sections and masses balance too.
+#[test]
+fn every_feature_balances() {
+    for name in ["d-fast", "a-tip30", "s-gravity"] {
+        let (plain, _) = truth(name);
+        for (feature, arm) in featured(&plain.arm) {
+            let scene = SceneFile { arm, ..plain.clone() };
+            let model = Model::<8, 4>::consistent(&arm).expect("model");
+            let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
+            let newmark = along(&scene, stepper, |arm| {
+                let state = arm.state();
+                let q_dot = arm.stepper().deflection_rate(state);
+                energy::small(&model, arm.hub(), &state.deflection, &q_dot)
+            });
+            let rod = Rod::<2>::new(&arm).expect("rod");
+            let stepper = Elastica::new(&rod, TICK, Quality::Fast, 0.8).expect("stepper");
+            let elastica = along(&scene, stepper, |arm| {
+                let flex = arm.stepper().arm_state(arm.state(), arm.hub());
+                energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
+            });
+            println!("{name}, {feature}: {newmark:.1e} {elastica:.1e}");
+            assert!(
+                newmark < 1e-4 && elastica < 1e-4,
+                "{name}, {feature}: {newmark:e} {elastica:e}"
+            );
+        }
     }
 }

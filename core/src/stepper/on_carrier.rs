@@ -111,6 +111,10 @@ impl<S: Stepper> Stepper for OnCarrier<S> {
         }
     }
 
+    fn tip_angle(&self, state: &S::State) -> S::Scalar {
+        self.arm.tip_angle(state)
+    }
+
     #[inline(always)]
     fn kink(&self, state: &mut S::State, moments: KinkMoments<'_, S::Scalar>) {
         self.arm.kink(state, moments);

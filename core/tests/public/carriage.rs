@@ -2,10 +2,12 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use stillbeam::model::{EightElements, FourElements, Rod};
+use stillbeam::model::{EightElements, FourElements, Model, OneElement, Rod};
 use stillbeam::planner::{Planner, Request};
 use stillbeam::select::{Auto, Tolerance};
-use stillbeam::stepper::{Elastica2, Modal2, Newmark4, OnCarrier, Quality, Rigid};
+use stillbeam::stepper::{
+    Elastica2, Modal2, Newmark, Newmark1, Newmark4, OnCarrier, Quality, Rigid,
+};
 use stillbeam::{Generator, Hub, Link, Mount, Move, Payload, Profile, Scene, Setpoint, Stepper};
 
 use crate::assert_near;
@@ -73,6 +75,12 @@ fn every_method_moves_a_carriage_as_a_hub_of_infinite_radius() {
     as_on_a_large_hub("rigid", |scene| Rigid::new(scene, TICK).unwrap());
     as_on_a_large_hub("newmark", |scene| {
         Newmark4::new(&FourElements::consistent(scene).unwrap(), TICK).unwrap()
+    });
+    as_on_a_large_hub("newmark, one element", |scene| {
+        Newmark1::new(&OneElement::consistent(scene).unwrap(), TICK).unwrap()
+    });
+    as_on_a_large_hub("newmark, lumped", |scene| {
+        Newmark::<_, 4, 4>::new(&Model::lumped::<8>(scene).unwrap(), TICK).unwrap()
     });
     as_on_a_large_hub("modal", |scene| {
         Modal2::new(&EightElements::consistent(scene).unwrap(), TICK).unwrap()

@@ -40,7 +40,8 @@ impl Energy {
 /// Returns the energy of small deflections `q` with rates `q_dot`, nodal coordinates:
 ///
 /// `T = ½J_rω² + ωFᵀq̇ + ½q̇ᵀMq̇ − ½ω²qᵀGq` of link and payload, `½qᵀKq` of the strip,
-/// `g[sinχ(S − ½qᵀK_Pq) + cosχ f_gᵀq]` of the weight. The strip takes `βq̇ᵀKq̇`.
+/// `g[sinχ(S − ½qᵀK_Pq) + cosχ f_gᵀq]` of the weight. The strip takes `βq̇ᵀKq̇`, the
+/// joint its own.
 ///
 /// Sine and cosine are those of χ, which a generator keeps for an arm under gravity. On a linear
 /// axis `ω` is the velocity of the carriage, whose own mass rises with it.
@@ -52,11 +53,11 @@ pub fn small<const N: usize, const W: usize>(
 ) -> Energy {
     let (scene, omega) = (model.scene(), hub.rate);
     let stiffness = model.stiffness().half_form();
-    let carried = 0.5 * scene.rigid_inertia() * omega * omega
+    let carried = 0.5 * model.rigid_inertia() * omega * omega
         + omega * dot(model.coupling(), q_dot)
         + model.mass().half_form().at(q_dot)
         - omega * omega * model.spin().half_form().at(q);
-    let own = scene.first_moment();
+    let own = model.first_moment();
     let height = if scene.mount.is_linear() {
         hub.cos * own * hub.angle.radians() - hub.sin * model.tension().half_form().at(q)
     } else {
@@ -68,14 +69,15 @@ pub fn small<const N: usize, const W: usize>(
         bending: stiffness.at(q),
         raised: scene.in_plane_gravity() * height,
         dissipation: 2.0 * scene.damping.alpha * carried
-            + 2.0 * scene.damping.beta * stiffness.at(q_dot),
+            + 2.0 * scene.damping.beta * stiffness.at(q_dot)
+            + 2.0 * model.joint_damping().half_form().at(q_dot),
     }
 }
 
 /// Returns the energy of a rod that may bend far, modal coordinates `a` with rates `v`:
 ///
 /// `T = ½vᵀMv + ωhᵀv + ½ω²T_θθ` of link and payload, `½Σωₖ²aₖ²` of the strip,
-/// `g(X sinχ + Y cosχ)` of the weight. The strip takes `βΣωₖ²vₖ²`.
+/// `g(X sinχ + Y cosχ)` of the weight. Strip and joint take `Σβₖωₖ²vₖ²`.
 pub fn exact<const K: usize>(
     rod: &Rod<K>,
     hub: &HubState<f64>,
@@ -90,6 +92,7 @@ pub fn exact<const K: usize>(
         + 0.5 * omega * omega * kinetics.inertia;
     let stiffness = rod.frequency().map(|omega| omega * omega);
     let elastic = |x: &[f64; K]| dot(&stiffness, &x.map(|x| x * x));
+    let lost: [f64; K] = core::array::from_fn(|k| stiffness[k] * v[k] * v[k]);
     let [x, y] = kinetics.moment;
     // Link, payload and carriage rise with the carriage.
     let y = match scene.mount.axis {
@@ -101,7 +104,7 @@ pub fn exact<const K: usize>(
         carried,
         bending: 0.5 * elastic(a),
         raised: scene.in_plane_gravity() * (hub.sin * x + hub.cos * y),
-        dissipation: 2.0 * scene.damping.alpha * carried + scene.damping.beta * elastic(v),
+        dissipation: 2.0 * scene.damping.alpha * carried + dot(&rod.stiffness_damping(), &lost),
     }
 }
 

@@ -67,6 +67,8 @@ pub struct Modal<T, const K: usize> {
     fastest: T,
     kicks: [Kicks<T>; K],
     gravity: GravityDirection<T>,
+    /// `φ(L)` per unit of `ωa`, rad.
+    tip_slope: [T; K],
 }
 
 /// Modal coordinates and their rates, times the frequencies.
@@ -194,6 +196,10 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
+    }
+
+    fn tip_angle(&self, state: &ModalState<T, K>) -> T {
+        dot(&self.tip_slope, &state.coordinate)
     }
 
     #[inline(always)]

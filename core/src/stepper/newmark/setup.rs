@@ -87,6 +87,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             moment: round(gravity * model.first_moment()),
             most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length.to_f64()),
             gravity: scene.gravity_direction(),
+            tip_slope: cast(&vector(model.tip_slope())),
         })
     }
 

@@ -53,7 +53,8 @@ impl March {
             if self.equilibrate(&still, &change, 0.0).is_err() {
                 return Err(unstable);
             }
-            if !self.tangent.is_positive_definite(1) {
+            self.model.hold(&mut self.residual, &mut self.tangent);
+            if !self.tangent.is_positive_definite(self.model.first()) {
                 return Err(unstable);
             }
             std::mem::swap(&mut self.state, &mut self.next);
@@ -77,7 +78,7 @@ impl March {
     /// = u + h u̇ + ¼h²(ü + ü⁺)`, `u̇⁺ = u̇ + ½h(ü + ü⁺)` (δ = 1/2, β = 1/4), iterated to
     /// equilibrium.
     pub fn step(&mut self, hub: &HubState<f64>, time: f64, h: f64) -> Result<(), ReferenceError> {
-        for i in 1..self.nodes.len() {
+        for i in self.model.first()..self.nodes.len() {
             let (u, v, a) = (self.state.u[i], self.state.v[i], self.state.a[i]);
             self.next.u[i] = u + h * v + 0.5 * h * h * a;
             self.next.v[i] = v + h * a;
@@ -109,10 +110,12 @@ impl March {
                 return Ok(());
             }
             before = size;
-            if self.tangent.solve(1, &mut self.residual).is_none() {
+            let first = self.model.first();
+            self.model.hold(&mut self.residual, &mut self.tangent);
+            if self.tangent.solve(first, &mut self.residual).is_none() {
                 break;
             }
-            for i in 1..self.nodes.len() {
+            for i in first..self.nodes.len() {
                 let delta = self.residual[i];
                 self.next.u[i] -= change.displacement * delta;
                 self.next.v[i] -= change.rate * delta;
@@ -129,13 +132,15 @@ impl March {
         let outside = from_outside(&self.model.scene, hub, t);
         self.model.place(&outside, &self.state, &mut self.nodes);
         self.model.residual(&self.nodes, &change, &mut self.residual, &mut self.tangent);
-        let tip = self.nodes[self.nodes.len() - 1].q;
+        let end = &self.nodes[self.nodes.len() - 1];
+        let (tip, payload) = (end.q, self.model.payload(end));
         Sample {
             t,
             angle: hub.angle.radians(),
             rate: hub.rate,
             acceleration: hub.acceleration,
-            tip: self.model.on_carrier(&tip, t),
+            tip: self.model.on_carrier([tip.x, tip.y], t),
+            payload: self.model.on_carrier(payload, t),
             deflection: self.model.deflection(&tip, &outside),
             torque: self.model.torque(&self.residual[0], &self.nodes[0], hub),
         }
