@@ -8,6 +8,7 @@ use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Quality, Scalar, Solver};
 use stillbeam_sim::table;
 use stillbeam_sim::truth::{self, Reference};
+use stillbeam_tests::features::featured;
 
 /// Member D on a carriage that moves by 0.5 m in 0.6 s, and what is put before and after that.
 fn scene(head: &str, motion: &str) -> SceneFile {
@@ -255,4 +256,33 @@ fn a_carriage_is_described_by_the_mass_that_it_moves() {
     let moved = report.moved_mass_kg.expect("a mass");
     assert!((moved - 0.3524).abs() < 1e-12, "{moved} kg");
     assert_eq!(report.sag_m, report.sag_at_start_m);
+}
+
+/// Joints that give, payloads beyond the tip, sections and masses ride on a carriage too.
+#[test]
+fn every_link_rides_on_a_carriage() {
+    let plain = scene(LIFTED, "");
+    let solver = Solver {
+        method: Method::Elastica,
+        modes: 2,
+        quality: Quality::Fine,
+        scalar: Scalar::F32,
+        ..Solver::PAPER
+    };
+    let all = featured(&plain.arm);
+    for (feature, arm) in &all {
+        let found = against_rod(&SceneFile { arm: *arm, ..plain.clone() }, &solver);
+        println!("{feature}: {:.1e} of L, {:.1e} of the force", found.tip_max, found.torque);
+        assert!(found.tip_max < 4e-4, "{feature}: {} of L", found.tip_max);
+        assert!(found.torque < 0.01, "{feature}: {} of the force", found.torque);
+    }
+    let (feature, arm) = all[all.len() - 1];
+    let trajectory = plain.trajectory(0.01).expect("a motion");
+    let times = truth::times(&trajectory, 0.05);
+    let rod = rod::solve(&arm, &trajectory, &times, &rod::Options::default()).expect("the rod");
+    let fem = fem::solve(&arm, &trajectory, &times, &fem::Options::default()).expect("elements");
+    for (a, b) in rod.iter().zip(&fem) {
+        let apart = (a.tip[0] - b.tip[0]).hypot(a.tip[1] - b.tip[1]) / 0.4;
+        assert!(apart < 2e-4, "{feature}: {apart} of L at {} s", a.t);
+    }
 }
