@@ -162,6 +162,7 @@ impl Model {
                 v: moved(0.0, hub.rate) + deformation.v[i],
                 a: moved(0.0, hub.acceleration) + deformation.a[i],
                 deformation: deformation.u[i],
+                deformation_rate: deformation.v[i],
             };
         }
     }
