@@ -23,25 +23,6 @@ fn random_scenes_neither_panic_nor_leave_their_bounds() {
 }
 
 #[test]
-fn random_scenes_on_other_mounts_neither_panic_nor_leave_their_bounds() {
-    let summary = campaign::run_mounted(5, 1200, &|_| ());
-    assert_eq!(summary.scenes, 1200);
-    for (name, counts) in &summary.methods {
-        assert_eq!(counts.panicked, 0, "{name}: {:?}", summary.failures);
-        assert_eq!(counts.not_finite, 0, "{name}: {:?}", summary.failures);
-        assert_eq!(counts.off_target, 0, "{name}: {:?}", summary.failures);
-        if !name.starts_with("elastica") {
-            assert_eq!(counts.above, 0, "{name}: {:?}", summary.failures);
-        }
-    }
-    let (ran, refused) = summary
-        .methods
-        .values()
-        .fold((0, 0), |(ran, refused), counts| (ran + counts.ran, refused + counts.refused));
-    assert!(ran > refused, "{ran} ran, {refused} were refused: {:?}", summary.reasons);
-}
-
-#[test]
 fn a_campaign_does_not_depend_on_how_it_is_cut() {
     let whole = campaign::run(6, 60, None, &|_| ()).expect("a campaign");
     let folder = std::env::temp_dir().join(format!("stillbeam-stress-{}", std::process::id()));

@@ -8,7 +8,6 @@ use stillbeam_lab::campaign::with_bar;
 use stillbeam_lab::markers::Block;
 use stillbeam_lab::pages;
 use stillbeam_lab::stress::draw::{draw, method_name};
-use stillbeam_lab::stress::mounted::draw_mounted;
 use stillbeam_lab::stress::trial::trial;
 use stillbeam_lab::stress::{campaign, document, energy, rows, summary::Summary};
 use stillbeam_sim::error::Error;
@@ -45,9 +44,6 @@ pub struct StressArgs {
     /// In place of random scenes: repeated moves, a vibration and a rotation for so many ticks each
     #[arg(long, value_name = "TICKS")]
     long: Option<u64>,
-    /// Scenes on other mounts: carriages, carriers that turn, planes that lean
-    #[arg(long, conflicts_with_all = ["page", "part", "csv", "energy", "long"])]
-    mounted: bool,
     /// Only this scene, and what comes of it; of arms that ring on, the first
     #[arg(long, value_name = "INDEX")]
     scene: Option<u64>,
@@ -73,14 +69,7 @@ impl StressArgs {
         if let Some(path) = &self.csv {
             return self.rows(path);
         }
-        let summary = if self.mounted {
-            quiet();
-            with_bar("mounted scenes", self.count, |done| {
-                campaign::run_mounted(self.seed, self.count, done)
-            })
-        } else {
-            self.summary(self.part.as_deref())?
-        };
+        let summary = self.summary(self.part.as_deref())?;
         print(&summary);
         Ok(verdict(summary.faults() == 0))
     }
@@ -131,7 +120,6 @@ impl StressArgs {
     }
 
     fn one(&self, index: u64) -> ExitCode {
-        let draw = if self.mounted { draw_mounted } else { draw };
         let drawn = draw(self.seed, index);
         println!("{:#?}", drawn.scene);
         println!("first frequency {:.4e} rad/s", drawn.omega);

@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::draw::{Drawn, draw};
-use super::mounted::draw_mounted;
 use super::summary::Summary;
 use super::trial::{Verdict, trial};
 use crate::campaign::{self, chunks};
@@ -36,34 +35,13 @@ pub fn run(
     Ok(summary)
 }
 
-/// Runs as many scenes of [`draw_mounted`](super::mounted::draw_mounted).
-pub fn run_mounted(seed: u64, scenes: u64, done: &(dyn Fn(u64) + Sync)) -> Summary {
-    let mut summary = Summary::new(seed);
-    let draw = |index| draw_mounted(seed, index);
-    for numbers in chunks(0, scenes) {
-        for (index, (_, verdicts)) in numbers.clone().zip(each_of(&draw, numbers, done)) {
-            summary.add(index, &verdicts);
-        }
-    }
-    summary
-}
-
 /// A scene and the verdicts on its solvers.
 pub type Judged = (Drawn, Vec<(Solver, Verdict)>);
 
 /// Runs the scenes of those numbers.
 pub fn each(seed: u64, numbers: Range<u64>, done: &(dyn Fn(u64) + Sync)) -> Vec<Judged> {
-    each_of(&|index| draw(seed, index), numbers, done)
-}
-
-/// Runs the scenes of those numbers that `draw` makes.
-pub fn each_of(
-    draw: &(dyn Fn(u64) -> Drawn + Sync),
-    numbers: Range<u64>,
-    done: &(dyn Fn(u64) + Sync),
-) -> Vec<Judged> {
     campaign::each("scene", numbers, &|| done(1), |index| {
-        let drawn = draw(index);
+        let drawn = draw(seed, index);
         let verdicts = drawn.solvers.iter().map(|solver| (*solver, trial(&drawn, solver)));
         let verdicts = verdicts.collect();
         (drawn, verdicts)

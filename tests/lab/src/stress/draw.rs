@@ -11,8 +11,10 @@ use stillbeam_sim::scene_file::{Deduced, SceneFile};
 use stillbeam_sim::solver::{ELEMENTS, Mass, Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
+use super::mounted::mounted;
+
 /// Drawn quantities and their ranges, for a page.
-pub const RANGES: [(&str, &str); 14] = [
+pub const RANGES: [(&str, &str); 15] = [
     ("link", "length 0.03 to 10 m, mass 1 g to 100 kg"),
     ("bending stiffness", "10⁻⁶ to 10⁶ N m², or such that ω₁h is 10⁻³·⁵ to 10²"),
     ("payload over link mass", "0, 10⁻³ to 10³; with rotary inertia in half of the scenes"),
@@ -26,6 +28,7 @@ pub const RANGES: [(&str, &str); 14] = [
     ("gravity", "0, 10⁻² to 100 m/s²"),
     ("moves", "1 µrad to 100 turns, in 5 to 5,000 ticks, every profile"),
     ("spin", "up to 5 ω₁, held"),
+    ("mount", "a hub that turns, a carriage, a carrier at up to 2 ω₁, gravity tilted and turned"),
     ("after the move", "as long as the move, at most 200 ticks"),
 ];
 
@@ -65,7 +68,7 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
         let least = 1e-4 * arm.payload.mass * offset * offset;
         arm.payload = Payload { offset, inertia: arm.payload.inertia.max(least), ..arm.payload };
     }
-    Drawn { scene: SceneFile { arm, ..plain.scene }, omega, ..plain }
+    mounted(Drawn { scene: SceneFile { arm, ..plain.scene }, omega, ..plain }, seed, index)
 }
 
 /// Draws the scene of that number under that seed, its link uniform and clamped without give, its
