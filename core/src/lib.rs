@@ -127,5 +127,5 @@ pub use generator::{Generator, PlanContext, PlannedMove, Setpoint};
 pub use hub::{Angle, HubState};
 pub use math::Scalar;
 pub use motion::{Limits, Move, Profile, Remedy};
-pub use scene::{Damping, Hub, Link, Payload, Scene};
+pub use scene::{AxisKind, Damping, Hub, Link, Mount, Payload, Scene, UniformScene};
 pub use stepper::Stepper;

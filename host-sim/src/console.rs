@@ -64,7 +64,15 @@ pub fn note(words: &str) {
 
 /// Opens a scene and notes its values that are probably in another unit.
 pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
-    let scene = scenes::open(name_or_path)?;
+    remarked(scenes::open(name_or_path)?)
+}
+
+/// Opens a scene as [`open`] does, but a file may be without moves.
+pub fn open_arm(name_or_path: &str) -> Result<SceneFile, Error> {
+    remarked(scenes::open_arm(name_or_path)?)
+}
+
+fn remarked(scene: SceneFile) -> Result<SceneFile, Error> {
     for line in &scene.remarks {
         note(line);
     }

@@ -4,8 +4,8 @@ use std::marker::PhantomData;
 
 use stillbeam::model::{Model, Modes, Rod};
 use stillbeam::motion::{Commanded, Moves};
-use stillbeam::select::{Assessment, Auto, Choice, NoChoice, Tolerance};
-use stillbeam::stepper::{Elastica, Modal, Newmark, Rigid, Stepper};
+use stillbeam::select::{Assessment, Auto, Choice, NoChoice, Rung, Tolerance};
+use stillbeam::stepper::{Elastica, Modal, Newmark, OnCarrier, Rigid, Stepper};
 use stillbeam::{Scalar as Real, Scene, select, stepper};
 
 use crate::error::Error;
@@ -106,6 +106,9 @@ fn with_stepper_in<T: Real, V: StepperVisitor>(
     choice: Option<&Choice>,
     visitor: V,
 ) -> Result<V::Output, Error> {
+    if scene.arm.mount.carrier != 0.0 {
+        return visitor.visit(on_carrier::<T>(scene, solver)?);
+    }
     if let Some(choice) = choice {
         return visitor.visit(Auto::<T>::chosen(&scene.arm, solver.tick, choice)?);
     }
@@ -127,6 +130,32 @@ fn with_stepper_in<T: Real, V: StepperVisitor>(
             visitor.visit(Auto::<T>::chosen(&scene.arm, solver.tick, &choice)?)
         }
     }
+}
+
+/// The error of a method that has no stepper for a carrier that turns.
+fn not_on_carrier(scene: &SceneFile, solver: &Solver) -> Error {
+    Error::new(format_args!(
+        "solver.method = \"{}\": must be rigid, elastica, or modal with 8 elements of consistent \
+         mass and spin, with carrier.rate = {}",
+        solver.method.name(),
+        scene.arm.mount.carrier
+    ))
+}
+
+/// Builds the stepper of an arm on a carrier that turns. One type for all methods, as such scenes
+/// are rare.
+fn on_carrier<T: Real>(scene: &SceneFile, solver: &Solver) -> Result<OnCarrier<Auto<T>>, Error> {
+    let Solver { method, modes, elements, tick, .. } = *solver;
+    let rung = match method {
+        Method::Rigid => Rung::Rigid,
+        Method::Modal if (elements, solver.mass, solver.spin) == (8, Mass::Consistent, true) => {
+            Rung::Modal(modes)
+        }
+        Method::Elastica => Rung::Elastica(modes, quality(solver)),
+        _ => return Err(not_on_carrier(scene, solver)),
+    };
+    let bend = expected_bend(&Rod::<1>::new(&scene.arm)?, scene, solver)?;
+    Ok(OnCarrier::new(&scene.arm, |arm| Auto::new(arm, tick, rung, bend))?)
 }
 
 struct NewmarkOf<'a, T, V> {
@@ -186,6 +215,9 @@ fn modal<T: Real, const K: usize, const N: usize, const W: usize>(
 /// # Errors
 /// An error is returned if the scene's moves are refused, whatever the method.
 pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoChoice>, Error> {
+    if scene.arm.mount.carrier != 0.0 {
+        return Err(not_on_carrier(scene, solver));
+    }
     let tolerance = Tolerance { tip: solver.tolerance, torque: solver.torque_tolerance };
     let late = progress::late("choosing a method");
     along(scene, solver.tick, |motion| {
@@ -197,6 +229,18 @@ pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoCho
 /// commands.
 pub fn assess(scene: &SceneFile, solver: &Solver) -> Result<Assessment, Error> {
     with_stepper(scene, solver, Assess { scene })
+}
+
+/// Estimates the errors of a rung of `auto`'s ladder along the motion that the scene commands.
+/// `bend` is the tip angle that it is set up for, rad.
+pub fn assess_rung(
+    scene: &SceneFile,
+    solver: &Solver,
+    rung: Rung,
+    bend: f64,
+) -> Result<Assessment, Error> {
+    let stepper = Auto::<f32>::new(&scene.arm, solver.tick, rung, bend)?;
+    Assess { scene }.visit(stepper)
 }
 
 struct Assess<'a> {
@@ -235,14 +279,23 @@ fn elastica<T: Real, const K: usize>(
     scene: &SceneFile,
     solver: &Solver,
 ) -> Result<Elastica<T, K>, Error> {
+    let rod = Rod::new(&scene.arm)?;
+    let bend = expected_bend(&rod, scene, solver)?;
+    Ok(Elastica::new(&rod, solver.tick, quality(solver), bend)?)
+}
+
+/// Returns the tip angle to expect from the scene's own accelerations, rad.
+///
+/// # Errors
+/// An angle that elastica cannot be fitted for.
+fn expected_bend<const K: usize>(
+    rod: &Rod<K>,
+    scene: &SceneFile,
+    solver: &Solver,
+) -> Result<f64, Error> {
     let trajectory = scene.trajectory(solver.tick)?;
     let peaks = trajectory.plans().iter().map(|plan| plan.summary.peaks.acceleration);
-    let rod = Rod::new(&scene.arm)?;
-    let quality = match solver.quality {
-        Quality::Fast => stepper::Quality::Fast,
-        Quality::Fine => stepper::Quality::Fine,
-    };
-    let (_, most) = Elastica::<T, K>::BEND;
+    let (_, most) = Elastica::<f64, K>::BEND;
     let bend = rod.bend(peaks.fold(0.0, f64::max));
     if bend > most {
         return Err(Error::new(format_args!(
@@ -250,5 +303,12 @@ fn elastica<T: Real, const K: usize>(
              must be at most {most} rad; use a longer move or a stiffer link"
         )));
     }
-    Ok(Elastica::new(&rod, solver.tick, quality, bend)?)
+    Ok(bend)
+}
+
+fn quality(solver: &Solver) -> stepper::Quality {
+    match solver.quality {
+        Quality::Fast => stepper::Quality::Fast,
+        Quality::Fine => stepper::Quality::Fine,
+    }
 }

@@ -3,6 +3,10 @@
 use std::fmt;
 use std::path::Path;
 
+use stillbeam::AxisKind;
+
+use crate::axis_units;
+
 /// A request that cannot be carried out.
 ///
 /// Displays as one line that names the field or file, its value and what it must be. The command
@@ -22,6 +26,11 @@ impl Error {
     /// Adds the `place` where the error was found: a file, or a move of the queue.
     pub fn within(self, place: impl fmt::Display) -> Self {
         Self::new(format_args!("{place}: {self}"))
+    }
+
+    /// Returns the error in the units of an axis: on a linear one in metres and newtons.
+    pub fn on(self, axis: AxisKind) -> Self {
+        Self(axis_units::worded(axis, &self.0).into_owned())
     }
 
     /// Creates the error of a file that cannot be read or written.

@@ -6,7 +6,7 @@ use stillbeam::hub::HubState;
 use stillbeam::motion::{Segment, Shaped, Shaper};
 use stillbeam::select::Choice;
 use stillbeam::stepper::{AnyMotion, Response, Stepper};
-use stillbeam::{Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
+use stillbeam::{AxisKind, Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
 
 use crate::dispatch::{StepperVisitor, with_chosen, with_stepper};
 use crate::error::Error;
@@ -31,6 +31,15 @@ pub fn run(scene: &SceneFile, solver: &Solver) -> Result<Vec<Row>, Error> {
 /// [`run`] with the choice that `auto` has already made, if that is the method. `progress` is
 /// called with what the limits' check is at.
 pub fn run_with(
+    scene: &SceneFile,
+    solver: &Solver,
+    choice: Option<&Choice>,
+    progress: &dyn Fn(Progress),
+) -> Result<Vec<Row>, Error> {
+    refused_or_run(scene, solver, choice, progress).map_err(|error| error.on(scene.arm.mount.axis))
+}
+
+fn refused_or_run(
     scene: &SceneFile,
     solver: &Solver,
     choice: Option<&Choice>,
@@ -118,7 +127,9 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     each_tick_of(stepper, scene.from, &motions, |generator, k, ends| {
         let setpoint = generator.tick();
         let shown = if ends { generator.setpoint_before() } else { setpoint };
-        rows.push(row(k as f64 * tick, &shown));
+        let tip_angle = generator.stepper().tip_angle(generator.state());
+        let centre = payload(scene, &shown, tip_angle);
+        rows.push(row(k as f64 * tick, scene.arm.mount.axis, &shown, centre));
     })?;
     Ok(rows)
 }
@@ -137,17 +148,19 @@ fn drive_shaped<S: Stepper>(
         plans.flat_map(|plan| plan.segments.iter().map(Segment::cast::<S::Scalar>)).collect();
     let motion = Shaped::new(&segments, shaper, tick);
     let ends: HashSet<u32> = trajectory.arrivals().map(|end| (end / tick).round() as u32).collect();
-    let mut state = stepper.equilibrium(&motion.hub(0));
+    let mut state = stepper.equilibrium(&stepper.gravity().aimed(&motion.hub(0)));
     let mut rows = Vec::new();
     for k in 0..=motion.ticks() {
         if k > 0 {
             motion.advance(stepper, &mut state, k - 1);
         }
         let hub = if ends.contains(&k) { motion.arrival(k) } else { motion.hub(k) };
+        let hub = stepper.gravity().aimed(&hub);
         let Response { torque, tip } = stepper.response::<AnyMotion>(&state, &hub);
         let HubState { angle, rate, acceleration, .. } = hub;
         let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
-        rows.push(row(f64::from(k) * tick, &setpoint));
+        let centre = payload(scene, &setpoint, stepper.tip_angle(&state));
+        rows.push(row(f64::from(k) * tick, scene.arm.mount.axis, &setpoint, centre));
     }
     Ok(rows)
 }
@@ -202,9 +215,25 @@ fn each_tick_of<S: Stepper>(
     Ok(())
 }
 
-/// Converts a setpoint to the units of the table.
-pub fn row<T: Real>(t: f64, setpoint: &Setpoint<T>) -> Row {
-    let [x, y] = setpoint.global_tip();
+/// Returns the payload's centre in the global frame, m, if it is not the tip.
+fn payload<T: Real>(scene: &SceneFile, setpoint: &Setpoint<T>, tip_angle: T) -> Option<[f64; 2]> {
+    let offset = scene.arm.payload.offset;
+    (offset != 0.0).then(|| {
+        let centre = setpoint.payload_centre(T::from_f64(offset), tip_angle);
+        let centre = Setpoint { tip: centre, ..*setpoint };
+        centre.global_tip_on(scene.arm.mount.axis).map(T::to_f64)
+    })
+}
+
+/// Converts a setpoint of an axis of that kind to the units of the table. `payload` is the
+/// payload's centre in the global frame, m, if it is not the tip.
+pub fn row<T: Real>(
+    t: f64,
+    axis: AxisKind,
+    setpoint: &Setpoint<T>,
+    payload: Option<[f64; 2]>,
+) -> Row {
+    let [x, y] = setpoint.global_tip_on(axis);
     Row {
         t_s: t,
         hub_angle_rad: setpoint.angle.radians(),
@@ -214,5 +243,7 @@ pub fn row<T: Real>(t: f64, setpoint: &Setpoint<T>) -> Row {
         tip_y_m: y.to_f64(),
         deflection_m: setpoint.deflection().to_f64(),
         torque_nm: setpoint.torque.to_f64(),
+        payload_x_m: payload.map(|[x, _]| x),
+        payload_y_m: payload.map(|[_, y]| y),
     }
 }

@@ -1,18 +1,30 @@
 //! Scene files: TOML in SI units, read as a validated arm and its moves.
 
+mod arm;
+mod damping;
+mod deduced;
+mod link;
+mod matter;
+mod measured;
+mod mount;
 mod moves;
 mod notes;
+mod section;
 mod shaper;
+mod sizes;
 mod units;
+mod values;
 
-use std::fmt::Display;
 use std::path::Path;
 
 use serde::Deserialize;
-use stillbeam::material::{MATERIALS, Material, Strip};
 use stillbeam::motion::Shaper;
-use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Scene};
+use stillbeam::{Limits, Move, Scene};
 
+use self::arm::{CarrierTable, GravityTable, HubTable, PayloadTable};
+use self::damping::DampingTable;
+pub use self::deduced::Deduced;
+use self::link::LinkTable;
 use self::moves::{MoveTable, Planning};
 use self::shaper::ShaperTable;
 pub use self::units::angle as angle_remark;
@@ -40,6 +52,8 @@ pub struct SceneFile {
     pub limits: Limits,
     /// The `[solver]` table.
     pub solver: SolverKeys,
+    /// Values of the arm that the file's measurements give.
+    pub deduced: Deduced,
     /// Remarks on values that are probably in another unit, one line each.
     pub remarks: Vec<String>,
 }
@@ -48,6 +62,7 @@ pub struct SceneFile {
 #[serde(deny_unknown_fields)]
 struct File {
     link: LinkTable,
+    axis: Option<String>,
     #[serde(default)]
     hub: HubTable,
     #[serde(default)]
@@ -56,6 +71,8 @@ struct File {
     damping: DampingTable,
     #[serde(default)]
     gravity: GravityTable,
+    #[serde(default)]
+    carrier: CarrierTable,
     #[serde(rename = "move")]
     motion: Option<MoveTable>,
     moves: Option<Vec<MoveTable>>,
@@ -66,45 +83,8 @@ struct File {
     solver: SolverKeys,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LinkTable {
-    length: f64,
-    mass: Option<f64>,
-    bending_stiffness: Option<f64>,
-    youngs_modulus: Option<f64>,
-    second_moment: Option<f64>,
-    material: Option<String>,
-    width: Option<f64>,
-    thickness: Option<f64>,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct HubTable {
-    radius: f64,
-    inertia: f64,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct PayloadTable {
-    mass: f64,
-    inertia: f64,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct DampingTable {
-    alpha: f64,
-    beta: f64,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-struct GravityTable {
-    acceleration: f64,
-}
+/// What a file must have that is to be run.
+const MOVES: &str = "move: must be either [move] or one or more [[moves]]";
 
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -120,61 +100,75 @@ struct LimitsTable {
 impl SceneFile {
     /// Reads and validates a scene file.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(|cause| {
-            Error::file(path, format_args!("{cause}; it must be a scene file or a scene's name"))
-        })?;
-        Self::parse(&path.display().to_string(), &text)
+        Self::parse(&path.display().to_string(), &text_of(path)?)
+    }
+
+    /// Reads and validates a scene file that may be without moves: then the scene has none.
+    pub fn read_arm(path: &Path) -> Result<Self, Error> {
+        Self::parse_arm(&path.display().to_string(), &text_of(path)?)
     }
 
     /// Parses and validates the text of a scene file. Errors begin with `name`, and the line and
     /// column of the key.
     pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
+        let scene = Self::parse_arm(name, text)?;
+        if scene.moves.is_empty() {
+            return Err(Error::new(MOVES).within(name));
+        }
+        Ok(scene)
+    }
+
+    /// Parses as [`SceneFile::parse`] does, but also a file without moves.
+    pub fn parse_arm(name: &str, text: &str) -> Result<Self, Error> {
         let document = Document::parse(name, text)?;
         let file = document.read()?;
         Self::build(name, file).map_err(|error| document.locate(&error))
     }
 
-    fn build(name: &str, mut file: File) -> Result<Self, Error> {
-        let gravity = file.gravity.acceleration;
-        let arm = Scene {
-            link: file.link.build()?,
-            hub: Hub { radius: file.hub.radius, inertia: file.hub.inertia },
-            payload: Payload { mass: file.payload.mass, inertia: file.payload.inertia },
-            damping: Damping { alpha: file.damping.alpha, beta: file.damping.beta },
-            gravity,
-        }
-        .validate()?;
-        let limits = Limits {
-            rate: file.limits.rate,
-            acceleration: file.limits.acceleration,
-            deceleration: file.limits.deceleration,
-            jerk: file.limits.jerk,
-            torque: file.limits.torque,
-            moment: file.limits.moment,
-        }
-        .validate()?;
+    fn build(name: &str, file: File) -> Result<Self, Error> {
+        let (arm, deduced) = arm::build(&file)?;
+        Self::with_moves(name, file, arm, deduced).map_err(|error| error.on(arm.mount.axis))
+    }
+
+    /// Adds the moves and their limits to a validated arm.
+    fn with_moves(name: &str, mut file: File, arm: Scene, deduced: Deduced) -> Result<Self, Error> {
+        let limits = file.limits.build()?;
         let (tables, many) = match (file.motion.take(), file.moves.take()) {
             (Some(one), None) => (vec![one], false),
             (None, Some(many)) if !many.is_empty() => (many, true),
-            _ => {
-                return Err(Error::new("move: must be either [move] or one or more [[moves]]"));
-            }
+            (None, None) => (Vec::new(), false),
+            _ => return Err(Error::new(MOVES)),
         };
         let remarks = units::remarks(&file, &arm, &tables);
-        // A move that is refused may have been meant in another unit.
-        let remarked = |error: Error| match remarks.first() {
-            Some(remark) => Error::new(format_args!("{error}; {remark}")),
-            None => error,
+        let mut scene = Self {
+            name: name.to_owned(),
+            shaper: file.shaper.as_ref().map(|table| table.build(&arm)).transpose()?,
+            arm,
+            from: tables.first().and_then(|table| table.from).unwrap_or(0.0),
+            moves: Vec::new(),
+            limits,
+            solver: file.solver,
+            deduced,
+            remarks: Vec::new(),
         };
-        let from = tables[0].from.unwrap_or(0.0);
-        let mut at = Some(from);
-        let tick = file.solver.resolve()?.tick;
-        let shaper = file.shaper.as_ref().map(|table| table.build(&arm)).transpose()?;
-        let mut moves: Vec<Step> = Vec::new();
+        let tick = scene.solver.resolve()?.tick;
+        let checked = scene.add_moves(&tables, many, tick).and_then(|()| {
+            if tables.is_empty() { Ok(()) } else { scene.trajectory(tick).map(drop) }
+        });
+        match (checked, remarks.first()) {
+            (Ok(()), _) => Ok(Self { remarks, ..scene }),
+            // A move that is refused may have been meant in another unit.
+            (Err(error), Some(remark)) => Err(Error::new(format_args!("{error}; {remark}"))),
+            (Err(error), None) => Err(error),
+        }
+    }
+
+    /// Builds the moves, each from where the one before it ends.
+    fn add_moves(&mut self, tables: &[MoveTable], many: bool, tick: f64) -> Result<(), Error> {
+        let mut at = Some(self.from);
         for (index, table) in tables.iter().enumerate() {
-            let (steps, shaper) = (&moves[..], shaper.as_ref());
-            let before = Case { arm: &arm, from, steps, shaper, tick };
-            let planning = Planning { before, limits: &limits, count: tables.len() };
+            let planning =
+                Planning { before: self.case(tick), limits: &self.limits, count: tables.len() };
             let step = table.build(index, &mut at, &planning).map_err(|error| {
                 let place = place_of(index);
                 // A limit's refusal says itself which move it is.
@@ -183,13 +177,10 @@ impl SceneFile {
                 } else {
                     error.within(place)
                 }
-            });
-            moves.push(step.map_err(remarked)?);
+            })?;
+            self.moves.push(step);
         }
-        let (name, solver) = (name.to_owned(), file.solver);
-        let scene = Self { name, arm, from, moves, shaper, limits, solver, remarks: Vec::new() };
-        scene.trajectory(tick).map_err(remarked)?;
-        Ok(Self { remarks, ..scene })
+        Ok(())
     }
 
     /// Returns the moves and their shaper, to be held against limits.
@@ -216,75 +207,19 @@ impl SceneFile {
     }
 }
 
-fn place_of(index: usize) -> String {
-    format!("moves[{index}]")
-}
-
-impl LinkTable {
-    fn build(&self) -> Result<Link, Error> {
-        let strip = match (self.width, self.thickness) {
-            (Some(width), Some(thickness)) => Some(Strip { width, thickness }.validate()?),
-            (None, None) => None,
-            (Some(width), None) => return Err(missing("link.thickness", "width", width)),
-            (None, Some(thickness)) => return Err(missing("link.width", "thickness", thickness)),
-        };
-        let material = self.material.as_deref().map(named_material).transpose()?;
-        let modulus = match (self.youngs_modulus, material) {
-            (Some(_), Some(material)) => {
-                return Err(clash("link.youngs_modulus", "material", material.name));
-            }
-            (modulus, material) => modulus.or(material.map(|m| m.youngs_modulus)),
-        };
-        let second_moment = match (self.second_moment, strip) {
-            (Some(_), Some(strip)) => {
-                return Err(clash("link.second_moment", "width", strip.width));
-            }
-            (moment, strip) => moment.or(strip.map(|s| s.second_moment())),
-        };
-        let mass = match (self.mass, material, strip) {
-            (Some(mass), ..) => mass,
-            (None, Some(material), Some(strip)) => material.density * strip.area() * self.length,
-            _ => {
-                return Err(Error::new(
-                    "link.mass: missing; must be a mass in kg, or material with width and \
-                     thickness",
-                ));
-            }
-        };
-        let stiffness = match (self.bending_stiffness, modulus, second_moment) {
-            (Some(_), Some(modulus), _) if material.is_none() => {
-                return Err(clash("link.bending_stiffness", "youngs_modulus", modulus));
-            }
-            (Some(stiffness), ..) => stiffness,
-            (None, Some(modulus), Some(second_moment)) => {
-                return Ok(Link::from_section(self.length, mass, modulus, second_moment)?);
-            }
-            _ => {
-                return Err(Error::new(
-                    "link.bending_stiffness: missing; must be EI in N m^2, or youngs_modulus \
-                     or material with second_moment or width and thickness",
-                ));
-            }
-        };
-        Ok(Link { length: self.length, mass, bending_stiffness: stiffness })
+impl LimitsTable {
+    fn build(&self) -> Result<Limits, Error> {
+        let &Self { rate, acceleration, deceleration, jerk, torque, moment } = self;
+        Ok(Limits { rate, acceleration, deceleration, jerk, torque, moment }.validate()?)
     }
 }
 
-fn named_material(name: &str) -> Result<&'static Material, Error> {
-    Material::named(name).ok_or_else(|| {
-        let known = MATERIALS.map(|material| material.name).join(", ");
-        Error::new(format_args!("link.material = \"{name}\": must be {known}"))
+fn text_of(path: &Path) -> Result<String, Error> {
+    std::fs::read_to_string(path).map_err(|cause| {
+        Error::file(path, format_args!("{cause}; it must be a scene file or a scene's name"))
     })
 }
 
-fn missing(field: &str, other: &str, value: f64) -> Error {
-    Error::new(format_args!(
-        "{field}: missing beside {other} = {value}; both must be given, or neither"
-    ))
-}
-
-fn clash(field: &str, other: &str, value: impl Display) -> Error {
-    Error::new(format_args!(
-        "{field}: given beside {other} = {value}; only one of the two must be given"
-    ))
+fn place_of(index: usize) -> String {
+    format!("moves[{index}]")
 }

@@ -1,5 +1,7 @@
 //! Scenes that are embedded in the program, by name.
 
+use std::path::Path;
+
 use crate::error::Error;
 use crate::scene_file::SceneFile;
 
@@ -38,10 +40,22 @@ pub fn named(name: &str) -> Option<Result<SceneFile, Error>> {
 
 /// Opens an embedded scene by name, or else a scene file by path.
 pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
+    open_with(name_or_path, SceneFile::read)
+}
+
+/// Opens a scene as [`open`] does, but a file may be without moves.
+pub fn open_arm(name_or_path: &str) -> Result<SceneFile, Error> {
+    open_with(name_or_path, SceneFile::read_arm)
+}
+
+fn open_with(
+    name_or_path: &str,
+    read: fn(&Path) -> Result<SceneFile, Error>,
+) -> Result<SceneFile, Error> {
     named(name_or_path).unwrap_or_else(|| {
-        SceneFile::read(name_or_path.as_ref()).map_err(|error| {
+        read(name_or_path.as_ref()).map_err(|error| {
             let known = list().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
-            if std::path::Path::new(name_or_path).exists() {
+            if Path::new(name_or_path).exists() {
                 error
             } else {
                 Error::new(format_args!(

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use stillbeam::AxisKind;
 
 use crate::error::Error;
 use crate::output::Files;
@@ -12,11 +13,15 @@ use crate::output::Files;
 pub struct Row {
     /// Time, s.
     pub t_s: f64,
-    /// θ, rad, not wrapped.
+    /// θ, rad, not wrapped; on a linear axis the position, m.
+    #[serde(alias = "hub_position_m")]
     pub hub_angle_rad: f64,
-    /// θ̇, rad/s.
+    /// θ̇, rad/s; on a linear axis m/s.
+    #[serde(alias = "hub_velocity_m_s")]
     pub hub_rate_rad_s: f64,
-    /// θ̈, rad/s²; the left-hand value at the end of a move, else the right-hand one.
+    /// θ̈, rad/s², on a linear axis m/s²; the left-hand value at the end of a move, else the
+    /// right-hand one.
+    #[serde(alias = "hub_acceleration_m_s2")]
     pub hub_accel_rad_s2: f64,
     /// Tip, global X, m.
     pub tip_x_m: f64,
@@ -24,8 +29,15 @@ pub struct Row {
     pub tip_y_m: f64,
     /// Tip, hub-frame Y, m.
     pub deflection_m: f64,
-    /// Torque into the hub, N m; jumps with the acceleration.
+    /// Torque into the hub, N m; jumps with the acceleration. On a linear axis the force, N.
+    #[serde(alias = "force_n")]
     pub torque_nm: f64,
+    /// The payload's centre, global X and Y, m: columns of arms whose payload has an offset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub payload_x_m: Option<f64>,
+    /// See [`Self::payload_x_m`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub payload_y_m: Option<f64>,
 }
 
 impl Row {
@@ -40,6 +52,8 @@ impl Row {
             tip_y_m: significant(self.tip_y_m, 9),
             deflection_m: significant(self.deflection_m, 9),
             torque_nm: significant(self.torque_nm, 9),
+            payload_x_m: self.payload_x_m.map(|x| significant(x, 9)),
+            payload_y_m: self.payload_y_m.map(|y| significant(y, 9)),
         }
     }
 }
@@ -49,17 +63,55 @@ pub fn significant(x: f64, digits: usize) -> f64 {
     format!("{x:.*e}", digits - 1).parse().unwrap_or(x)
 }
 
-/// Writes the table as CSV, whole or not at all.
-pub fn write(path: &Path, rows: &[Row]) -> Result<(), Error> {
+/// Columns of a linear axis, in the order of [`Row`].
+const LINEAR: [&str; 8] = [
+    "t_s",
+    "hub_position_m",
+    "hub_velocity_m_s",
+    "hub_acceleration_m_s2",
+    "tip_x_m",
+    "tip_y_m",
+    "deflection_m",
+    "force_n",
+];
+
+/// Columns of an axis that turns, in the order of [`Row`].
+const ROTARY: [&str; 8] = [
+    "t_s",
+    "hub_angle_rad",
+    "hub_rate_rad_s",
+    "hub_accel_rad_s2",
+    "tip_x_m",
+    "tip_y_m",
+    "deflection_m",
+    "torque_nm",
+];
+
+/// Columns of a payload whose centre is not the tip.
+const PAYLOAD: [&str; 2] = ["payload_x_m", "payload_y_m"];
+
+/// Returns the columns of an axis, in the order of [`Row`].
+pub fn columns(axis: AxisKind) -> [&'static str; 8] {
+    match axis {
+        AxisKind::Rotary => ROTARY,
+        AxisKind::Linear => LINEAR,
+    }
+}
+
+/// Writes the table as CSV, whole or not at all, with the columns of that axis.
+pub fn write(path: &Path, axis: AxisKind, rows: &[Row]) -> Result<(), Error> {
     let mut files = Files::default();
-    add(&mut files, path, rows)?;
+    add(&mut files, path, axis, rows)?;
     files.finish().map(drop)
 }
 
 /// Adds the table as CSV to files that are written together.
-pub fn add(files: &mut Files, path: &Path, rows: &[Row]) -> Result<(), Error> {
+pub fn add(files: &mut Files, path: &Path, axis: AxisKind, rows: &[Row]) -> Result<(), Error> {
     files.add(path, |file| {
-        let mut csv = csv::Writer::from_writer(file);
+        let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(file);
+        let has_payload = rows.first().is_some_and(|row| row.payload_x_m.is_some());
+        let payload: &[&str] = if has_payload { &PAYLOAD } else { &[] };
+        csv.write_record(columns(axis).iter().chain(payload))?;
         for row in rows {
             csv.serialize(row.rounded()).map_err(std::io::Error::other)?;
         }
@@ -86,6 +138,8 @@ pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
             row.tip_y_m,
             row.deflection_m,
             row.torque_nm,
+            row.payload_x_m.unwrap_or(0.0),
+            row.payload_y_m.unwrap_or(0.0),
         ]
         .iter()
         .all(|value| value.is_finite());

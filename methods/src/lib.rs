@@ -4,6 +4,7 @@
 //! host builds the one that it is told, and the tests run them all.
 
 use stillbeam::model::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
+use stillbeam::scene::LinkShape;
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Scene, Stepper};
 
@@ -26,10 +27,10 @@ pub trait Method: 'static {
     type Stepper: Stepper<Scalar = f32>;
 
     /// Builds the stepper. Set-up.
-    fn stepper(scene: &Scene, tick: f64) -> Result<Self::Stepper, Error>;
+    fn stepper<S: LinkShape>(scene: &Scene<f64, S>, tick: f64) -> Result<Self::Stepper, Error>;
 
     /// True if this method is meant for the scene.
-    fn fits(scene: &Scene) -> bool {
+    fn fits<S: LinkShape>(scene: &Scene<f64, S>) -> bool {
         Self::PAYLOAD_INERTIA.is_none_or(|needed| needed == (scene.payload.inertia > 0.0))
     }
 }
@@ -58,8 +59,11 @@ macro_rules! methods {
                 const PAYLOAD_INERTIA: Option<bool> = $inertia;
                 type Stepper = $stepper;
 
-                fn stepper(scene: &Scene, tick: f64) -> Result<Self::Stepper, Error> {
-                    let build: fn(&Scene, f64) -> Result<$stepper, Error> = $build;
+                fn stepper<S: LinkShape>(
+                    scene: &Scene<f64, S>,
+                    tick: f64,
+                ) -> Result<Self::Stepper, Error> {
+                    let build: fn(&Scene<f64, S>, f64) -> Result<$stepper, Error> = $build;
                     build(scene, tick)
                 }
             }
@@ -132,7 +136,7 @@ methods! {
 
 /// In whose precision the consistent models are set up: a tenth of the instructions of f64, and no
 /// less exact than a tick in f32 is anyway. Lumped masses and modes take f64.
-fn single(scene: &Scene) -> Scene<f32> {
+fn single<S: LinkShape>(scene: &Scene<f64, S>) -> Scene<f32, S> {
     scene.cast()
 }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::motor::{Direction, Joint};
-use stillbeam::{Angle, Move, Payload, Scene};
+use stillbeam::{Angle, Move, Payload, UniformScene};
 
 use crate::Refusal;
 
@@ -103,7 +103,7 @@ pub struct Description<'a> {
     /// h, s.
     pub tick: f64,
     /// The arm as it is now.
-    pub scene: Scene,
+    pub scene: UniformScene,
     /// Limits and patience.
     pub policy: Policy,
     /// Gear and motor.

@@ -1,6 +1,7 @@
 //! The command line as a user meets it. Built as a test of `stillbeam-sim`, so that cargo builds
 //! the program first and says where it is.
 
+mod arm;
 mod bad_input;
 mod commands;
 mod interruption;

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::motor::{Direction, Joint};
-use stillbeam::{Angle, Limits, Link, Move, Payload, Profile, Scene, Setpoint};
+use stillbeam::{Angle, Hub, Limits, Link, Move, Payload, Profile, Setpoint, UniformScene};
 use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
 use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status};
 
@@ -31,7 +31,11 @@ fn commands() -> impl Strategy<Value = Command> {
         Just(Command::Status),
         (any(), prop::option::of(any())).prop_map(|(to, duration)| Command::Still { to, duration }),
         moves.prop_map(Command::Move),
-        (any(), any()).prop_map(|(mass, inertia)| Command::Payload(Payload { mass, inertia })),
+        (any(), any()).prop_map(|(mass, inertia)| Command::Payload(Payload {
+            mass,
+            inertia,
+            offset: 0.0
+        })),
         any().prop_map(Command::Home),
     ]
 }
@@ -64,7 +68,10 @@ fn longest() -> [Report<'static>; 4] {
                 axes: 255,
                 method: "a-method-of-24-characters",
                 tick: 0.01,
-                scene: Scene::new(Link { length: 1.0, mass: 1.0, bending_stiffness: 1.0 }),
+                scene: UniformScene {
+                    hub: Hub { radius: 1.0, inertia: 1.0, stiffness: Some(1.0) },
+                    ..UniformScene::uniform(Link { length: 1.0, mass: 1.0, bending_stiffness: 1.0 })
+                },
                 policy: Policy { limits, patience: f64::MAX, missed: u32::MAX },
                 joint: Joint { ratio, ..direct },
                 direction: Direction::Opposite,

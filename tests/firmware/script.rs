@@ -10,7 +10,7 @@ fn words_are_steps() {
     let profile = Profile::SCurve;
     let motion = Move::To { profile, duration: 0.8, to: -1.5 };
     assert_eq!(step(" move 1  s-curve 0.8 -1.5 "), Step::Ask(1, Command::Move(motion)));
-    let payload = Payload { mass: 0.05, inertia: 0.0 };
+    let payload = Payload { mass: 0.05, inertia: 0.0, offset: 0.0 };
     assert_eq!(step("payload 0 0.05"), Step::Ask(0, Command::Payload(payload)));
     assert_eq!(step("wait 0.35"), Step::Wait(0.35));
     assert_eq!(step("stop 3"), Step::Ask(3, Command::Stop));

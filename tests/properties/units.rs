@@ -27,10 +27,24 @@ impl Units {
                 mass: s.link.mass * mass,
                 bending_stiffness: s.link.bending_stiffness * inertia * length / (time * time),
             },
-            hub: Hub { radius: s.hub.radius * length, inertia: s.hub.inertia * inertia },
-            payload: Payload { mass: s.payload.mass * mass, inertia: s.payload.inertia * inertia },
-            damping: Damping { alpha: s.damping.alpha / time, beta: s.damping.beta * time },
+            shape: s.shape,
+            hub: Hub {
+                radius: s.hub.radius * length,
+                inertia: s.hub.inertia * inertia,
+                stiffness: s.hub.stiffness.map(|k| k * inertia / (time * time)),
+            },
+            payload: Payload {
+                mass: s.payload.mass * mass,
+                inertia: s.payload.inertia * inertia,
+                offset: s.payload.offset * length,
+            },
+            damping: Damping {
+                alpha: s.damping.alpha / time,
+                beta: s.damping.beta * time,
+                joint: s.damping.joint * time,
+            },
             gravity: s.gravity * length / (time * time),
+            mount: s.mount,
         }
     }
 

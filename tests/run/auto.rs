@@ -87,7 +87,8 @@ fn the_ladder_is_in_the_order_of_measured_instructions() {
     let rows = std::fs::read_to_string(root().join("docs/instructions.csv")).expect("table");
     let plain = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.5 });
     let gravity = Scene { gravity: 9.81, ..plain };
-    let damped = |scene: Scene| Scene { damping: Damping { alpha: 0.1, beta: 0.0 }, ..scene };
+    let damped =
+        |scene: Scene| Scene { damping: Damping { alpha: 0.1, beta: 0.0, joint: 0.0 }, ..scene };
     for (scene, skip) in [
         (damped(gravity), ""),
         (damped(plain), "no-gravity"),
@@ -179,8 +180,8 @@ fn a_shaped_motion_is_judged_as_it_is_commanded() {
 #[test]
 fn torque_and_moment_of_a_level_arm_are_its_weight_s() {
     let mut scene = Scene::new(Link { length: 0.4, mass: 0.3, bending_stiffness: 4000.0 });
-    scene.hub = Hub { radius: 0.1, inertia: 0.01 };
-    scene.payload = Payload { mass: 0.2, inertia: 0.0 };
+    scene.hub = Hub { radius: 0.1, inertia: 0.01, stiffness: None };
+    scene.payload = Payload { mass: 0.2, inertia: 0.0, offset: 0.0 };
     scene.gravity = 9.81;
     let hold = [Move::Dwell { duration: 0.2 }];
     let motion = Moves::new(0.0, &hold, 0.01).expect("motion");
@@ -199,7 +200,7 @@ fn a_choice_takes_a_bounded_number_of_steps() {
     let turn = |to, duration| Move::To { profile: Profile::Quintic, duration, to };
     let soft = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.46 });
     let stiff = Scene::new(Link { length: 0.2, mass: 0.6, bending_stiffness: 3000.0 });
-    let damped = Scene { damping: Damping { alpha: 0.5, beta: 0.002 }, ..soft };
+    let damped = Scene { damping: Damping { alpha: 0.5, beta: 0.002, joint: 0.0 }, ..soft };
     let mut many = Vec::new();
     for k in 0..40 {
         many.push(turn(f64::from(1 - k % 2), 0.7));

@@ -13,13 +13,13 @@ const BEND: f64 = 1.0;
 
 fn arm() -> Scene {
     let mut scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.05 });
-    scene.payload = Payload { mass: 0.02, inertia: 1e-5 };
-    scene.hub = Hub { radius: 0.03, inertia: 1e-4 };
+    scene.payload = Payload { mass: 0.02, inertia: 1e-5, offset: 0.0 };
+    scene.hub = Hub { radius: 0.03, inertia: 1e-4, stiffness: None };
     scene
 }
 
 fn scenes() -> [Scene; 4] {
-    let damping = Damping { alpha: 0.8, beta: 0.004 };
+    let damping = Damping { alpha: 0.8, beta: 0.004, joint: 0.0 };
     let plain = arm();
     let heavy = Scene { gravity: 2.0, ..plain };
     [plain, Scene { damping, ..plain }, heavy, Scene { damping, ..heavy }]

@@ -5,6 +5,7 @@ use stillbeam::model::{EightElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, ModalState, Newmark, Quality, Stepper};
 use stillbeam_energy::{self as energy, Balance, Energy, imbalance};
 use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_tests::features::featured;
 use stillbeam_tests::{TRUTH_SCENES, truth};
 
 const TICK: f64 = 0.001;
@@ -115,5 +116,90 @@ fn exact_kinematics_balance_to_a_ten_thousandth() {
         assert_below(1e-4, &elastica::<1>(quality));
         assert_below(1e-4, &elastica::<2>(quality));
         assert_below(1e-4, &elastica::<3>(quality));
+    }
+}
+
+/// A carriage with a bent link on a vertical axis, one with a link that hangs and is damped, and a
+/// hub that turns in a plane that leans, under turned gravity.
+const MOUNTED: [&str; 3] = [
+    "axis = \"linear\"\nhub.mass = 0.2\ngravity.acceleration = 9.81\n",
+    "axis = \"linear\"\nhub.mass = 0.2\ngravity = { acceleration = 9.81, direction = 1.5 }\n\
+     damping = { alpha = 0.2, beta = 0.0003 }\n",
+    "gravity = { acceleration = 9.81, tilt = 0.6, direction = 0.8 }\nhub.radius = 0.05\n",
+];
+
+/// The imbalance of every mounted arm with a stepper that is set up for it.
+fn all_mounted(bound: f64, mut of: impl FnMut(&SceneFile) -> f64) {
+    for mount in MOUNTED {
+        let text = format!(
+            "{mount}payload.mass = 0.02\n[link]\nlength = 0.4\nmass = 0.0224\n\
+             bending_stiffness = 0.46\n[move]\nprofile = \"cubic\"\nduration = 0.3\nto = 0.5\n\
+             settle = 0.2\n"
+        );
+        let imbalance = of(&SceneFile::parse("mounted", &text).expect("a scene"));
+        println!("{mount}: {imbalance:.1e}");
+        assert!(imbalance < bound, "{mount}: {imbalance:e}");
+    }
+}
+
+#[test]
+fn the_force_on_a_carriage_balances_the_energy() {
+    all_mounted(1e-4, |scene| {
+        let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
+        let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
+        along(scene, stepper, |arm| {
+            let state = arm.state();
+            let q_dot = arm.stepper().deflection_rate(state);
+            energy::small(&model, arm.hub(), &state.deflection, &q_dot)
+        })
+    });
+    all_mounted(1e-5, |scene| {
+        let model = EightElements::consistent(&scene.arm).expect("model");
+        let modes = Modes::of(&model);
+        let stepper = Modal::<f64, 2>::new(&model, TICK).expect("stepper");
+        along(scene, stepper, |arm| {
+            let ModalState { coordinate, rate, .. } = arm.state();
+            let [q, q_dot] = [coordinate, rate].map(|modal| energy::nodal(&modes, modal));
+            energy::small(&model, arm.hub(), &q, &q_dot)
+        })
+    });
+    for quality in [Quality::Fast, Quality::Fine] {
+        all_mounted(1e-4, |scene| {
+            let rod = Rod::<2>::new(&scene.arm).expect("rod");
+            let stepper = Elastica::new(&rod, TICK, quality, 0.7).expect("stepper");
+            along(scene, stepper, |arm| {
+                let flex = arm.stepper().arm_state(arm.state(), arm.hub());
+                energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
+            })
+        });
+    }
+}
+
+/// Arms with joints that give, payloads beyond the tip, sections and masses balance too.
+#[test]
+fn every_feature_balances() {
+    for name in ["d-fast", "a-tip30", "s-gravity"] {
+        let (plain, _) = truth(name);
+        for (feature, arm) in featured(&plain.arm) {
+            let scene = SceneFile { arm, ..plain.clone() };
+            let model = Model::<8, 4>::consistent(&arm).expect("model");
+            let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
+            let newmark = along(&scene, stepper, |arm| {
+                let state = arm.state();
+                let q_dot = arm.stepper().deflection_rate(state);
+                energy::small(&model, arm.hub(), &state.deflection, &q_dot)
+            });
+            let rod = Rod::<2>::new(&arm).expect("rod");
+            let stepper = Elastica::new(&rod, TICK, Quality::Fast, 0.8).expect("stepper");
+            let elastica = along(&scene, stepper, |arm| {
+                let flex = arm.stepper().arm_state(arm.state(), arm.hub());
+                energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
+            });
+            println!("{name}, {feature}: {newmark:.1e} {elastica:.1e}");
+            assert!(
+                newmark < 1e-4 && elastica < 1e-4,
+                "{name}, {feature}: {newmark:e} {elastica:e}"
+            );
+        }
     }
 }

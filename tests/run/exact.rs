@@ -1,7 +1,7 @@
 //! Modal and elastica: what the exact step and the exact kinematics are worth at 10 ms.
 
 use proptest::prelude::*;
-use stillbeam::hub::HubState;
+use stillbeam::hub::{GravityDirection, HubState};
 use stillbeam::model::{EightElements, Rod};
 use stillbeam::motion::Peaks;
 use stillbeam::stepper::{
@@ -135,8 +135,8 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         self.0.tick()
     }
 
-    fn feels_gravity(&self) -> bool {
-        self.0.feels_gravity()
+    fn gravity(&self) -> &GravityDirection<S::Scalar> {
+        self.0.gravity()
     }
 
     fn is_linear_fast(&self, rate: S::Scalar) -> bool {
@@ -166,6 +166,10 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         hub: &HubState<S::Scalar>,
     ) -> Response<S::Scalar> {
         self.0.response::<M>(state, hub)
+    }
+
+    fn tip_angle(&self, state: &S::State) -> S::Scalar {
+        self.0.tip_angle(state)
     }
 
     fn kink(&self, state: &mut S::State, moments: KinkMoments<'_, S::Scalar>) {

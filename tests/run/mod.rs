@@ -2,10 +2,12 @@
 
 mod auto;
 mod auto_bits;
+mod carriage;
 mod convergence;
 mod energy;
 mod exact;
 mod limits;
+mod measured;
 mod methods;
 mod residual;
 mod scene_files;

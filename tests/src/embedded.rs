@@ -21,11 +21,12 @@ pub fn constants() -> Result<String, String> {
         let file = scenes::named(name)
             .ok_or_else(|| format!("{name} is listed and is no scene"))?
             .map_err(|error| error.to_string())?;
+        let arm = file.arm.to_uniform().ok_or_else(|| format!("{name}: not a uniform link"))?;
         let solver = file.solver.resolve().map_err(|error| error.to_string())?;
         writeln!(
             text,
             "Run {{ name: {name:?}, scene: {:?}, from: {:?}, moves: &{:?}, tick: {:?} }},",
-            file.arm,
+            arm,
             file.from,
             file.motions(),
             solver.tick

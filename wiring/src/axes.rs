@@ -2,7 +2,8 @@
 
 use stillbeam::axis::Policy;
 use stillbeam::motor::{self, Direction, Ratio};
-use stillbeam::{Damping, Error, Hub, Limits, Link, Payload, Scene};
+use stillbeam::scene::Uniform;
+use stillbeam::{Damping, Error, Hub, Limits, Link, Mount, Payload, UniformScene};
 use stillbeam_methods::Method as _;
 
 use crate::Configuration;
@@ -31,9 +32,13 @@ pub type Joint = crate::Joint<Stepper, QUEUE>;
 /// of 0.5 m with 50 g in a vertical plane on a direct drive.
 pub const CONFIGURATIONS: [Configuration; AXES] = [
     Configuration {
-        scene: Scene {
-            payload: Payload { mass: 0.030, inertia: 0.0 },
-            ..Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 })
+        scene: UniformScene {
+            payload: Payload { mass: 0.030, inertia: 0.0, offset: 0.0 },
+            ..UniformScene::uniform(Link {
+                length: 0.4,
+                mass: 0.01904,
+                bending_stiffness: 0.042656,
+            })
         },
         policy: policy(5.0, 15.0),
         joint: motor::Joint {
@@ -49,12 +54,14 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
         node: 1,
     },
     Configuration {
-        scene: Scene {
+        scene: UniformScene {
             link: Link { length: 0.5, mass: 0.054, bending_stiffness: 0.92 },
-            hub: Hub { radius: 0.03, inertia: 1e-4 },
-            payload: Payload { mass: 0.050, inertia: 0.0 },
-            damping: Damping { alpha: 0.1, beta: 1e-4 },
+            shape: Uniform,
+            hub: Hub { radius: 0.03, inertia: 1e-4, stiffness: None },
+            payload: Payload { mass: 0.050, inertia: 0.0, offset: 0.0 },
+            damping: Damping { alpha: 0.1, beta: 1e-4, joint: 0.0 },
             gravity: 9.81,
+            mount: Mount::ROTARY,
         },
         policy: policy(8.0, 60.0),
         joint: motor::Joint {
@@ -91,6 +98,6 @@ const fn policy(rate: f64, acceleration: f64) -> Policy {
 ///
 /// # Errors
 /// The method refuses the scene or the tick.
-pub fn stepper(scene: &Scene) -> Result<Stepper, Error> {
+pub fn stepper(scene: &UniformScene) -> Result<Stepper, Error> {
     Method::stepper(scene, TICK)
 }

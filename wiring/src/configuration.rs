@@ -1,6 +1,6 @@
 //! The constants of one axis.
 
-use stillbeam::Scene;
+use stillbeam::UniformScene;
 use stillbeam::axis::Policy;
 use stillbeam::motor::{self, Direction};
 
@@ -8,7 +8,7 @@ use stillbeam::motor::{self, Direction};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Configuration {
     /// Arm at power-up.
-    pub scene: Scene,
+    pub scene: UniformScene,
     /// Limits, patience and missed ticks that the axis waits for.
     pub policy: Policy,
     /// Gear and motor.

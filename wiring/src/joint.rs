@@ -4,7 +4,7 @@ use embedded_can::Frame;
 use stillbeam::axis::{Axis, Cause, Mode};
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::Drivetrain;
-use stillbeam::{Angle, Error, Scene, Stepper};
+use stillbeam::{Angle, Error, Stepper, UniformScene};
 use stillbeam_protocol::{Command, Refusal};
 
 use crate::Configuration;
@@ -15,7 +15,7 @@ pub const HOME_RANGE: (f64, f64) = (-1e6, 1e6);
 /// An axis with its arm, its gear and its encoder.
 pub struct Joint<S: Stepper<Scalar = f32>, const QUEUE: usize> {
     /// Arm as it is now.
-    pub scene: Scene,
+    pub scene: UniformScene,
     /// Generator and policy.
     pub axis: Axis<S, QUEUE>,
     /// Mapping from link to motor.
@@ -94,7 +94,7 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
     ///
     /// # Errors
     /// The hub turns, or moves wait.
-    pub fn replace(&mut self, scene: Scene, stepper: S) -> Result<(), Refusal<'static>> {
+    pub fn replace(&mut self, scene: UniformScene, stepper: S) -> Result<(), Refusal<'static>> {
         self.axis.replace(stepper)?;
         self.scene = scene;
         Ok(())

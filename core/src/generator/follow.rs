@@ -52,9 +52,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let rested = self.current.rests();
         (self.hub.angle, self.hub.rate, self.hub.acceleration) =
             (hub.angle, hub.rate, hub.acceleration);
-        if self.stepper.feels_gravity() {
-            self.hub.update_sin_cos();
-        }
+        self.aim();
         self.end_acceleration = acceleration_before;
         let arrival = HubState { acceleration: acceleration_before, ..self.hub };
         let stays = rested

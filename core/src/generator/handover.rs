@@ -118,9 +118,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Begins anew, at rest and in static equilibrium at `angle`; no move waits.
     pub fn restart(&mut self, angle: Angle<S::Scalar>) {
         self.hub = HubState { angle, ..HubState::ZERO };
-        if self.stepper.feels_gravity() {
-            self.hub.update_sin_cos();
-        }
+        self.stepper.gravity().aim(&mut self.hub);
         self.end_acceleration = S::Scalar::ZERO;
         self.state = self.stepper.equilibrium(&self.hub);
         self.rest_at(angle);

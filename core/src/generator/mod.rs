@@ -20,9 +20,11 @@ use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
 use crate::motion::{Limits, Move, MoveSummary, Plan, Remedy, Segment, plan_segments};
+use crate::scene::AxisKind;
 use crate::stepper::{AnyMotion, AtRest, KinkMoments, Linear, Response, Stepper};
 
-/// Setpoint for the motor controller, one every tick. SI units.
+/// Setpoint for the motor controller, one every tick. SI units; on a linear axis a metre stands for
+/// a radian and a newton for a newton metre, see [`AxisKind`](crate::AxisKind).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -46,12 +48,34 @@ impl<T: Scalar> Setpoint<T> {
         self.tip[1]
     }
 
-    /// The tip in the global frame `(x, y)`, m: the hub's angle turns it, by sine and cosine that
+    /// The tip in the global frame `(x, y)` of a hub that turns, m: the hub's angle turns it, by sine and cosine that
     /// a tick has no need of.
     #[inline(always)]
     pub fn global_tip(&self) -> [T; 2] {
         let ([x, y], (sin, cos)) = (self.tip, self.angle.sin_cos());
         [x * cos - y * sin, x * sin + y * cos]
+    }
+
+    /// The tip in the global frame `(x, y)`, m, on an axis of that kind: see [`Self::global_tip`]
+    /// for one that turns. A carriage moves along global y.
+    pub fn global_tip_on(&self, axis: AxisKind) -> [T; 2] {
+        match axis {
+            AxisKind::Rotary => self.global_tip(),
+            AxisKind::Linear => {
+                let origin = Angle { turns: 0, part: T::ZERO };
+                let position = T::from_f64(core::f64::consts::TAU) * self.angle.since(origin);
+                [self.tip[0], self.tip[1] + position]
+            }
+        }
+    }
+
+    /// The payload's centre in the hub frame `(X, Y)`, m, `offset` (m) beyond the tip along the
+    /// link's tangent there. `tip_angle` (rad) is the stepper's
+    /// [`tip_angle`](crate::Stepper::tip_angle) of the same state.
+    pub fn payload_centre(&self, offset: T, tip_angle: T) -> [T; 2] {
+        let turns = T::from_f64(1.0 / core::f64::consts::TAU) * tip_angle;
+        let (sin, cos) = turns.sin_cos_turns();
+        [self.tip[0] + offset * cos, self.tip[1] + offset * sin]
     }
 }
 
@@ -92,9 +116,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let tail = hold(end, stepper.tick());
         let mut hub = HubState::ZERO;
         tail.begin(&mut hub);
-        if stepper.feels_gravity() {
-            hub.update_sin_cos();
-        }
+        stepper.gravity().aim(&mut hub);
         let state = stepper.equilibrium(&hub);
         Ok(Self {
             tick: S::Scalar::from_f64(stepper.tick()),
@@ -193,9 +215,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             end_acceleration = Some(self.end_acceleration);
         } else if S::FAST.at_rest || !rests {
             self.current.segment().drive(&mut self.hub, k);
-            if self.stepper.feels_gravity() {
-                self.hub.update_sin_cos();
-            }
+            self.aim();
         } else if self.current.is_asleep() {
             return self.setpoint();
         }
@@ -303,11 +323,18 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.current.take_up(&self.tail, Part::Hold, 0, &self.stepper);
         }
         self.current.segment().begin(&mut self.hub);
-        if self.stepper.feels_gravity() {
-            self.hub.update_sin_cos();
-        }
+        self.aim();
         let moment = self.current.segment().kink_moment();
         self.stepper.kink(&mut self.state, KinkMoments::First(moment));
+    }
+
+    /// Updates sine and cosine of gravity's angle in the hub frame, if it changes with the hub's.
+    #[inline(always)]
+    fn aim(&mut self) {
+        let gravity = self.stepper.gravity();
+        if gravity.follows_hub() {
+            self.hub.update_sin_cos(gravity.in_turns());
+        }
     }
 
     /// Lets a hold that has run out (after 497 days at 10 ms) go on from where it is, or a hub that

@@ -1,8 +1,10 @@
 //! Angle, rate and acceleration of the hub at one instant.
 
 mod angle;
+mod gravity;
 
 pub use angle::Angle;
+pub use gravity::GravityDirection;
 
 use crate::Error;
 use crate::math::Scalar;
@@ -11,6 +13,9 @@ use crate::math::Scalar;
 pub(crate) const MAX_ANGLE: f64 = 1e6;
 
 /// The hub at one instant.
+///
+/// On a linear axis a metre stands for a radian: the angle is the position, the rate the velocity.
+/// See [`AxisKind`](crate::scene::AxisKind).
 ///
 /// Set-up and planning hold it in f64, the tick in its own scalar. Where the acceleration jumps it
 /// is the right-hand value.
@@ -22,9 +27,9 @@ pub struct HubState<T> {
     pub rate: T,
     /// θ̈, rad/s².
     pub acceleration: T,
-    /// sin θ in the ticks of an arm under gravity, else 0.
+    /// In the ticks of an arm under gravity, sin χ: see [`GravityDirection`]. Without gravity 0.
     pub sin: T,
-    /// cos θ in the ticks of an arm under gravity, else 1.
+    /// In the ticks of an arm under gravity, cos χ: see [`GravityDirection`]. Without gravity 1.
     pub cos: T,
 }
 
@@ -48,10 +53,10 @@ impl<T: Scalar> HubState<T> {
         HubState { acceleration, ..HubState::turning(self.angle.precise(), self.rate.to_f64()) }
     }
 
-    /// Computes sine and cosine of the angle.
+    /// Computes sine and cosine of the angle less `turns`, the direction of gravity.
     #[inline(never)]
-    pub(crate) fn update_sin_cos(&mut self) {
-        (self.sin, self.cos) = self.angle.sin_cos();
+    pub(crate) fn update_sin_cos(&mut self, turns: T) {
+        (self.sin, self.cos) = (self.angle.part - turns).sin_cos_turns();
     }
 }
 

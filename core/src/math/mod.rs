@@ -4,6 +4,7 @@
 //! target run the same code and give the same bits.
 
 mod band;
+mod gauss;
 mod jacobi;
 mod least_squares;
 mod principal;
@@ -11,6 +12,7 @@ mod propagator;
 mod scalar;
 
 pub use band::{Band, HalfForm, Ldl};
+pub(crate) use gauss::{GAUSS_POINTS, gauss_points, polynomial};
 pub(crate) use jacobi::generalized_eigen;
 pub(crate) use least_squares::LeastSquares;
 pub(crate) use principal::{principal_axes, root};

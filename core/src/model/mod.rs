@@ -8,5 +8,5 @@ mod fem;
 pub(crate) mod rod;
 
 pub use fem::{EightElements, FourElements, Model, Modes, OneElement, TwoElements};
-pub(crate) use rod::{Expansion, Load, POINTS, RodPoints};
+pub(crate) use rod::{Expansion, LINK_STATIONS, Load, POINTS, RodPoints};
 pub use rod::{Kinetics, Rod};

@@ -8,15 +8,15 @@ use crate::math::Scalar;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Joint<T> {
-    /// n, turns of the motor per turn of the hub.
+    /// n, turns of the motor per turn of the hub; [`Ratio::of_lead`] for a carriage.
     pub ratio: Ratio,
     /// η of the gear, above 0 to 1; 1 is lossless.
     pub efficiency: T,
     /// J_m of rotor and input shaft about the motor's axis, kg m².
     pub rotor_inertia: T,
-    /// τ_C, Coulomb friction at the hub, N m.
+    /// τ_C, Coulomb friction at the hub, N m; on a linear axis N.
     pub coulomb: T,
-    /// b, viscous friction at the hub, N m s/rad.
+    /// b, viscous friction at the hub, N m s/rad; on a linear axis N s/m.
     pub viscous: T,
     /// k_t, N m/A at the motor.
     pub torque_constant: T,

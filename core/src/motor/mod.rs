@@ -2,6 +2,7 @@
 //! do. Drives count motor turns.
 
 mod joint;
+mod lead;
 mod mapping;
 
 pub use joint::{Joint, MotorTorque};

@@ -62,7 +62,9 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
         from: &HubState<f64>,
         to: f64,
     ) -> Option<Remedy> {
-        if self.scene.gravity == 0.0 || !matches!(parameter, "limits.torque" | "limits.moment") {
+        if self.scene.in_plane_gravity() == 0.0
+            || !matches!(parameter, "limits.torque" | "limits.moment")
+        {
             return None;
         }
         let arm = &self.coarse.arms[0];
@@ -70,7 +72,7 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
         let held = (0..=LOOKS).fold(0.0, |most: f64, look| {
             let angle = from.angle.plus(turn * f64::from(look) / f64::from(LOOKS));
             let mut hub = HubState { angle: Angle::cast::<T>(angle), ..HubState::ZERO };
-            hub.update_sin_cos();
+            hub.update_sin_cos(T::ZERO);
             let load = arm.load(&self.points, &arm.equilibrium(&self.points, &hub), &hub);
             let held = if parameter == "limits.torque" { load.torque } else { load.moment };
             most.max(held.to_f64().abs())

@@ -50,7 +50,7 @@ use crate::Error;
 use crate::math::Scalar;
 use crate::model::{Rod, RodPoints};
 use crate::motion::{Limits, Move};
-use crate::scene::Scene;
+use crate::scene::{LinkShape, Scene, Uniform};
 use crate::stepper::ArmState;
 
 /// Most arms that one move is planned for.
@@ -83,7 +83,7 @@ pub struct Planner<T, const K: usize> {
     coarse: Resolution<T, K>,
     fine: Resolution<T, K>,
     robust: bool,
-    scene: Scene,
+    scene: Scene<f64, Uniform>,
     tick: f64,
     /// Limits of torque and moment that every move keeps.
     loads: Limits,
@@ -91,27 +91,31 @@ pub struct Planner<T, const K: usize> {
 
 impl<T: Scalar, const K: usize> Planner<T, K> {
     /// Sets a planner up for setpoints every `tick` s, with `K` modes, 1 to 3.
-    pub fn new(scene: &Scene, tick: f64) -> Result<Self, Error> {
+    pub fn new<S: LinkShape>(scene: &Scene<f64, S>, tick: f64) -> Result<Self, Error> {
         Self::build(scene, tick, 0.0)
     }
 
     /// Sets a planner up for an arm whose natural frequencies are known to `± spread` of
     /// themselves, 0.01 to 0.3.
-    pub fn robust(scene: &Scene, tick: f64, spread: f64) -> Result<Self, Error> {
+    pub fn robust<S: LinkShape>(
+        scene: &Scene<f64, S>,
+        tick: f64,
+        spread: f64,
+    ) -> Result<Self, Error> {
         let spread = Error::check("robust", spread, 0.01, 0.3, "")?;
         Self::build(scene, tick, spread)
     }
 
-    fn build(scene: &Scene, tick: f64, spread: f64) -> Result<Self, Error> {
+    fn build<S: LinkShape>(scene: &Scene<f64, S>, tick: f64, spread: f64) -> Result<Self, Error> {
         let tick = Error::check("solver.tick", tick, 1e-6, 1.0, "s")?;
         let rod = Rod::new(scene)?;
         let (spread, robust) = (OUTER * spread, spread > 0.0);
         Ok(Self {
-            points: RodPoints::new(&rod),
-            coarse: Resolution::new(&rod, tick, spread, COARSE)?,
-            fine: Resolution::new(&rod, tick, spread, FINE)?,
+            points: RodPoints::new(scene, &rod),
+            coarse: Resolution::new(scene, &rod, tick, spread, COARSE)?,
+            fine: Resolution::new(scene, &rod, tick, spread, FINE)?,
             robust,
-            scene: *scene,
+            scene: *rod.scene(),
             tick,
             loads: Limits::default(),
         })
@@ -156,8 +160,7 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
 
     /// True if a move that is run backwards is a move too.
     fn is_reversible(&self) -> bool {
-        let damping = self.scene.damping;
-        self.scene.gravity == 0.0 && damping.alpha == 0.0 && damping.beta == 0.0
+        self.scene.in_plane_gravity() == 0.0 && self.scene.damping.is_zero()
     }
 
     /// The arms that a move is planned for.

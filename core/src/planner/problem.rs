@@ -102,7 +102,7 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
         let turning = path.rate != 0.0;
         let rest = |at: u32| -> [ArmState<T, K>; MAX_ARMS] {
             let mut rest = [ArmState::STRAIGHT; MAX_ARMS];
-            if planner.scene.gravity != 0.0 {
+            if planner.scene.in_plane_gravity() != 0.0 {
                 for (n, arm) in arms.iter().enumerate() {
                     rest[n] = arm.equilibrium(&planner.points, &curve.hub(at));
                 }

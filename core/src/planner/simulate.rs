@@ -9,6 +9,7 @@ use crate::hub::HubState;
 use crate::math::{Scalar, cast, sqrt};
 use crate::model::{Load, Rod, RodPoints};
 use crate::motion::Segment;
+use crate::scene::{LinkShape, Scene};
 use crate::stepper::{ArmState, Forcing, Oscillator};
 
 /// Number of times that the distance to an equilibrium is halved.
@@ -45,16 +46,18 @@ pub(crate) struct Resolution<T, const K: usize> {
 impl<T: Scalar, const K: usize> Resolution<T, K> {
     /// Puts the outer arms at `1 ± aside` of the frequency. A step turns the highest mode and the
     /// first by at most `radians`.
-    pub fn new(rod: &Rod<K>, tick: f64, aside: f64, radians: [f64; 2]) -> Result<Self, Error> {
+    pub fn new<S: LinkShape>(
+        scene: &Scene<f64, S>,
+        rod: &Rod<K>,
+        tick: f64,
+        aside: f64,
+        radians: [f64; 2],
+    ) -> Result<Self, Error> {
         let omega = rod.frequency();
         let turns = (omega[K - 1] * (1.0 + aside) / radians[0]).max(omega[0] / radians[1]);
         let steps = libm::ceil(turns * tick).clamp(1.0, 1024.0);
         let step = tick / steps;
-        let arm = |factor: f64| {
-            let mut scene = *rod.scene();
-            scene.link.bending_stiffness *= factor * factor;
-            Arm::new(&Rod::new(&scene)?, step)
-        };
+        let arm = |factor: f64| Arm::new(&Rod::new(&scene.stiffened(factor * factor))?, step);
         let own = Arm::new(rod, step)?;
         let arms =
             if aside > 0.0 { [own, arm(1.0 - aside)?, arm(1.0 + aside)?] } else { [own; MAX_ARMS] };
@@ -71,31 +74,32 @@ impl<T: Scalar, const K: usize> Resolution<T, K> {
 impl<T: Scalar, const K: usize> Arm<T, K> {
     /// Discretises the modes of an arm for steps of `step` s.
     pub fn new(rod: &Rod<K>, step: f64) -> Result<Self, Error> {
-        let damping = rod.scene().damping;
+        let alpha = rod.scene().damping.alpha;
+        let beta = rod.stiffness_damping();
         let omega = *rod.frequency();
         let coupling = rod.kinetics(&[0.0; K]).coupling;
         let tip_per_mode = |k: usize| rod.tip_swing()[k] / rod.scene().link.length;
         let f = T::from_f64;
         Ok(Self {
             modes: core::array::from_fn(|k| {
-                Oscillator::new(omega[k], damping.alpha, damping.beta, coupling[k], step)
+                Oscillator::new(omega[k], alpha, beta[k], coupling[k], step)
             }),
             stiffness: cast(&omega.map(|w| w * w)),
-            loss: cast(&omega.map(|w| damping.beta * w * w)),
+            loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
             coupling: cast(&coupling),
             oscillation: core::array::from_fn(|k| {
                 let w = omega[k];
-                let decay = 0.5 * (damping.alpha + damping.beta * w * w);
+                let decay = 0.5 * (alpha + beta[k] * w * w);
                 let damped = sqrt((w * w - decay * decay).max(0.01 * w * w));
                 Oscillation {
                     decay,
                     damped,
                     ratio: [f(decay / damped), f(w / damped)],
                     gain: f(tip_per_mode(k) * coupling[k] / w),
-                    alpha: f(damping.alpha),
+                    alpha: f(alpha),
                 }
             }),
-            alpha: f(damping.alpha),
+            alpha: f(alpha),
             tip_per_mode: core::array::from_fn(|k| {
                 [f(tip_per_mode(k)), f(tip_per_mode(k) / omega[k])]
             }),

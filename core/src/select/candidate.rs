@@ -67,7 +67,7 @@ impl<S: Stepper> Candidate<S> {
             Lead::Moves { arm, pushed: 0, begin: 0, end: 0 }
         } else {
             stepper.admit(&motion.peaks(), 0.0)?;
-            let state = stepper.equilibrium(&cast(first));
+            let state = stepper.equilibrium(&aimed(&stepper, first));
             Lead::HubState { stepper, state }
         };
         Ok(Self { lead, distance: 0.0, torque: 0.0, pending: [0.0; 2], error: None })
@@ -105,9 +105,11 @@ impl<S: Stepper> Candidate<S> {
                     if !tick.kink.is_none() {
                         stepper.kink(state, KinkMoments::All(&tick.kink.cast()));
                     }
-                    stepper.step::<AnyMotion>(state, &cast(&tick.before), &cast(&tick.arrival));
+                    let [before, arrival] =
+                        [&tick.before, &tick.arrival].map(|hub| aimed(stepper, hub));
+                    stepper.step::<AnyMotion>(state, &before, &arrival);
                 }
-                Some(stepper.response::<AnyMotion>(state, &cast(&tick.after)))
+                Some(stepper.response::<AnyMotion>(state, &aimed(stepper, &tick.after)))
             }
         }
     }
@@ -146,6 +148,11 @@ impl<S: Stepper> Candidate<S> {
         self.torque = self.torque.max(before).max(last);
         self.pending = [0.0; 2];
     }
+}
+
+/// The hub as the stepper is given it: in its scalar, with sine and cosine of gravity's angle.
+fn aimed<S: Stepper>(stepper: &S, hub: &HubState<f32>) -> HubState<S::Scalar> {
+    stepper.gravity().aimed(&cast(hub))
 }
 
 fn cast<T: Scalar>(hub: &HubState<f32>) -> HubState<T> {

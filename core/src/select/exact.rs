@@ -1,11 +1,11 @@
 //! The exact rod in all its modes, integrated in small steps: what the rungs are judged by.
 
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, Scalar, cast, dot, round};
-use crate::model::{POINTS, Rod};
+use crate::model::{LINK_STATIONS, POINTS, Rod};
 
-/// The points of the link, and the tip.
-const STATIONS: usize = POINTS + 1;
+/// The stations of the link, and the payload.
+const STATIONS: usize = LINK_STATIONS + 1;
 
 /// Most steps a tick.
 const MAX_STEPS: f64 = 128.0;
@@ -35,7 +35,7 @@ pub(super) struct Shape<T, const MODES: usize> {
     v: [T; MODES],
 }
 
-/// `φ = Σ aₖψₖ`, `X = r + ∫cos φ`, `Y = ∫sin φ` at eight Gauss points and the tip, Lagrange's
+/// `φ = Σ aₖψₖ`, `X = r + ∫cos φ`, `Y = ∫sin φ` by the angle at eight points, Lagrange's
 /// equations without an expansion in `a`, classical Runge-Kutta of fourth order.
 ///
 /// The steps are made for the second highest mode, or where a flight of so many ticks would take
@@ -54,7 +54,9 @@ pub(super) struct Exact<T, const MODES: usize> {
     tip_slope: [T; MODES],
     /// From the clamp to each station, length multiplied in.
     integral: [[T; POINTS]; STATIONS],
-    /// `ρAL wₚ`, and the payload's.
+    /// From the clamp to the tip, likewise.
+    to_tip: [T; POINTS],
+    /// Of the stations.
     mass: [T; STATIONS],
     /// `J_p`.
     twist: T,
@@ -66,8 +68,13 @@ pub(super) struct Exact<T, const MODES: usize> {
     radius: T,
     alpha: T,
     gravity: T,
-    /// `J_h`.
+    direction: GravityDirection<T>,
+    /// `J_h`, or the carriage's mass.
     hub: T,
+    /// The hub is a carriage: it moves the clamp across the link and does not turn it.
+    carried: bool,
+    /// Rate of the carrier, rad/s.
+    carrier: T,
     /// Tip deflection per unit of `aₖ` and `ωₖ⁻¹` of it, fractions of L: what a rate amounts to.
     swing: [[T; 2]; MODES],
 }
@@ -75,7 +82,7 @@ pub(super) struct Exact<T, const MODES: usize> {
 /// Loads on the arm at one instant.
 #[derive(Clone, Copy)]
 pub(super) struct Load<T> {
-    /// Hub torque, N m.
+    /// Hub torque, N m, or force on the carriage, N.
     pub torque: T,
     /// Bending moment at the clamp, N m.
     pub moment: T,
@@ -110,10 +117,11 @@ impl<T: Scalar, const MODES: usize> Forces<T, MODES> {
 impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
     /// For `ticks` ticks of `tick` s.
     pub fn new(rod: &Rod<MODES>, tick: f64, ticks: f64) -> Self {
-        let (scene, rule) = (rod.scene(), rod.rule());
+        let (scene, link) = (rod.scene(), rod.stations());
         let length = scene.link.length;
         let squared = rod.frequency().map(|omega| omega * omega);
-        let loss = squared.map(|w2| scene.damping.beta * w2);
+        let beta = rod.stiffness_damping();
+        let loss: [f64; MODES] = core::array::from_fn(|k| beta[k] * squared[k]);
         let wanted = |mode: usize| {
             let fastest = rod.frequency()[mode].max(loss[mode]);
             libm::ceil(tick * fastest / MOST).clamp(1.0, MAX_STEPS)
@@ -124,15 +132,16 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         Self {
             steps_a_tick: steps,
             tick,
-            slope: rule.slope.map(|slope| cast(&slope)),
+            slope: rod.slope().map(|slope| cast(&slope)),
             tip_slope: cast(rod.tip_slope()),
             integral: core::array::from_fn(|s| {
-                let row = rule.running.get(s).unwrap_or(rule.weights);
+                let row = link.running.get(s).unwrap_or(&link.to_payload);
                 cast(&row.map(|weight| length * weight))
             }),
+            to_tip: cast(&link.to_tip.map(|weight| length * weight)),
             mass: core::array::from_fn(|s| {
-                let link = rule.weights.get(s).map(|weight| scene.link.mass * weight);
-                T::from_f64(link.unwrap_or(scene.payload.mass))
+                let own = link.weights.get(s).map(|weight| link.mass * weight);
+                T::from_f64(own.unwrap_or(scene.payload.mass))
             }),
             twist: round(scene.payload.inertia),
             stiffness: cast(&squared),
@@ -143,8 +152,11 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             }),
             radius: round(scene.hub.radius),
             alpha: round(scene.damping.alpha),
-            gravity: round(scene.gravity),
+            gravity: round(scene.in_plane_gravity()),
+            direction: scene.gravity_direction(),
             hub: round(scene.hub.inertia),
+            carried: scene.mount.is_linear(),
+            carrier: round(scene.mount.carrier),
             swing: core::array::from_fn(|k| {
                 let swing = rod.tip_swing()[k].abs() / length;
                 [T::from_f64(swing / rod.frequency()[k]), T::from_f64(swing / squared[k])]
@@ -192,7 +204,14 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
     fn forces(&self, shape: &Shape<T, MODES>, hub: &HubState<T>) -> Forces<T, MODES> {
         let Shape { a, v } = shape;
         let Integrands { x_slope, y_slope, rest } = self.integrands(shape);
-        let (omega, faster, alpha) = (hub.rate, hub.acceleration, self.alpha);
+        let alpha = self.alpha;
+        let (sin, cos) = self.direction.seen_from(hub);
+        let (mut weight, mut omega, mut faster) =
+            ([self.gravity * sin, self.gravity * cos], hub.rate + self.carrier, hub.acceleration);
+        if self.carried {
+            weight[1] += faster + alpha * omega;
+            (omega, faster) = (T::ZERO, T::ZERO);
+        }
         let turning = alpha * (dot(&self.tip_slope, v) + omega) + faster;
         let mut mass = Band::ZERO;
         let mut force = [T::ZERO; MODES];
@@ -204,26 +223,28 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
                 mass.add(k, j, self.twist * self.tip_slope[k] * self.tip_slope[j]);
             }
         }
-        let mut tip = [T::ZERO; 2];
+        let tip = [dot(&self.to_tip, &rest[0]) + self.radius, dot(&self.to_tip, &rest[1])];
         let mut fixed = [self.twist * turning, T::ZERO];
         let mut moving = [self.tip_slope.map(|slope| self.twist * slope), [T::ZERO; MODES]];
         for s in 0..STATIONS {
+            if self.mass[s] == T::ZERO {
+                continue;
+            }
             let row = &self.integral[s];
             let along: [T; MODES] = core::array::from_fn(|k| dot(row, &x_slope[k]));
             let across: [T; MODES] = core::array::from_fn(|k| dot(row, &y_slope[k]));
             let [x, y, x_rest, y_rest]: [T; 4] = core::array::from_fn(|i| dot(row, &rest[i]));
             let x = x + self.radius;
-            tip = [x, y];
             let (x_rate, y_rate) = (dot(&along, v), dot(&across, v));
             let x_load = x_rest - T::TWO * omega * y_rate - faster * y - omega * omega * x
                 + alpha * (x_rate - omega * y)
-                + self.gravity * hub.sin;
+                + weight[0];
             let y_load = y_rest + T::TWO * omega * x_rate + faster * x - omega * omega * y
                 + alpha * (y_rate + omega * x)
-                + self.gravity * hub.cos;
+                + weight[1];
             let (x_load, y_load) = (self.mass[s] * x_load, self.mass[s] * y_load);
-            let (x_mass, y_mass) = (self.mass[s] * tip[0], self.mass[s] * tip[1]);
-            fixed[0] += tip[0] * y_load - tip[1] * x_load;
+            let (x_mass, y_mass) = (self.mass[s] * x, self.mass[s] * y);
+            fixed[0] += x * y_load - y * x_load;
             fixed[1] += y_load;
             for k in 0..MODES {
                 moving[0][k] += x_mass * across[k] - y_mass * along[k];
@@ -246,10 +267,13 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
     fn load(&self, forces: &Forces<T, MODES>, a: &[T; MODES], hub: &HubState<T>) -> Load<T> {
         let of = |i: usize| forces.fixed[i] + dot(&forces.moving[i], a);
         let (about_axis, across) = (of(0), of(1));
-        Load {
-            torque: about_axis + self.hub * hub.acceleration,
-            moment: about_axis - self.radius * across,
-        }
+        let own = if self.carried {
+            let (_, cos) = self.direction.seen_from(hub);
+            across + self.hub * (hub.acceleration + self.gravity * cos)
+        } else {
+            about_axis + self.hub * hub.acceleration
+        };
+        Load { torque: own, moment: about_axis - self.radius * across }
     }
 
     /// The tip in the hub frame, m, and what acts on the arm. Where the acceleration jumps, that is

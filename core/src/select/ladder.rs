@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::Error;
-use crate::scene::{Damping, Scene};
+use crate::scene::Scene;
 use crate::stepper::Quality;
 
 /// A stepper without its numbers.
@@ -43,8 +43,7 @@ impl Rung {
     /// with `docs/instructions.csv`.
     pub fn ladder(scene: &Scene) -> [Self; 8] {
         let mut ladder = Self::LADDER;
-        let Damping { alpha, beta } = scene.damping;
-        if scene.gravity > 0.0 || alpha > 0.0 || beta > 0.0 {
+        if scene.in_plane_gravity() > 0.0 || !scene.damping.is_zero() {
             ladder.swap(2, 3);
             ladder.swap(5, 6);
         }

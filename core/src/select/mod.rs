@@ -11,7 +11,7 @@ mod trial;
 pub use choose::{NoChoice, assess, choose};
 pub use ladder::{Assessment, Choice, Rung, Tolerance};
 
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::Scalar;
 use crate::model::{EightElements, Rod};
 use crate::motion::{Move, Moves, Peaks};
@@ -154,8 +154,8 @@ impl<T: Scalar> Stepper for Auto<T> {
     }
 
     #[inline(always)]
-    fn feels_gravity(&self) -> bool {
-        each!(self, s => s.feels_gravity())
+    fn gravity(&self) -> &GravityDirection<T> {
+        each!(self, s => s.gravity())
     }
 
     fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error> {
@@ -192,6 +192,10 @@ impl<T: Scalar> Stepper for Auto<T> {
     #[inline(always)]
     fn response<M: HubMotion>(&self, state: &AutoState<T>, hub: &HubState<T>) -> Response<T> {
         each_with_state!(self, state, (s, own) => s.response::<M>(own, hub), Self::NOTHING)
+    }
+
+    fn tip_angle(&self, state: &AutoState<T>) -> T {
+        each_with_state!(self, state, (s, own) => s.tip_angle(own), T::ZERO)
     }
 
     #[inline(always)]

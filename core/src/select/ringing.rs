@@ -85,8 +85,8 @@ mod tests {
     /// A rod of six modes, and the steps a tick that turn its second highest by 1.4 rad.
     fn rod(beta: f64) -> (Rod<6>, f64) {
         let mut scene = Scene::new(Link { length: 0.5, mass: 0.2, bending_stiffness: 2.0 });
-        scene.hub = Hub { radius: 0.2, inertia: 0.3 };
-        scene.damping = Damping { alpha: 0.0, beta };
+        scene.hub = Hub { radius: 0.2, inertia: 0.3, ..scene.hub };
+        scene.damping = Damping { beta, ..scene.damping };
         let rod = Rod::of_polynomials::<6>(&scene).expect("rod");
         let steps = rod.frequency()[4] * TICK / 1.4;
         (rod, steps)

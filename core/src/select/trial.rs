@@ -198,7 +198,7 @@ impl<S: Stepper> Flight<'_, '_, '_, S> {
             let mut hub = held;
             if turned != 0.0 {
                 hub.angle = held.angle.plus(turned * (ticks - begin) as f32);
-                hub.update_sin_cos();
+                hub.update_sin_cos(0.0);
             }
             hub
         };

@@ -7,6 +7,7 @@ mod elastica;
 mod kicks;
 mod modal;
 mod newmark;
+mod on_carrier;
 mod oscillator;
 mod path;
 mod rigid;
@@ -19,19 +20,20 @@ pub use aliases::{
 pub use elastica::{ArmState, Elastica, ElasticaState, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, NewmarkState};
+pub use on_carrier::OnCarrier;
 pub(crate) use oscillator::{Forcing, Oscillator};
 pub use path::{AnyMotion, AtRest, FastPaths, HubMotion, KinkMoments, Linear};
 pub use rigid::Rigid;
 
 use crate::Error;
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::Scalar;
 use crate::motion::Peaks;
 
 /// The arm's answer at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response<T> {
-    /// Torque that the motor must put into the hub, N m.
+    /// Torque that the motor must put into the hub, N m. On a linear axis the force along it, N.
     pub torque: T,
     /// The tip in the hub frame `(X, Y)`, m; Y is the deflection.
     pub tip: [T; 2],
@@ -58,9 +60,10 @@ pub trait Stepper {
     /// Tick length h, s.
     fn tick(&self) -> f64;
 
-    /// True if gravity acts on the arm. If not, the hubs that [`Self::step`] and [`Self::response`]
-    /// are given hold no sine and cosine, which then cost nothing.
-    fn feels_gravity(&self) -> bool;
+    /// Direction of gravity in the hub frame. The hubs that [`Self::step`] and [`Self::response`] are
+    /// given hold sine and cosine of its angle χ; without gravity, or on a carriage, these do not
+    /// change and cost nothing.
+    fn gravity(&self) -> &GravityDirection<Self::Scalar>;
 
     /// True if the ticks of a segment with linear acceleration in which `|θ̇|` is at most `rate`
     /// rad/s may be advanced as [`Linear`]; never under gravity. Asked once a segment.
@@ -70,7 +73,8 @@ pub trait Stepper {
     /// stepper was not set up for it. Not for the tick.
     fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error>;
 
-    /// Static equilibrium with the hub at rest at `hub.angle`. Set-up only.
+    /// Static equilibrium with the hub at rest at `hub.angle`; `hub` holds sine and cosine of χ.
+    /// Set-up only.
     fn equilibrium(&self, hub: &HubState<Self::Scalar>) -> Self::State;
 
     /// Advances `state` by one tick, from the hub at its beginning to the hub at its end.
@@ -88,6 +92,12 @@ pub trait Stepper {
         state: &Self::State,
         hub: &HubState<Self::Scalar>,
     ) -> Response<Self::Scalar>;
+
+    /// Angle of the link's tangent at the tip against the hub's x axis, rad. The payload's centre is
+    /// [`Payload::offset`](crate::Payload) beyond the tip in that direction: see
+    /// [`Setpoint::payload_centre`](crate::Setpoint::payload_centre). Costs nothing where it is not
+    /// called.
+    fn tip_angle(&self, state: &Self::State) -> Self::Scalar;
 
     /// Prepares the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks. To
     /// be called before that step. Steppers that take the rates only do nothing here.

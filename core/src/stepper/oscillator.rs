@@ -200,10 +200,11 @@ const MOST_TURNS: f64 = 1e6;
 pub(super) fn check_turns(
     frequency: &[f64],
     alpha: f64,
-    beta: f64,
+    beta: &[f64],
     tick: f64,
 ) -> Result<(), Error> {
-    let fastest = frequency.iter().map(|w| w + alpha + beta * w * w).fold(0.0, f64::max);
+    let turns = frequency.iter().zip(beta).map(|(w, beta)| w + alpha + beta * w * w);
+    let fastest = turns.fold(0.0, f64::max);
     Error::check("solver.tick", tick, 1e-6, MOST_TURNS / fastest, "s").map(drop)
 }
 

@@ -2,12 +2,12 @@
 
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::{Scalar, round};
 use crate::motion::Peaks;
-use crate::scene::Scene;
+use crate::scene::{LinkShape, Scene};
 
-/// Rigid arm: `τ = (J_h + J_r)θ̈ + J_r αθ̇ + g cosθ S`, the tip at `(r + L, 0)`.
+/// Rigid arm: `τ = (J_h + J_r)θ̈ + J_r αθ̇ + g cosχ S`, the tip at `(r + L, 0)`.
 #[derive(Clone, Copy, Debug)]
 pub struct Rigid<T> {
     tick: f64,
@@ -15,20 +15,23 @@ pub struct Rigid<T> {
     drag: T,
     weight: T,
     reach: T,
+    gravity: GravityDirection<T>,
 }
 
 impl<T: Scalar> Rigid<T> {
     /// `tick` in s.
-    pub fn new<P: Scalar>(scene: &Scene<P>, tick: f64) -> Result<Self, Error> {
+    pub fn new<P: Scalar, S: LinkShape>(scene: &Scene<P, S>, tick: f64) -> Result<Self, Error> {
         let scene = scene.validate()?;
+        scene.check_no_carrier()?;
         let tick = super::check_tick(tick)?;
         let inertia = scene.rigid_inertia();
         Ok(Self {
             tick,
             inertia: round(scene.hub.inertia + inertia),
             drag: round(scene.damping.alpha * inertia),
-            weight: round(scene.gravity * scene.first_moment()),
+            weight: round(scene.in_plane_gravity() * scene.first_moment()),
             reach: round(scene.reach()),
+            gravity: scene.gravity_direction(),
         })
     }
 }
@@ -44,8 +47,8 @@ impl<T: Scalar> Stepper for Rigid<T> {
     }
 
     #[inline(always)]
-    fn feels_gravity(&self) -> bool {
-        self.weight != T::ZERO
+    fn gravity(&self) -> &GravityDirection<T> {
+        &self.gravity
     }
 
     #[inline(always)]
@@ -70,6 +73,10 @@ impl<T: Scalar> Stepper for Rigid<T> {
             torque = torque + self.drag * hub.rate + self.weight * hub.cos;
         }
         Response { torque, tip: [self.reach, T::ZERO] }
+    }
+
+    fn tip_angle(&self, (): &()) -> T {
+        T::ZERO
     }
 
     /// Does nothing: an arm that does not bend keeps nothing of a kink.

@@ -11,6 +11,8 @@ impl<T: Scalar> Shaped<'_, T> {
         if !kink.is_none() {
             stepper.kink(state, KinkMoments::All(&kink));
         }
-        stepper.step::<AnyMotion>(state, &self.hub(k), &self.arrival(k + 1));
+        let [before, after] =
+            [self.hub(k), self.arrival(k + 1)].map(|hub| stepper.gravity().aimed(&hub));
+        stepper.step::<AnyMotion>(state, &before, &after);
     }
 }

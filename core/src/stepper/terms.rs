@@ -1,7 +1,7 @@
 //! Terms of a tick that a scene needs.
 
-use crate::Scene;
 use crate::math::Scalar;
+use crate::scene::{LinkShape, Scene};
 
 /// Terms that the scene needs; the others cost nothing but a branch that never changes.
 #[derive(Clone, Copy, Debug)]
@@ -9,15 +9,18 @@ pub(super) struct Terms {
     pub spin: bool,
     pub gravity: bool,
     pub damping: bool,
+    /// The hub turns, so that what holds the arm against gravity depends on its shape.
+    pub turns: bool,
 }
 
 impl Terms {
-    pub fn of<P: Scalar>(scene: &Scene<P>) -> Self {
-        let damping = scene.damping;
+    pub fn of<P: Scalar, S: LinkShape>(scene: &Scene<P, S>) -> Self {
         Self {
-            spin: true,
-            gravity: scene.gravity != P::ZERO,
-            damping: damping.alpha != P::ZERO || damping.beta != P::ZERO,
+            // A carriage does not turn.
+            spin: !scene.mount.is_linear(),
+            gravity: scene.in_plane_gravity() != P::ZERO,
+            damping: !scene.damping.is_zero(),
+            turns: !scene.mount.is_linear(),
         }
     }
 }

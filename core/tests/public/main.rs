@@ -1,6 +1,8 @@
 //! The core by its public names alone: what a user of the crate may rely on. What needs other
 //! crates, such as the reference solvers, stands in the workspace's `tests/`.
 
+mod arms;
+mod carriage;
 mod change;
 mod exact;
 mod follow;

@@ -140,3 +140,25 @@ fn constants_out_of_range_are_named() {
     let error = Drivetrain::<f32>::new(&bad, Direction::Same, 0.0).unwrap_err().to_string();
     assert_eq!(error, "motor.ratio.motor = 0: must be 1 to 65535 turns");
 }
+
+/// A carriage on a screw of 5 mm: half a metre is a hundred turns, and the work of the motor is that
+/// of the force.
+#[test]
+fn a_screw_turns_metres_into_turns() {
+    let ratio = Ratio::of_lead(0.005).expect("a lead");
+    let joint = Joint { ratio, ..Joint::direct(0.1) };
+    let train = Drivetrain::<f64>::new(&joint, Direction::Same, 0.0).expect("a drivetrain");
+    let setpoint = Setpoint {
+        angle: Angle::from_radians(0.5),
+        rate: 0.2,
+        acceleration: 0.0,
+        torque: 30.0,
+        tip: [0.4, 0.0],
+    };
+    let demand = train.demand(&setpoint);
+    assert_near("turns", demand.position.in_turns(), 100.0, 1e-4);
+    assert_near("turns/s", demand.velocity, 40.0, 4e-5);
+    assert_near("N m", demand.torque, 30.0 * 0.005 / TAU, 1e-7);
+    let power = demand.torque * demand.velocity * TAU;
+    assert_near("W", power, 30.0 * 0.2, 1e-12);
+}

@@ -4,27 +4,30 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use stillbeam::planner::{Request, StillMove, Target};
+use stillbeam::scene::Uniform;
 use stillbeam::stepper::ArmState;
-use stillbeam::{Angle, Damping, Error, Hub, HubState, Link, Payload, Scene};
+use stillbeam::{Angle, Damping, Error, Hub, HubState, Link, Payload, UniformScene};
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 
 const TICK: f64 = 0.010;
 const TURN: f64 = core::f64::consts::PI;
 
 /// Member D bare, as in `d-fast`.
-const D: Scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
+const D: UniformScene =
+    UniformScene::uniform(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
 
 /// Member A with 30 g, as in `a-tip30`.
-const A: Scene = Scene {
-    payload: Payload { mass: 0.03, inertia: 0.0 },
-    ..Scene::new(Link { length: 0.4, mass: 0.00952, bending_stiffness: 0.0213344 })
+const A: UniformScene = UniformScene {
+    payload: Payload { mass: 0.03, inertia: 0.0, offset: 0.0 },
+    ..UniformScene::uniform(Link { length: 0.4, mass: 0.00952, bending_stiffness: 0.0213344 })
 };
 
 /// Member B with 30 g, damped, on a hub, as in `b-tip30-damped-hub`.
-const B: Scene = Scene {
+const B: UniformScene = UniformScene {
     link: Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 },
-    hub: Hub { radius: 0.04, inertia: 1e-4 },
-    damping: Damping { alpha: 0.15, beta: 0.002 },
+    shape: Uniform,
+    hub: Hub { radius: 0.04, inertia: 1e-4, stiffness: None },
+    damping: Damping { alpha: 0.15, beta: 0.002, joint: 0.0 },
     ..A
 };
 
@@ -37,11 +40,11 @@ fn half_turn(duration: f64) -> Request<f32, 2> {
 type Plan = fn(&Planner) -> Result<StillMove, Error>;
 
 /// Plans to be counted: name, arm, spread of its frequency, plan.
-const PLANS: [(&str, &Scene, f64, Plan); 6] = [
+const PLANS: [(&str, &UniformScene, f64, Plan); 6] = [
     ("d-fast", &D, 0.0, |planner| planner.plan(&half_turn(0.2))),
     ("a-tip30", &A, 0.0, |planner| planner.plan(&half_turn(2.0))),
     ("damped", &B, 0.0, |planner| planner.plan(&half_turn(2.0))),
-    ("gravity", &Scene { gravity: 0.5, ..B }, 0.0, |planner| planner.plan(&half_turn(2.0))),
+    ("gravity", &UniformScene { gravity: 0.5, ..B }, 0.0, |planner| planner.plan(&half_turn(2.0))),
     ("redirected", &D, 0.0, |planner| {
         // In the middle of a move, the arm bent and moving.
         let from = HubState {
@@ -68,6 +71,6 @@ pub fn print<C: Counter>(watch: &Stopwatch<C>, output: &mut impl Write) {
 }
 
 #[inline(never)]
-fn set_up(scene: &Scene, spread: f64) -> Result<Planner, Error> {
+fn set_up(scene: &UniformScene, spread: f64) -> Result<Planner, Error> {
     if spread == 0.0 { Planner::new(scene, TICK) } else { Planner::robust(scene, TICK, spread) }
 }

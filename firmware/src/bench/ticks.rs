@@ -5,9 +5,10 @@ use core::fmt::Write;
 use core::hint::black_box;
 
 use stillbeam::motion::{Limits, Plan};
+use stillbeam::scene::Uniform;
 use stillbeam::{
-    Damping, Error, Generator, Hub, HubState, Link, Move, Payload, Profile, Scene, Setpoint,
-    Stepper,
+    Damping, Error, Generator, Hub, HubState, Link, Mount, Move, Payload, Profile, Setpoint,
+    Stepper, UniformScene,
 };
 use stillbeam_firmware::counter::{Counter, Stopwatch};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
@@ -17,26 +18,31 @@ const TICK: f64 = 0.010;
 const FROM: f64 = -0.3;
 
 /// Member B with everything a scene can have.
-const FULL: Scene = Scene {
+const FULL: UniformScene = UniformScene {
     link: Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 },
-    hub: Hub { radius: 0.04, inertia: 1e-4 },
-    payload: Payload { mass: 0.03, inertia: 0.0 },
-    damping: Damping { alpha: 0.15, beta: 0.002 },
+    shape: Uniform,
+    hub: Hub { radius: 0.04, inertia: 1e-4, stiffness: None },
+    payload: Payload { mass: 0.03, inertia: 0.0, offset: 0.0 },
+    damping: Damping { alpha: 0.15, beta: 0.002, joint: 0.0 },
     gravity: 0.5,
+    mount: Mount::ROTARY,
 };
-const NONE: Damping = Damping { alpha: 0.0, beta: 0.0 };
+const NONE: Damping = Damping { alpha: 0.0, beta: 0.0, joint: 0.0 };
 
 /// Scenes by what they lack. The last two show that payload and hub radius change no operation.
-const SCENES: [(&str, Scene); 6] = [
+const SCENES: [(&str, UniformScene); 6] = [
     ("", FULL),
-    ("no-gravity", Scene { gravity: 0.0, ..FULL }),
-    ("no-damping", Scene { damping: NONE, ..FULL }),
+    ("no-gravity", UniformScene { gravity: 0.0, ..FULL }),
+    ("no-damping", UniformScene { damping: NONE, ..FULL }),
     ("no-damping no-gravity", LEAN),
-    ("no-damping no-gravity no-payload", Scene { payload: NOTHING, ..LEAN }),
-    ("no-damping no-gravity no-radius", Scene { hub: Hub { radius: 0.0, inertia: 1e-4 }, ..LEAN }),
+    ("no-damping no-gravity no-payload", UniformScene { payload: NOTHING, ..LEAN }),
+    (
+        "no-damping no-gravity no-radius",
+        UniformScene { hub: Hub { radius: 0.0, inertia: 1e-4, stiffness: None }, ..LEAN },
+    ),
 ];
-const LEAN: Scene = Scene { damping: NONE, gravity: 0.0, ..FULL };
-const NOTHING: Payload = Payload { mass: 0.0, inertia: 0.0 };
+const LEAN: UniformScene = UniformScene { damping: NONE, gravity: 0.0, ..FULL };
+const NOTHING: Payload = Payload { mass: 0.0, inertia: 0.0, offset: 0.0 };
 
 const fn to(profile: Profile, duration: f64, to: f64) -> Move {
     Move::To { profile, duration, to }
@@ -87,7 +93,13 @@ impl<C: Counter, W: Write> Visitor for Bench<'_, C, W> {
 
 impl<C: Counter, W: Write> Bench<'_, C, W> {
     #[inline(never)]
-    fn rows<M: Method>(&mut self, quality: &str, skip: &[&str], scene: &Scene, moves: &[Move]) {
+    fn rows<M: Method>(
+        &mut self,
+        quality: &str,
+        skip: &[&str],
+        scene: &UniformScene,
+        moves: &[Move],
+    ) {
         let (arm, setup) = self.watch.count(|| set_up::<M>(black_box(scene)));
         let mut arm = arm.expect("the bench's scenes are accepted");
         let (first, planning) = self.watch.count(|| arm.push(&moves[0]));
@@ -137,7 +149,7 @@ impl<C: Counter, W: Write> Bench<'_, C, W> {
 }
 
 #[inline(never)]
-fn set_up<M: Method>(scene: &Scene) -> Result<Generator<M::Stepper, 16>, Error> {
+fn set_up<M: Method>(scene: &UniformScene) -> Result<Generator<M::Stepper, 16>, Error> {
     Generator::new(M::stepper(scene, TICK)?, FROM)
 }
 

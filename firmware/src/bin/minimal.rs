@@ -15,7 +15,7 @@ use semihosting::process;
 use stillbeam::model::Rod;
 use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::{Elastica, Quality};
-use stillbeam::{Error, Generator, Link, Move, Profile, Scene};
+use stillbeam::{Error, Generator, Link, Move, Profile, UniformScene};
 use stillbeam_firmware::{exit, stack};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 
@@ -47,8 +47,11 @@ impl Visitor for Chosen {
 /// Set-up, and the paper's move of member B. A board would write each setpoint to its drive.
 #[inline(never)]
 fn one_move<M: Method>() -> Option<()> {
-    let mut scene =
-        black_box(Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 }));
+    let mut scene = black_box(UniformScene::uniform(Link {
+        length: 0.4,
+        mass: 0.01904,
+        bending_stiffness: 0.042656,
+    }));
     scene.payload.mass = 0.030;
     let mut arm = Generator::<_, 2>::new(M::stepper(&scene, 0.010).ok()?, 0.0).ok()?;
     // The profile is known, so that only it is planned; duration and angle are not.
@@ -64,8 +67,11 @@ fn one_move<M: Method>() -> Option<()> {
 /// The same with a still move, planned here.
 #[inline(never)]
 fn one_still_move() -> Result<(), Error> {
-    let mut scene =
-        black_box(Scene::new(Link { length: 0.4, mass: 0.01904, bending_stiffness: 0.042656 }));
+    let mut scene = black_box(UniformScene::uniform(Link {
+        length: 0.4,
+        mass: 0.01904,
+        bending_stiffness: 0.042656,
+    }));
     scene.payload.mass = 0.030;
     let rod = Rod::<2>::new(&scene)?;
     let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fast, rod.bend(10.0))?;

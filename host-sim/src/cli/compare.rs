@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use stillbeam::AxisKind;
 use stillbeam_sim::compare::{Comparison, Residual, compare};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::{println, table};
+use stillbeam_sim::{axis_units, println, table};
 
 #[derive(clap::Args)]
 pub struct CompareArgs {
@@ -33,7 +34,7 @@ impl CompareArgs {
         let scene = super::open(&self.scene)?;
         let (a, b) = (table::read(&self.a)?, table::read(&self.b)?);
         let result = compare(&a, &b, &scene)?;
-        print(&result);
+        print(scene.arm.mount.axis, &result);
         let refused = self.tolerance.is_some_and(|tolerance| result.tip_max > tolerance);
         if let (true, Some(tolerance)) = (refused, self.tolerance) {
             println!("  above the tolerance of {tolerance} L");
@@ -42,7 +43,7 @@ impl CompareArgs {
     }
 }
 
-fn print(result: &Comparison) {
+fn print(axis: AxisKind, result: &Comparison) {
     let mm = 1e3 * result.length;
     println!("{} common times", result.common);
     println!(
@@ -52,7 +53,8 @@ fn print(result: &Comparison) {
         result.tip_max_at
     );
     println!("  tip error, rms   {:.6} L  {:.4} mm", result.tip_rms, result.tip_rms * mm);
-    println!("  torque error     {:.3} % of the peak, away from jumps", 100.0 * result.torque);
+    let error = format!("{} error", axis_units::of(axis).effort);
+    println!("  {error:<15}  {:.3} % of the peak, away from jumps", 100.0 * result.torque);
     if result.residual.contains(&Residual::Turning) {
         return;
     }

@@ -1,5 +1,6 @@
 //! The command line: parses the words, calls the library and prints lines. One command a file.
 
+mod arm;
 mod compare;
 mod plan;
 mod reference;
@@ -44,6 +45,8 @@ pub struct Cli {
 enum Command {
     /// Run the paper's study: tables and a report (also without a command)
     Study(study::StudyArgs),
+    /// Say what a scene's arm is: masses, frequencies, damping, sag, and the method for it
+    Arm(arm::ArmArgs),
     /// Run the core on a scene and write its setpoints
     Run(run::RunArgs),
     /// Plan a move that arrives still, judge it and draw it
@@ -65,6 +68,7 @@ impl Cli {
         match self.command {
             None => study::StudyArgs::default().execute(),
             Some(Command::Study(args)) => args.execute(),
+            Some(Command::Arm(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Plan(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),

@@ -7,13 +7,13 @@ use stillbeam::Limits;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::{Planned, Request, page};
 use stillbeam_sim::scene_file::angle_remark;
-use stillbeam_sim::{println, progress};
+use stillbeam_sim::{axis_units, println, progress};
 
 #[derive(clap::Args)]
 pub struct PlanArgs {
     /// Scene file, or the name of an embedded scene: its arm, first angle, limits and tick
     scene: String,
-    /// Hub angle at the end, rad
+    /// Hub angle at the end, rad (on a linear axis the position, m; likewise below)
     #[arg(long, value_name = "RAD", allow_negative_numbers = true)]
     to: f64,
     /// Hub angle at the beginning, rad [default: the scene's]
@@ -50,6 +50,8 @@ impl PlanArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let scene = super::open(&self.scene)?;
         for (key, value) in [("--from", self.from), ("--to", Some(self.to))] {
+            let turns = !scene.arm.mount.is_linear();
+            let value = value.filter(|_| turns);
             if let (Some(value), Some(text)) = (value, value.and_then(angle_remark)) {
                 super::note(&format!("{key} = {value}: {text}"));
             }
@@ -75,7 +77,11 @@ impl PlanArgs {
         let bar = progress::bar("reference rod", stillbeam_sim::plan::request::ERRORS.len());
         let planned = request.carry_out(&|| bar.inc(1));
         bar.finish_and_clear();
-        let planned = planned?;
+        let planned = planned.map_err(|error| error.on(scene.arm.mount.axis))?;
+        // A refusal is one line.
+        for line in scene.deduced.lines() {
+            super::note(&line);
+        }
         let file = page::write(&self.out, &scene.name, &request, &planned)?;
         print(&scene.name, &request, &planned);
         println!("  {}", file.display());
@@ -91,7 +97,8 @@ fn print(name: &str, request: &Request, planned: &Planned) {
         None => "still".to_owned(),
     };
     let periods = plan.duration() / planned.first_period;
-    println!("{name}: {} to {} rad, {kind}", request.from, request.to);
+    let units = axis_units::of(request.arm.mount.axis);
+    println!("{name}: {} to {} {}, {kind}", request.from, request.to, units.position);
     println!(
         "  duration           {:.4} s ({} ticks, {periods:.2} first periods)",
         plan.duration(),
@@ -100,10 +107,13 @@ fn print(name: &str, request: &Request, planned: &Planned) {
     if let Some(asked) = request.duration.filter(|asked| (asked - plan.duration()).abs() > 1e-9) {
         println!("                     {asked} s was asked for: rounded to whole ticks");
     }
-    println!("  peak rate          {:.4} rad/s", plan.peaks.rate);
-    println!("  peak acceleration  {:.3} rad/s\u{b2}", plan.peaks.acceleration);
-    println!("  peak jerk          {:.1} rad/s\u{b3}", plan.peaks.jerk);
-    println!("  peak torque        {:.4} N m in the reference rod", planned.loads.torque.value);
+    println!("  peak rate          {:.4} {}", plan.peaks.rate, units.rate);
+    println!("  peak acceleration  {:.3} {}", plan.peaks.acceleration, units.acceleration);
+    println!("  peak jerk          {:.1} {}", plan.peaks.jerk, units.jerk);
+    println!(
+        "  peak {:<12}  {:.4} {} in the reference rod",
+        units.effort, planned.loads.torque.value, units.effort_unit
+    );
     println!(
         "  peak bending       {:.4} N m at the clamp, in the reference rod",
         planned.loads.moment.value

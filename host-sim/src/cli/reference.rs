@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::truth::{self, Reference};
-use stillbeam_sim::{println, progress, run, table};
+use stillbeam_sim::{axis_units, println, progress, run, table};
 
 #[derive(clap::Args)]
 pub struct ReferenceArgs {
@@ -27,7 +27,8 @@ impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let scene = super::open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
-        let notes = scene.roundings(tick)?;
+        let mut notes = scene.deduced.lines();
+        notes.extend(scene.roundings(tick)?);
         let trajectory = scene.trajectory(tick)?;
         let every = self.every.unwrap_or(tick);
         if !(1e-6..=trajectory.duration()).contains(&every) {
@@ -48,12 +49,18 @@ impl ReferenceArgs {
         for line in notes {
             super::note(&line);
         }
-        table::write(&self.csv, &rows)?;
+        table::write(&self.csv, scene.arm.mount.axis, &rows)?;
+        let units = axis_units::of(scene.arm.mount.axis);
         let peak = |of: fn(&table::Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         let bent = peak(|row| row.deflection_m.abs());
         println!("{}: {}", scene.name, self.solver.describe());
         println!("  {} rows to {}", rows.len(), self.csv.display());
-        println!("  peak torque      {:.4} N m", peak(|row| row.torque_nm.abs()));
+        println!(
+            "  peak {:<10}  {:.4} {}",
+            units.effort,
+            peak(|row| row.torque_nm.abs()),
+            units.effort_unit
+        );
         println!(
             "  peak deflection  {:.2} mm ({:.1} % of L)",
             1e3 * bent,

@@ -9,7 +9,7 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{dispatch, println, run, table};
+use stillbeam_sim::{axis_units, dispatch, println, run, table};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -40,6 +40,7 @@ impl RunArgs {
         if typed.method.is_none() {
             notes.extend(scene.solver.unread(solver.method));
         }
+        notes.extend(scene.deduced.lines());
         notes.extend(scene.roundings(solver.tick)?);
         let keys = typed.or(scene.solver);
         let choice = match solver.method {
@@ -55,14 +56,20 @@ impl RunArgs {
         for line in notes {
             super::note(&line);
         }
-        table::write(&self.csv, &rows)?;
+        table::write(&self.csv, scene.arm.mount.axis, &rows)?;
+        let units = axis_units::of(scene.arm.mount.axis);
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
         if let Some(Choice { rung, expected, .. }) = choice {
-            println!("  chose            {rung} (expected error {})", errors(&expected));
+            println!("  chose            {rung} (expected error {})", errors(&scene, &expected));
         }
         println!("  {} setpoints to {}", rows.len(), self.csv.display());
-        println!("  peak torque      {:.4} N m", peak(|row| row.torque_nm.abs()));
+        println!(
+            "  peak {:<10}  {:.4} {}",
+            units.effort,
+            peak(|row| row.torque_nm.abs()),
+            units.effort_unit
+        );
         println!(
             "  peak deflection  {:.2} mm ({:.1} % of L)",
             1e3 * peak(|row| row.deflection_m.abs()),
@@ -101,11 +108,12 @@ fn chosen(
     let near = |choice: &Choice| !asked && choice.expected.tip <= REMARKABLE.tip;
     let Some(nearest) = none.nearest.filter(near) else { return Err(none.error.into()) };
     notes.push(format!(
-        "no method keeps {} of L and {} of the torque's peak here; {} comes nearest, with {}",
+        "no method keeps {} of L and {} of the {}'s peak here; {} comes nearest, with {}",
         solver.tolerance,
         solver.torque_tolerance,
+        axis_units::of(scene.arm.mount.axis).effort,
         nearest.rung,
-        errors(&nearest.expected)
+        errors(scene, &nearest.expected)
     ));
     Ok(nearest)
 }
@@ -131,15 +139,16 @@ fn remark(scene: &SceneFile, solver: &Solver) -> Option<String> {
     let excess = |choice: &Choice| choice.expected.excess(&REMARKABLE);
     let advice = match better.filter(|choice| excess(choice) < expected.excess(&REMARKABLE)) {
         Some(choice) => {
-            format!("auto would take {}, with {}", choice.rung, errors(&choice.expected))
+            format!("auto would take {}, with {}", choice.rung, errors(scene, &choice.expected))
         }
         None => "no method does better at this tick; a shorter one may".to_owned(),
     };
     let method = solver.method.name();
-    Some(format!("{method} is expected to err by {}; {advice}", errors(&expected)))
+    Some(format!("{method} is expected to err by {}; {advice}", errors(scene, &expected)))
 }
 
 /// Returns the errors in words, e.g. `4.0e-4 of L, 0.2 % of the torque's peak`.
-fn errors(expected: &Assessment) -> String {
-    format!("{:.1e} of L, {:.2} % of the torque's peak", expected.tip, 100.0 * expected.torque)
+fn errors(scene: &SceneFile, expected: &Assessment) -> String {
+    let effort = axis_units::of(scene.arm.mount.axis).effort;
+    format!("{:.1e} of L, {:.2} % of the {effort}'s peak", expected.tip, 100.0 * expected.torque)
 }

@@ -17,9 +17,11 @@ const TURN: f64 = 2.0 * std::f64::consts::TAU;
 /// angle to the other. Zero without gravity.
 pub fn holding(arm: &Scene, from: f64, to: f64) -> Result<[f64; 2], Error> {
     let mut most = [0.0_f64; 2];
-    if arm.gravity == 0.0 {
+    if arm.in_plane_gravity() == 0.0 {
         return Ok(most);
     }
+    // A carriage carries the same weight everywhere.
+    let to = if arm.mount.is_linear() { from } else { to };
     let to = from + (to - from).clamp(-TURN, TURN);
     let steps = ((to - from).abs() / STEP).ceil().max(1.0) as u32;
     for k in 0..=steps {

@@ -6,6 +6,7 @@ use maud::html;
 
 use super::judge::Motion;
 use super::{Planned, Request};
+use crate::axis_units;
 use crate::error::Error;
 use crate::output::Files;
 use crate::plot::{Axis, Chart, Colour, Dash, Series};
@@ -46,8 +47,9 @@ pub fn write(
         .iter()
         .map(|s| vec![s.t, s.angle, s.rate, s.acceleration, s.deflection, s.torque])
         .collect();
-    let header =
-        ["t_s", "hub_angle_rad", "hub_rate_rad_s", "hub_accel_rad_s2", "deflection_m", "torque_nm"];
+    let [t, position, rate, acceleration, _, _, deflection, effort] =
+        table::columns(request.arm.mount.axis);
+    let header = [t, position, rate, acceleration, deflection, effort];
     table::add_columns(&mut files, &folder.join("plan.csv"), &header, &rows)?;
     let path = folder.join("index.html");
     let text = page(name, &body);
@@ -59,6 +61,7 @@ pub fn write(
 /// Returns the charts of motion, acceleration, deflection and sensitivity, each with its file's
 /// name.
 fn charts(request: &Request, planned: &Planned) -> Result<Vec<(&'static str, Chart)>, Error> {
+    let units = axis_units::of(request.arm.mount.axis);
     let duration = planned.plan.duration();
     let quintic = Motion::of(
         request.from,
@@ -85,8 +88,8 @@ fn charts(request: &Request, planned: &Planned) -> Result<Vec<(&'static str, Cha
     )
     .with(Series::line("still", curve).colour(Colour::Blue));
     Ok(vec![
-        ("angle", pair("Hub angle", "rad", &|s| s.angle)),
-        ("acceleration", pair("Hub acceleration", "rad/s\u{b2}", &|s| s.acceleration)),
+        (units.name, pair(&format!("Hub {}", units.name), units.position, &|s| s.angle)),
+        ("acceleration", pair("Hub acceleration", units.acceleration, &|s| s.acceleration)),
         ("deflection", pair("Tip deflection", "% of L", &|s| 100.0 * s.deflection / length)),
         ("sensitivity", sensitivity),
     ])

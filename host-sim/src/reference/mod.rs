@@ -10,6 +10,7 @@
 
 use std::fmt;
 
+mod carrying;
 pub mod fem;
 pub mod rod;
 mod schedule;
@@ -22,17 +23,21 @@ mod schedule;
 pub struct Sample {
     /// Time, s.
     pub t: f64,
-    /// θ with its whole turns, rad.
+    /// θ with its whole turns, rad; on a linear axis the position, m.
     pub angle: f64,
-    /// θ̇, rad/s.
+    /// θ̇, rad/s, or m/s.
     pub rate: f64,
-    /// θ̈, rad/s².
+    /// θ̈, rad/s², or m/s².
     pub acceleration: f64,
-    /// The tip in the global frame, origin at the motor axis, m.
+    /// The tip in the global frame, origin at the motor axis or where the carriage's position is 0,
+    /// m.
     pub tip: [f64; 2],
+    /// The payload's centre in the global frame, m: the tip, where the payload has no offset.
+    pub payload: [f64; 2],
     /// The tip's Y in the hub frame, m.
     pub deflection: f64,
-    /// τ at the hub, J_h θ̈ included, N m; positive drives θ forward.
+    /// τ at the hub, J_h θ̈ included, N m; positive drives θ forward. On a linear axis the force
+    /// on the carriage, its own mass included, N.
     pub torque: f64,
 }
 

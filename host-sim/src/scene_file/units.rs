@@ -5,29 +5,24 @@
 //! has a stiffness that fits its mass, damping leaves a vibration. Thresholds lie a hundred times
 //! beyond what arms have. A wrong prefix makes a factor of a thousand.
 
+mod link;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use stillbeam::Scene;
 
 use super::notes::Groups;
-use super::{File, LinkTable, MoveTable};
+use super::{File, MoveTable};
 use crate::reference::rod;
-
-/// Longest link, m. No robot's link is longer; lengths in millimetres exceed it by far.
-const LONGEST: f64 = 30.0;
-
-/// Softest solid, Pa.
-const SOFTEST: f64 = 1e6;
-
-/// `EI/μ²` of a section, m⁵/(kg s²): `E/12ρ²` times the square's ratio of sides. Steel 270,
-/// aluminium 800, carbon 3,000; a hundredth of that for a tape, fifty times for a tube.
-const SECTION: (f64, f64) = (0.02, 5e5);
 
 /// Heaviest payload, in link masses.
 const PAYLOAD: f64 = 200.0;
 
 /// Damping ratio of the first mode beyond which a move can leave no vibration.
 const DAMPED: f64 = 0.5;
+
+/// Softest joint, as a fraction of the link's `EI/L`.
+const SOFT: f64 = 0.01;
 
 /// Fastest joint, rad/s.
 const FASTEST: f64 = 50.0;
@@ -38,13 +33,14 @@ const MOVE: f64 = 120.0;
 
 /// Returns all remarks on a file whose arm is `arm`, one line each.
 pub(super) fn remarks(file: &File, arm: &Scene, moves: &[MoveTable]) -> Vec<String> {
-    let mut lines = link(&file.link);
+    let mut lines = link::remarks(&file.link, arm.link.length);
     lines.extend(hub_and_payload(arm));
     lines.extend(damping(arm));
     if file.gravity.acceleration == 1.0 {
         lines.push("gravity.acceleration = 1: it is in m/s^2 (1 g = 9.81 m/s^2)".to_owned());
     }
-    if let Some(rate) = file.limits.rate.filter(|rate| *rate > FASTEST) {
+    let turns = !arm.mount.is_linear();
+    if let Some(rate) = file.limits.rate.filter(|rate| turns && *rate > FASTEST) {
         lines.push(format!(
             "limits.rate = {rate}: {rate} rad/s are {:.0} rpm; rates are in rad/s ({rate} deg/s = \
              {:.4} rad/s)",
@@ -56,7 +52,7 @@ pub(super) fn remarks(file: &File, arm: &Scene, moves: &[MoveTable]) -> Vec<Stri
         let milli = 1e-3 * tick;
         lines.push(format!("solver.tick = {tick}: ticks are in s ({tick} ms = {milli} s)"));
     }
-    lines.extend(motions(moves));
+    lines.extend(motions(moves, turns));
     lines
 }
 
@@ -73,7 +69,7 @@ pub fn angle(value: f64) -> Option<String> {
     })
 }
 
-fn motions(moves: &[MoveTable]) -> Vec<String> {
+fn motions(moves: &[MoveTable], turns: bool) -> Vec<String> {
     let mut groups = Groups::default();
     for (index, table) in moves.iter().enumerate() {
         if table.profile == "spin-up" {
@@ -81,7 +77,7 @@ fn motions(moves: &[MoveTable]) -> Vec<String> {
             break;
         }
         for (key, value) in [("from", table.from), ("to", table.to)] {
-            if let (Some(value), Some(text)) = (value, value.and_then(angle)) {
+            if let (Some(value), Some(text)) = (value, value.filter(|_| turns).and_then(angle)) {
                 groups.add(index, format!("{key} = {value}: {text}"));
             }
         }
@@ -94,68 +90,6 @@ fn motions(moves: &[MoveTable]) -> Vec<String> {
         }
     }
     groups.lines(moves.len())
-}
-
-fn link(link: &LinkTable) -> Vec<String> {
-    let mut lines = Vec::new();
-    let metres = |key: &str, value: f64| {
-        format!("link.{key} = {value}: lengths are in m ({value} mm = {} m)", 1e-3 * value)
-    };
-    if link.length > LONGEST {
-        lines.push(metres("length", link.length));
-    }
-    let thick = 0.25 * link.length;
-    let wide = [("width", link.width, link.length), ("thickness", link.thickness, thick)];
-    for (key, value, most) in wide {
-        if let Some(value) = value.filter(|value| *value > most) {
-            lines.push(metres(key, value));
-        }
-    }
-    if let Some(modulus) = link.youngs_modulus.filter(|modulus| *modulus < SOFTEST) {
-        let (prefix, unit) = if modulus < 1e3 { (1e9, "GPa") } else { (1e6, "MPa") };
-        lines.push(format!(
-            "link.youngs_modulus = {modulus}: moduli are in Pa ({modulus} {unit} = {:e} Pa)",
-            prefix * modulus
-        ));
-    }
-    if let Some(moment) = link.second_moment.filter(|i| (12.0 * i).powf(0.25) > thick) {
-        lines.push(format!(
-            "link.second_moment = {moment}: it is in m^4 ({moment} mm^4 = {:e} m^4)",
-            1e-12 * moment
-        ));
-    }
-    // One wrong unit is told once.
-    if lines.is_empty() {
-        lines.extend(section(link));
-    }
-    lines
-}
-
-/// Returns the remark on a mass and a stiffness that no section of that length has together.
-fn section(link: &LinkTable) -> Option<String> {
-    let mass = link.mass?;
-    let stiffness = link.bending_stiffness.or(link
-        .youngs_modulus
-        .zip(link.second_moment)
-        .map(|(modulus, moment)| modulus * moment))?;
-    let per_length = mass / link.length;
-    let (least, most) = SECTION;
-    let ratio = stiffness / (per_length * per_length);
-    if ratio < least {
-        let gram = 1e-3 * mass;
-        Some(format!(
-            "link.mass = {mass}: {per_length:.3} kg/m is far too heavy for a stiffness of \
-             {stiffness} N m^2; masses are in kg ({mass} g = {gram} kg)"
-        ))
-    } else if ratio > most {
-        Some(format!(
-            "link.bending_stiffness = {stiffness}: far too stiff for {per_length:.3e} kg/m; it is in \
-             N m^2 ({stiffness} N mm^2 = {:e} N m^2), masses are in kg",
-            1e-6 * stiffness
-        ))
-    } else {
-        None
-    }
 }
 
 fn hub_and_payload(arm: &Scene) -> Vec<String> {
@@ -182,6 +116,22 @@ fn hub_and_payload(arm: &Scene) -> Vec<String> {
             payload.inertia,
             payload.inertia,
             1e-6 * payload.inertia
+        ));
+    }
+    if payload.offset.abs() > link.length {
+        let (offset, milli) = (payload.offset, 1e-3 * payload.offset);
+        lines.push(format!(
+            "payload.offset = {offset}: farther from the tip than the link is long; lengths are in m \
+             ({offset} mm = {milli} m)"
+        ));
+    }
+    let unit = link.bending_stiffness / link.length;
+    if let Some(stiffness) = arm.hub.stiffness.filter(|stiffness| *stiffness < SOFT * unit) {
+        lines.push(format!(
+            "hub.stiffness = {stiffness}: the joint gives {:.0} times as much as the link; it is in N \
+             m/rad ({stiffness} kN m/rad = {} N m/rad)",
+            unit / stiffness,
+            1e3 * stiffness
         ));
     }
     lines

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use stillbeam::AxisKind;
+
 use super::{Run, Study};
 use crate::error::Error;
 use crate::output::Files;
@@ -51,7 +53,7 @@ impl Study {
             table::add_columns(&mut files, &path, &header, &columns.rows)?;
         }
         let path = folder.join("setpoints.csv");
-        table::add(&mut files, &path, &self.setpoints.flexible.rows)?;
+        table::add(&mut files, &path, AxisKind::Rotary, &self.setpoints.flexible.rows)?;
         files.finish()
     }
 

@@ -42,7 +42,7 @@ pub struct Outcome {
 }
 
 /// Damping for illustration. The paper fits its damping to its experiments and does not print it.
-pub const DAMPING: Damping = Damping { alpha: 0.15, beta: 0.002 };
+pub const DAMPING: Damping = Damping { alpha: 0.15, beta: 0.002, joint: 0.0 };
 
 const MEMBERS: [(char, &str, &str); 4] = [
     ('A', "acrylic", "a-tip30"),

@@ -2,7 +2,7 @@
 
 use stillbeam::axis::{Cause, Mode, Tick};
 use stillbeam::motor::Drivetrain;
-use stillbeam::{Angle, Error as CoreError, Payload, PlanContext, PlannedMove, Scene};
+use stillbeam::{Angle, Error as CoreError, Payload, PlanContext, PlannedMove, UniformScene};
 use stillbeam_methods::{Method, Visitor, visit_all};
 use stillbeam_protocol::{Command, Refusal};
 use stillbeam_wiring::{Configuration, Joint};
@@ -28,7 +28,7 @@ pub(super) trait Arm {
     fn mode(&self) -> Mode;
     fn cause(&self) -> Option<Cause>;
     fn rests(&self) -> bool;
-    fn scene(&self) -> &Scene;
+    fn scene(&self) -> &UniformScene;
     fn train(&self) -> &Drivetrain<f32>;
 }
 
@@ -115,7 +115,7 @@ impl<M: Method> Arm for Of<M> {
     }
 
     fn reload(&mut self, payload: Payload, tick: f64) -> Result<(), Error> {
-        let scene = Scene { payload, ..self.0.scene };
+        let scene = UniformScene { payload, ..self.0.scene };
         self.0.replace(scene, M::stepper(&scene, tick)?).map_err(apart)
     }
 
@@ -143,7 +143,7 @@ impl<M: Method> Arm for Of<M> {
         self.0.axis.rests()
     }
 
-    fn scene(&self) -> &Scene {
+    fn scene(&self) -> &UniformScene {
         &self.0.scene
     }
 

@@ -146,7 +146,7 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
         "payload" => {
             let mass = number(words.next())?;
             let inertia = words.next().map_or(Some(0.0), |word| number(Some(word)))?;
-            Command::Payload(Payload { mass, inertia })
+            Command::Payload(Payload { mass, inertia, offset: 0.0 })
         }
         _ => return None,
     })

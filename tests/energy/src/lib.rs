@@ -6,8 +6,8 @@ mod balance;
 
 pub use balance::{Balance, imbalance};
 
-use stillbeam::HubState;
 use stillbeam::model::{Model, Modes, Rod};
+use stillbeam::{AxisKind, HubState};
 
 /// Energy of an arm at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,9 +40,11 @@ impl Energy {
 /// Returns the energy of small deflections `q` with rates `q_dot`, nodal coordinates:
 ///
 /// `T = ½J_rω² + ωFᵀq̇ + ½q̇ᵀMq̇ − ½ω²qᵀGq` of link and payload, `½qᵀKq` of the strip,
-/// `g[sinθ(S − ½qᵀK_Pq) + cosθ f_gᵀq]` of the weight. The strip takes `βq̇ᵀKq̇`.
+/// `g[sinχ(S − ½qᵀK_Pq) + cosχ f_gᵀq]` of the weight. The strip takes `βq̇ᵀKq̇`, the
+/// joint its own.
 ///
-/// Sine and cosine are the hub's, which a generator keeps for an arm under gravity.
+/// Sine and cosine are those of χ, which a generator keeps for an arm under gravity. On a linear
+/// axis `ω` is the velocity of the carriage, whose own mass rises with it.
 pub fn small<const N: usize, const W: usize>(
     model: &Model<N, W>,
     hub: &HubState<f64>,
@@ -51,26 +53,31 @@ pub fn small<const N: usize, const W: usize>(
 ) -> Energy {
     let (scene, omega) = (model.scene(), hub.rate);
     let stiffness = model.stiffness().half_form();
-    let carried = 0.5 * scene.rigid_inertia() * omega * omega
+    let carried = 0.5 * model.rigid_inertia() * omega * omega
         + omega * dot(model.coupling(), q_dot)
         + model.mass().half_form().at(q_dot)
         - omega * omega * model.spin().half_form().at(q);
-    let height = hub.sin * (scene.first_moment() - model.tension().half_form().at(q))
-        + hub.cos * dot(model.weight(), q);
+    let own = model.first_moment();
+    let height = if scene.mount.is_linear() {
+        hub.cos * own * hub.angle.radians() - hub.sin * model.tension().half_form().at(q)
+    } else {
+        hub.sin * (own - model.tension().half_form().at(q))
+    } + hub.cos * dot(model.weight(), q);
     Energy {
         hub: 0.5 * scene.hub.inertia * omega * omega,
         carried,
         bending: stiffness.at(q),
-        raised: scene.gravity * height,
+        raised: scene.in_plane_gravity() * height,
         dissipation: 2.0 * scene.damping.alpha * carried
-            + 2.0 * scene.damping.beta * stiffness.at(q_dot),
+            + 2.0 * scene.damping.beta * stiffness.at(q_dot)
+            + 2.0 * model.joint_damping().half_form().at(q_dot),
     }
 }
 
 /// Returns the energy of a rod that may bend far, modal coordinates `a` with rates `v`:
 ///
 /// `T = ½vᵀMv + ωhᵀv + ½ω²T_θθ` of link and payload, `½Σωₖ²aₖ²` of the strip,
-/// `g(X sinθ + Y cosθ)` of the weight. The strip takes `βΣωₖ²vₖ²`.
+/// `g(X sinχ + Y cosχ)` of the weight. Strip and joint take `Σβₖωₖ²vₖ²`.
 pub fn exact<const K: usize>(
     rod: &Rod<K>,
     hub: &HubState<f64>,
@@ -85,13 +92,19 @@ pub fn exact<const K: usize>(
         + 0.5 * omega * omega * kinetics.inertia;
     let stiffness = rod.frequency().map(|omega| omega * omega);
     let elastic = |x: &[f64; K]| dot(&stiffness, &x.map(|x| x * x));
+    let lost: [f64; K] = core::array::from_fn(|k| stiffness[k] * v[k] * v[k]);
     let [x, y] = kinetics.moment;
+    // Link, payload and carriage rise with the carriage.
+    let y = match scene.mount.axis {
+        AxisKind::Rotary => y,
+        AxisKind::Linear => y + (kinetics.inertia + scene.hub.inertia) * hub.angle.radians(),
+    };
     Energy {
         hub: 0.5 * scene.hub.inertia * omega * omega,
         carried,
         bending: 0.5 * elastic(a),
-        raised: scene.gravity * (hub.sin * x + hub.cos * y),
-        dissipation: 2.0 * scene.damping.alpha * carried + scene.damping.beta * elastic(v),
+        raised: scene.in_plane_gravity() * (hub.sin * x + hub.cos * y),
+        dissipation: 2.0 * scene.damping.alpha * carried + dot(&rod.stiffness_damping(), &lost),
     }
 }
 

@@ -109,7 +109,9 @@ fn command(u: &mut Unstructured<'_>) -> Result<Command> {
         0 => Command::Disable,
         1 => Command::Stop,
         2 => Command::Home(double(u)?),
-        3 => Command::Payload(Payload { mass: double(u)?, inertia: double(u)? }),
+        3 => {
+            Command::Payload(Payload { mass: double(u)?, inertia: double(u)?, offset: double(u)? })
+        }
         4 => Command::Still { to: double(u)?, duration: Option::<f64>::arbitrary(u)? },
         5 => Command::Describe,
         6 => Command::Status,

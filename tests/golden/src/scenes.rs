@@ -2,7 +2,7 @@
 //! read TOML. `cargo run -p stillbeam-tests --bin scenes` writes `embedded.in` from the scene
 //! files, and a test of `stillbeam-tests` fails where the two differ.
 
-use stillbeam::{Move, Scene};
+use stillbeam::{Move, UniformScene};
 
 /// A scene with what happens in it.
 #[derive(Clone, Copy, Debug)]
@@ -10,7 +10,7 @@ pub struct Run {
     /// The scene's name.
     pub name: &'static str,
     /// The arm.
-    pub scene: Scene,
+    pub scene: UniformScene,
     /// Hub angle at the beginning, rad.
     pub from: f64,
     /// The moves, from rest, with the time to settle after each.
@@ -24,8 +24,10 @@ pub struct Run {
 #[allow(clippy::approx_constant)]
 pub const SCENES: &[Run] = {
     // The names that the generated text uses without a path.
+    use stillbeam::AxisKind::Rotary;
     use stillbeam::Move::{Dwell, SpinUp, To};
     use stillbeam::Profile::{Cubic, Cycloid, Quintic, SCurve, Trapezoid};
-    use stillbeam::{Damping, Hub, Link, Payload};
+    use stillbeam::scene::Uniform;
+    use stillbeam::{Damping, Hub, Link, Mount, Payload, Scene};
     include!("embedded.in")
 };

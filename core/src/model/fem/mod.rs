@@ -5,6 +5,7 @@ mod element;
 mod lumped;
 mod model;
 mod modes;
+mod varied;
 
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
 pub use modes::Modes;

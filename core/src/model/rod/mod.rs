@@ -1,67 +1,62 @@
 //! The inextensible rod in its own modes: exact kinematics at set-up, in f64.
 
+mod basis;
 mod expansion;
 pub(crate) mod monomials;
 mod points;
+mod stations;
+mod varied;
 
 pub(crate) use expansion::Expansion;
 pub(crate) use points::{Load, RodPoints};
+pub(crate) use stations::{LINK_STATIONS, Stations};
+
+use basis::Basis;
 
 use crate::Error;
-use crate::math::{Band, Scalar, dot, generalized_eigen, sqrt};
-use crate::scene::Scene;
+use crate::hub::HubState;
+use crate::math::{Band, GAUSS_POINTS, Scalar, dot, gauss_points, generalized_eigen, sqrt};
+use crate::scene::{LinkShape, Scene, Uniform};
 
 /// Polynomials that [`Rod::new`] makes its modes of: slopes of degree 1 to 5.
 const BASIS: usize = 5;
 
 /// Gauss points over the link. A deflection has degree `N + 1`; products of two have at most
 /// `2(N + 1)`, and the rule is exact to degree 15.
-pub(crate) const POINTS: usize = 8;
+pub(crate) const POINTS: usize = GAUSS_POINTS;
 
-/// `(ξ, weight)` of the Gauss-Legendre rule on 0..1, lower half; the upper half mirrors it.
-const HALF_RULE: [(f64, f64); POINTS / 2] = [
-    (0.019_855_071_751_231_884, 0.050_614_268_145_188_13),
-    (0.101_666_761_293_186_64, 0.111_190_517_226_687_24),
-    (0.237_233_795_041_835_5, 0.156_853_322_938_943_64),
-    (0.408_282_678_752_175_1, 0.181_341_891_689_181),
-];
-
-/// A clamped inextensible rod with payload, its angle relative to the hub expanded in the slopes of
-/// its lowest `K` modes: `φ(x) = Σ aₖ ψₖ(x)`, `X = r + ∫cos φ`, `Y = ∫sin φ`.
+/// An inextensible rod with payload, its angle relative to the hub expanded in the slopes of its
+/// lowest `K` modes: `φ(x) = Σ aₖ ψₖ(x)`, `X = r + ∫cos φ`, `Y = ∫sin φ`.
 ///
-/// The modes are the lowest `K` of `N` polynomials (Rayleigh–Ritz), `ψₖ(0) = 0`, mass-normalised:
+/// The modes are the lowest `K` of `N` polynomials of the bending moment (Rayleigh–Ritz),
+/// `ψₖ(0) = M(0)/k` with a joint of stiffness `k`, mass-normalised:
 /// `a` are the modal coordinates of the small-deflection model. [`Rod::new`] takes `N = 5`; the
 /// exact rod that `auto` judges its rungs by takes more.
 #[derive(Clone, Debug)]
 pub struct Rod<const K: usize> {
-    scene: Scene,
+    scene: Scene<f64, Uniform>,
     /// `ωₖ`, rad/s.
     frequency: [f64; K],
-    /// `ψₖ` at the Gauss points, and at the tip.
+    /// `ψₖ` at the points, at the root and at the tip.
     slope: [[f64; POINTS]; K],
+    root: [f64; K],
     tip_slope: [f64; K],
-    weights: [f64; POINTS],
-    /// `∫₀^{ξᵢ} f dξ = Σⱼ running[i][j] f(ξⱼ)`, exact to degree 7.
-    running: [[f64; POINTS]; POINTS],
-}
-
-/// Slopes and weights for integrals over the link: see [`Rod::rule`].
-pub(crate) struct Rule<'a, const K: usize> {
-    pub slope: &'a [[f64; POINTS]; K],
-    pub weights: &'a [f64; POINTS],
-    pub running: &'a [[f64; POINTS]; POINTS],
+    stations: Stations,
 }
 
 /// The rod at modal coordinates `a`, hub-frame axes, nothing moving.
+///
+/// `ω` is the hub's rate. On a linear axis it is the carriage's velocity `v` along hub-frame Y:
+/// then `h = ∂/∂a (∫ρA Y dx + m_p Y_L)`, and `T_vv` is the mass of link and payload.
 #[derive(Clone, Copy, Debug)]
 pub struct Kinetics<const K: usize> {
     /// `M(a)`: `T = ½ȧᵀMȧ + ω hᵀȧ + ½ω² T_θθ`.
     pub mass: [[f64; K]; K],
     /// `h(a)`.
     pub coupling: [f64; K],
-    /// `T_θθ(a)`, hub inertia left out.
+    /// `T_θθ(a)`, the hub's inertia or the carriage's mass left out.
     pub inertia: f64,
-    /// `∫ρA (X, Y) dx + m_p (X, Y)_L`: gravity's potential is `g (x sinθ + y cosθ)`.
+    /// `∫(X, Y) dm`, payload included: gravity's potential is `g (x sinχ + y cosχ)`.
     pub moment: [f64; 2],
     /// The tip `(X, Y)`.
     pub tip: [f64; 2],
@@ -69,42 +64,35 @@ pub struct Kinetics<const K: usize> {
 
 impl<const K: usize> Rod<K> {
     /// Solves for the lowest `K` modes of five polynomials; `K` is 1 to 5.
-    pub fn new(scene: &Scene) -> Result<Self, Error> {
+    pub fn new<S: LinkShape>(scene: &Scene<f64, S>) -> Result<Self, Error> {
         Self::of_polynomials::<BASIS>(scene)
     }
 
     /// Solves for the lowest `K` modes of `N` polynomials. `N` is at most 6: then the rule
     /// integrates the products of two deflections exactly.
-    pub(crate) fn of_polynomials<const N: usize>(scene: &Scene) -> Result<Self, Error> {
+    pub(crate) fn of_polynomials<const N: usize>(
+        scene: &Scene<f64, impl LinkShape>,
+    ) -> Result<Self, Error> {
         const { assert!(1 <= K && K <= N, "as many modes as polynomials at most") }
         const { assert!(2 * (N + 1) < 2 * POINTS, "the mass is integrated exactly") }
         let scene = scene.validate()?;
-        let (points, weights) = rule();
-        let running = running_integrals(&points, &weights);
-        let at_points = points.map(slopes::<N>);
-        let tip = slopes::<N>(1.0);
+        let Basis { at_points, root, tip, bending, stations } = Basis::<N>::new(&scene);
         let length = scene.link.length;
-        // Slopes are integrals of Legendre polynomials, so that bending is diagonal.
-        let mut stiffness = Band::<f64, N, N>::ZERO;
-        for j in 0..N {
-            let norm = 1.0 / (2 * j + 1) as f64;
-            stiffness.add(j, j, scene.link.bending_stiffness / length * norm);
-        }
-        let deflection = |basis: usize| -> [f64; POINTS] {
-            let f: [f64; POINTS] = core::array::from_fn(|p| at_points[p][basis]);
-            running.map(|row| length * dot(&row, &f))
+        let stiffness = bending.map(|share| scene.link.bending_stiffness / length * share);
+        let angle = |basis: usize| -> [f64; POINTS] { at_points.map(|row| row[basis]) };
+        let deflection = |basis: usize| -> [f64; LINK_STATIONS] {
+            let f = angle(basis);
+            stations.running.map(|row| length * dot(&row, &f))
         };
-        let tip_deflection = |basis: usize| -> f64 {
-            let f: [f64; POINTS] = core::array::from_fn(|p| at_points[p][basis]);
-            length * dot(&weights, &f)
-        };
+        let payload_deflection =
+            |basis: usize| -> f64 { length * dot(&stations.to_payload, &angle(basis)) };
         let mut mass = Band::<f64, N, N>::ZERO;
         for i in 0..N {
             for j in 0..=i {
                 let (wi, wj) = (deflection(i), deflection(j));
-                let product: [f64; POINTS] = core::array::from_fn(|p| wi[p] * wj[p]);
-                let value = scene.link.mass * dot(&weights, &product)
-                    + scene.payload.mass * tip_deflection(i) * tip_deflection(j)
+                let product: [f64; LINK_STATIONS] = core::array::from_fn(|s| wi[s] * wj[s]);
+                let value = stations.mass * dot(&stations.weights, &product)
+                    + scene.payload.mass * payload_deflection(i) * payload_deflection(j)
                     + scene.payload.inertia * tip[i] * tip[j];
                 mass.add(i, j, value);
             }
@@ -116,15 +104,15 @@ impl<const K: usize> Rod<K> {
             vectors[k].map(|x| sign * frequency[k] * x)
         };
         Ok(Self {
-            scene,
+            scene: scene.shaped(Uniform),
             frequency,
             slope: core::array::from_fn(|k| {
                 let shape = shape(k);
                 at_points.map(|basis| dot(&shape, &basis))
             }),
+            root: core::array::from_fn(|k| dot(&shape(k), &root)),
             tip_slope: core::array::from_fn(|k| dot(&shape(k), &tip)),
-            weights,
-            running,
+            stations,
         })
     }
 
@@ -138,9 +126,41 @@ impl<const K: usize> Rod<K> {
         &self.tip_slope
     }
 
+    /// `ψₖ(0)`, the root's angle per modal coordinate: 0 where the link is clamped without give.
+    pub fn root_slope(&self) -> &[f64; K] {
+        &self.root
+    }
+
+    /// `βₖ` of each mode, s: `β`, and the joint's own damping by the mode's share in its strain
+    /// energy. What the joint's damping couples of two modes is left out.
+    pub fn stiffness_damping(&self) -> [f64; K] {
+        let (damping, hub) = (&self.scene.damping, &self.scene.hub);
+        let loss = damping.joint * hub.stiffness.unwrap_or(0.0);
+        core::array::from_fn(|k| {
+            let share = self.root[k] / self.frequency[k];
+            damping.beta + loss * share * share
+        })
+    }
+
+    /// `½(α/ωₖ + βₖωₖ)`: damping ratios of the modes.
+    pub fn damping_ratio(&self) -> [f64; K] {
+        let (alpha, beta) = (self.scene.damping.alpha, self.stiffness_damping());
+        core::array::from_fn(|k| 0.5 * (alpha / self.frequency[k] + beta[k] * self.frequency[k]))
+    }
+
     /// `∂Y/∂aₖ` of the straight link's tip, m.
     pub(crate) fn tip_swing(&self) -> [f64; K] {
-        core::array::from_fn(|k| self.scene.link.length * dot(&self.weights, &self.slope[k]))
+        core::array::from_fn(|k| {
+            self.scene.link.length * dot(&self.stations.to_tip, &self.slope[k])
+        })
+    }
+
+    /// The payload's centre in the hub frame, m, of an arm whose tip is at `tip` there.
+    pub fn payload_centre(&self, coordinate: &[f64; K], tip: [f64; 2]) -> [f64; 2] {
+        let angle = dot(&self.tip_slope, coordinate) / core::f64::consts::TAU;
+        let (sin, cos) = angle.sin_cos_turns();
+        let offset = self.scene.payload.offset;
+        [tip[0] + offset * cos, tip[1] + offset * sin]
     }
 
     /// `ψₖ(ξ)`, `ξ = x/L`: the polynomial through the points.
@@ -159,25 +179,37 @@ impl<const K: usize> Rod<K> {
         })
     }
 
-    /// `ψₖ` at the Gauss points, the rule's weights, and what integrates from the clamp to each
-    /// point, all for a link of length 1.
-    pub(crate) fn rule(&self) -> Rule<'_, K> {
-        Rule { slope: &self.slope, weights: &self.weights, running: &self.running }
+    /// `ψₖ` at the points.
+    pub(crate) fn slope(&self) -> &[[f64; POINTS]; K] {
+        &self.slope
     }
 
-    /// The scene this was built from.
-    pub fn scene(&self) -> &Scene {
+    /// The places that carry the link's mass.
+    pub(crate) fn stations(&self) -> &Stations {
+        &self.stations
+    }
+
+    /// The scene this was built from, its link's shape left out.
+    pub fn scene(&self) -> &Scene<f64, Uniform> {
         &self.scene
     }
 
     /// Largest tip angle relative to the hub to expect of a motion with accelerations up to that
-    /// many rad/s², rad: twice the quasi-static one, and the sag under gravity; first mode.
+    /// many rad/s² (a carriage's: m/s²), rad: twice the quasi-static one, and the sag under gravity; first mode.
     pub fn bend(&self, acceleration: f64) -> f64 {
         let rest = self.kinetics(&[0.0; K]);
         let compliance = self.tip_slope[0] / (self.frequency[0] * self.frequency[0]);
         let mut a = [0.0; K];
         a[0] = 1e-4 * self.scene.link.length;
-        let weight = self.scene.gravity * self.kinetics(&a).moment[1] / a[0];
+        // A hub that turns meets gravity across the link somewhere; a carriage holds it one way.
+        let across = if self.scene.mount.is_linear() {
+            let mut hub = HubState::ZERO;
+            self.scene.gravity_direction().aim(&mut hub);
+            f64::abs(hub.cos)
+        } else {
+            1.0
+        };
+        let weight = self.scene.in_plane_gravity() * across * self.kinetics(&a).moment[1] / a[0];
         compliance * (2.0 * rest.coupling[0].abs() * acceleration + weight)
     }
 
@@ -195,67 +227,69 @@ impl<const K: usize> Rod<K> {
 
     /// Everything that depends on the shape alone.
     pub fn kinetics(&self, a: &[f64; K]) -> Kinetics<K> {
-        let scene = &self.scene;
-        let (length, rho) = (scene.link.length, scene.link.mass);
+        let (scene, stations) = (&self.scene, &self.stations);
+        let length = scene.link.length;
         let mut sin = [0.0; POINTS];
         let mut cos = [0.0; POINTS];
         for p in 0..POINTS {
             let phi: f64 = (0..K).map(|k| self.slope[k][p] * a[k]).sum();
             (sin[p], cos[p]) = (phi / core::f64::consts::TAU).sin_cos_turns();
         }
-        // Each as its values at the points, and last at the tip.
-        let integral = |f: &[f64; POINTS]| -> ([f64; POINTS], f64) {
-            (self.running.map(|row| length * dot(&row, f)), length * dot(&self.weights, f))
+        // Each as its values at the stations, and last at the payload's centre.
+        let integral = |f: &[f64; POINTS]| -> ([f64; LINK_STATIONS], f64) {
+            let at_payload = length * dot(&stations.to_payload, f);
+            (stations.running.map(|row| length * dot(&row, f)), at_payload)
         };
         let times = |f: &[f64; POINTS], g: &[f64; POINTS]| -> [f64; POINTS] {
             core::array::from_fn(|p| f[p] * g[p])
         };
-        let (mut x, mut x_tip) = integral(&cos);
+        let (mut x, mut x_p) = integral(&cos);
         x = x.map(|x| x + scene.hub.radius);
-        x_tip += scene.hub.radius;
-        let (y, y_tip) = integral(&sin);
+        x_p += scene.hub.radius;
+        let (y, y_p) = integral(&sin);
         let along: [_; K] = core::array::from_fn(|k| {
-            let (f, tip) = integral(&times(&self.slope[k], &sin));
-            (f.map(|f| -f), -tip)
+            let (f, end) = integral(&times(&self.slope[k], &sin));
+            (f.map(|f| -f), -end)
         });
         let across: [_; K] = core::array::from_fn(|k| integral(&times(&self.slope[k], &cos)));
-        let link = |f: [f64; POINTS]| rho * dot(&self.weights, &f);
+        let link = |f: [f64; LINK_STATIONS]| stations.mass * dot(&stations.weights, &f);
         let sum = |f: &dyn Fn(usize) -> f64| link(core::array::from_fn(f));
         let (m_p, j_p) = (scene.payload.mass, scene.payload.inertia);
         let tip_slope = &self.tip_slope;
+        let carried = scene.mount.is_linear();
         Kinetics {
             mass: core::array::from_fn(|i| {
                 core::array::from_fn(|j| {
-                    sum(&|p| along[i].0[p] * along[j].0[p] + across[i].0[p] * across[j].0[p])
+                    sum(&|s| along[i].0[s] * along[j].0[s] + across[i].0[s] * across[j].0[s])
                         + m_p * (along[i].1 * along[j].1 + across[i].1 * across[j].1)
                         + j_p * tip_slope[i] * tip_slope[j]
                 })
             }),
             coupling: core::array::from_fn(|i| {
-                sum(&|p| x[p] * across[i].0[p] - y[p] * along[i].0[p])
-                    + m_p * (x_tip * across[i].1 - y_tip * along[i].1)
+                if carried {
+                    return link(across[i].0) + m_p * across[i].1;
+                }
+                sum(&|s| x[s] * across[i].0[s] - y[s] * along[i].0[s])
+                    + m_p * (x_p * across[i].1 - y_p * along[i].1)
                     + j_p * tip_slope[i]
             }),
-            inertia: sum(&|p| x[p] * x[p] + y[p] * y[p])
-                + m_p * (x_tip * x_tip + y_tip * y_tip)
-                + j_p,
-            moment: [link(x) + m_p * x_tip, link(y) + m_p * y_tip],
-            tip: [x_tip, y_tip],
+            inertia: if carried {
+                stations.mass + m_p
+            } else {
+                sum(&|s| x[s] * x[s] + y[s] * y[s]) + m_p * (x_p * x_p + y_p * y_p) + j_p
+            },
+            moment: [link(x) + m_p * x_p, link(y) + m_p * y_p],
+            tip: [
+                length * dot(&stations.to_tip, &cos) + scene.hub.radius,
+                length * dot(&stations.to_tip, &sin),
+            ],
         }
     }
 }
 
 /// The whole Gauss rule.
 pub(super) fn rule() -> ([f64; POINTS], [f64; POINTS]) {
-    let mirrored = |p: usize| {
-        if p < POINTS / 2 {
-            HALF_RULE[p]
-        } else {
-            let (xi, weight) = HALF_RULE[POINTS - 1 - p];
-            (1.0 - xi, weight)
-        }
-    };
-    (core::array::from_fn(|p| mirrored(p).0), core::array::from_fn(|p| mirrored(p).1))
+    (gauss_points().map(|(xi, _)| xi), gauss_points().map(|(_, weight)| weight))
 }
 
 /// Legendre polynomials `P₀ … P_{N−1}` of `2ξ − 1`.

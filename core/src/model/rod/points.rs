@@ -2,12 +2,14 @@
 //! scalar of the tick.
 //!
 //! With `φ_p = Σ aₖψₖ(ξ_p)` the position is `r (1, 0) + ∫ (cos φ, sin φ)`, and every integral of
-//! two of them over the mass is a sum over pairs of points with constant weights `W_pq = ∫ρA I_p
-//! I_q dx + m_p I_p(L) I_q(L)`, `I_p` the integrals of the Lagrange polynomials.
+//! two of them over the mass is a sum over pairs of points with constant weights `W_pq = ∫I_p I_q
+//! dm`, the payload included, `I_p` the integrals of the Lagrange polynomials.
 
-use super::{Rod, legendre, rule};
-use crate::hub::HubState;
+use super::varied::VariedLink;
+use super::{LINK_STATIONS, POINTS as FINE, Rod, legendre, rule};
+use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, Scalar, cast, dot};
+use crate::scene::{LinkShape, Scene, Varied};
 
 /// Gauss points: six follow moves that bend by a radian.
 const POINTS: usize = 6;
@@ -24,7 +26,7 @@ const HALF_RULE: [(f64, f64); POINTS / 2] = [
 pub(crate) struct RodPoints<T, const K: usize> {
     /// `W_pq`, `q ≤ p`.
     pairs: [[T; POINTS]; POINTS],
-    /// `∫ρA I_p dx + m_p I_p(L)`.
+    /// `∫I_p dm`, payload included.
     first: [T; POINTS],
     /// `ψₖ` at the points, and at the tip.
     slope: [[T; K]; POINTS],
@@ -34,9 +36,26 @@ pub(crate) struct RodPoints<T, const K: usize> {
     radius: T,
     mass: T,
     gravity: T,
+    direction: GravityDirection<T>,
     alpha: T,
     payload_inertia: T,
+    /// `J_h`, or the carriage's mass.
     hub_inertia: T,
+    /// The hub is a carriage: it moves the clamp across the link and does not turn it.
+    carried: bool,
+    /// Rate of the carrier, rad/s.
+    carrier: T,
+}
+
+/// Motion that the hub gives the link at one instant.
+struct Carrying<T> {
+    /// Rate and acceleration of the turn.
+    rate: T,
+    acceleration: T,
+    /// Acceleration of the clamp, drag and weight included: hub axes.
+    root: [T; 2],
+    /// `g cos χ`.
+    across: T,
 }
 
 /// A shape and its motion at one instant: sine and cosine at the points, `χ̇ = θ̇ + φ̇`, and the
@@ -55,7 +74,7 @@ struct Points<T> {
 /// Loads of the arm on its hub, and its tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Load<T> {
-    /// Hub torque, N m.
+    /// Hub torque, N m, or force on the carriage, N.
     pub torque: T,
     /// Bending moment at the clamp, N m.
     pub moment: T,
@@ -63,14 +82,20 @@ pub(crate) struct Load<T> {
     pub tip: [T; 2],
 }
 
-impl<T: Scalar, const K: usize> RodPoints<T, K> {
-    pub fn new(rod: &Rod<K>) -> Self {
-        let scene = rod.scene();
-        let length = scene.link.length;
-        let at: [(f64, f64); POINTS] = core::array::from_fn(|p| {
-            let (x, weight) = HALF_RULE[p % (POINTS / 2)];
-            (0.5 * (1.0 + if p < POINTS / 2 { x } else { -x }), 0.5 * weight)
-        });
+/// Integrals from the clamp by the values at the points, m, and the modes' slopes there.
+struct Weights<const K: usize> {
+    /// To the stations of the link.
+    link: [[f64; POINTS]; LINK_STATIONS],
+    to_tip: [f64; POINTS],
+    to_payload: [f64; POINTS],
+    slope: [[f64; K]; POINTS],
+}
+
+impl<const K: usize> Weights<K> {
+    /// Of the polynomial through the points.
+    fn uniform(rod: &Rod<K>, offset: f64) -> Self {
+        let length = rod.scene().link.length;
+        let at = places();
         // Of the interpolation through the points: Σ (2j + 1) w_p P_j(ξ_p) ∫₀^ξ P_j.
         let integral = |p: usize, xi: f64| -> f64 {
             let (here, there) =
@@ -83,14 +108,66 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
                 .sum();
             length * at[p].1 * sum
         };
-        let (nodes, weights) = rule();
-        let over_link = |f: &dyn Fn(f64) -> f64| -> f64 {
-            scene.link.mass * nodes.iter().zip(&weights).map(|(&xi, w)| w * f(xi)).sum::<f64>()
+        let end = |p: usize| -> f64 {
+            let here = legendre::<POINTS>(at[p].0);
+            at[p].1 * (0..POINTS).map(|j| (2 * j + 1) as f64 * here[j]).sum::<f64>()
         };
+        let mut link = [[0.0; POINTS]; LINK_STATIONS];
+        for (row, &xi) in link.iter_mut().zip(&rule().0) {
+            *row = core::array::from_fn(|p| integral(p, xi));
+        }
+        let to_tip: [f64; POINTS] = core::array::from_fn(|p| integral(p, 1.0));
+        Self {
+            link,
+            to_tip,
+            to_payload: core::array::from_fn(|p| to_tip[p] + offset * end(p)),
+            slope: at.map(|(xi, _)| rod.slopes_at(xi)),
+        }
+    }
+
+    /// Of the space that a constant and the rod's angles span: the rod's own eight points see in it
+    /// what they see in their own.
+    fn varied(rod: &Rod<K>, shape: &Varied, mass: f64) -> Self {
+        let length = rod.scene().link.length;
+        let link = VariedLink::<{ POINTS - 1 }>::new(shape, mass);
+        let (to_points, from_points) = link.coarse(&places().map(|(xi, _)| xi));
+        let stations = rod.stations();
+        let row = |fine: &[f64; FINE]| -> [f64; POINTS] {
+            core::array::from_fn(|p| {
+                length * (0..FINE).map(|q| fine[q] * from_points[q][p]).sum::<f64>()
+            })
+        };
+        Self {
+            link: stations.running.map(|fine| row(&fine)),
+            to_tip: row(&stations.to_tip),
+            to_payload: row(&stations.to_payload),
+            slope: to_points.map(|at| core::array::from_fn(|k| dot(&at, &rod.slope()[k]))),
+        }
+    }
+}
+
+/// `(ξ, weight)` of the points on 0..1.
+fn places() -> [(f64, f64); POINTS] {
+    core::array::from_fn(|p| {
+        let (x, weight) = HALF_RULE[p % (POINTS / 2)];
+        (0.5 * (1.0 + if p < POINTS / 2 { x } else { -x }), 0.5 * weight)
+    })
+}
+
+impl<T: Scalar, const K: usize> RodPoints<T, K> {
+    pub fn new<S: LinkShape>(scene: &Scene<f64, S>, rod: &Rod<K>) -> Self {
         let payload = scene.payload;
+        let stations = rod.stations();
+        let Weights { link, to_tip, to_payload, slope } = match scene.shape.varied() {
+            None => Weights::uniform(rod, payload.offset),
+            Some(shape) => Weights::varied(rod, shape, scene.link.mass),
+        };
+        let over_link = |g: &dyn Fn(&[f64; POINTS]) -> f64| -> f64 {
+            stations.mass
+                * link.iter().zip(&stations.weights).map(|(row, w)| w * g(row)).sum::<f64>()
+        };
         let pair = |p: usize, q: usize| {
-            over_link(&|xi| integral(p, xi) * integral(q, xi))
-                + payload.mass * integral(p, 1.0) * integral(q, 1.0)
+            over_link(&|row| row[p] * row[q]) + payload.mass * to_payload[p] * to_payload[q]
         };
         let f = T::from_f64;
         Self {
@@ -98,17 +175,20 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
                 core::array::from_fn(|q| if q <= p { f(pair(p, q)) } else { T::ZERO })
             }),
             first: core::array::from_fn(|p| {
-                f(over_link(&|xi| integral(p, xi)) + payload.mass * integral(p, 1.0))
+                f(over_link(&|row| row[p]) + payload.mass * to_payload[p])
             }),
-            slope: at.map(|(xi, _)| cast(&rod.slopes_at(xi))),
+            slope: slope.map(|row| cast(&row)),
             tip_slope: cast(rod.tip_slope()),
-            to_tip: core::array::from_fn(|p| f(integral(p, 1.0))),
+            to_tip: cast(&to_tip),
             radius: f(scene.hub.radius),
-            mass: f(scene.link.mass + payload.mass),
-            gravity: f(scene.gravity),
+            mass: f(stations.mass + payload.mass),
+            gravity: f(scene.in_plane_gravity()),
+            direction: scene.gravity_direction(),
             alpha: f(scene.damping.alpha),
             payload_inertia: f(payload.inertia),
             hub_inertia: f(scene.hub.inertia),
+            carried: scene.mount.is_linear(),
+            carrier: f(scene.mount.carrier),
         }
     }
 
@@ -122,10 +202,11 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         stiffness: &[T; K],
         loss: &[T; K],
     ) -> [T; K] {
-        let points = self.points(a, v, hub);
+        let carrying = self.carrying(hub);
+        let points = self.points(a, v, &carrying);
         let (force, mass) = self.forces(&points);
         let turning = self.payload_inertia
-            * (hub.acceleration + self.alpha * (hub.rate + dot(&self.tip_slope, v)));
+            * (carrying.acceleration + self.alpha * (carrying.rate + dot(&self.tip_slope, v)));
         let right: [T; K] = core::array::from_fn(|i| {
             let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
             for p in 0..POINTS {
@@ -144,14 +225,15 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         acceleration: &[T; K],
         hub: &HubState<T>,
     ) -> Load<T> {
-        let mut points = self.points(a, v, hub);
+        let carrying = self.carrying(hub);
+        let mut points = self.points(a, v, &carrying);
         for p in 0..POINTS {
             points.turn[p] += dot(&self.slope[p], acceleration);
         }
         let (force, _) = self.forces(&points);
-        let spin =
-            dot(&self.tip_slope, acceleration) + self.alpha * (hub.rate + dot(&self.tip_slope, v));
-        let mut moment = self.payload_inertia * (hub.acceleration + spin);
+        let spin = dot(&self.tip_slope, acceleration)
+            + self.alpha * (carrying.rate + dot(&self.tip_slope, v));
+        let mut moment = self.payload_inertia * (carrying.acceleration + spin);
         let mut shear = self.mass * points.root[1];
         let mut tip = [self.radius, T::ZERO];
         for p in 0..POINTS {
@@ -161,7 +243,11 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
             tip[0] += self.to_tip[p] * points.cos[p];
             tip[1] += self.to_tip[p] * points.sin[p];
         }
-        let torque = moment + self.radius * shear + self.hub_inertia * hub.acceleration;
+        let torque = if self.carried {
+            shear + self.hub_inertia * (hub.acceleration + carrying.across)
+        } else {
+            moment + self.radius * shear + self.hub_inertia * hub.acceleration
+        };
         Load { torque, moment, tip }
     }
 
@@ -176,23 +262,39 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         })
     }
 
-    fn points(&self, a: &[T; K], v: &[T; K], hub: &HubState<T>) -> Points<T> {
+    /// The motion of the clamp. `hub.sin` and `hub.cos` are those of θ.
+    #[inline(always)]
+    fn carrying(&self, hub: &HubState<T>) -> Carrying<T> {
+        let (sin, cos) = self.direction.seen_from(hub);
+        let (along, across) = (self.gravity * sin, self.gravity * cos);
+        let pushed = hub.acceleration + self.alpha * hub.rate;
+        if self.carried {
+            let root = [along, across + pushed];
+            return Carrying { rate: T::ZERO, acceleration: T::ZERO, root, across };
+        }
+        let rate = hub.rate + self.carrier;
+        Carrying {
+            rate,
+            acceleration: hub.acceleration,
+            root: [along - self.radius * rate * rate, across + self.radius * pushed],
+            across,
+        }
+    }
+
+    fn points(&self, a: &[T; K], v: &[T; K], carrying: &Carrying<T>) -> Points<T> {
         let mut points = Points {
             sin: [T::ZERO; POINTS],
             cos: [T::ZERO; POINTS],
             spin: [T::ZERO; POINTS],
             turn: [T::ZERO; POINTS],
-            root: [
-                self.gravity * hub.sin - self.radius * hub.rate * hub.rate,
-                self.gravity * hub.cos + self.radius * (hub.acceleration + self.alpha * hub.rate),
-            ],
+            root: carrying.root,
         };
         let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
         for p in 0..POINTS {
             (points.sin[p], points.cos[p]) = (per_radian * dot(&self.slope[p], a)).sin_cos_turns();
-            let rate = hub.rate + dot(&self.slope[p], v);
+            let rate = carrying.rate + dot(&self.slope[p], v);
             points.spin[p] = rate * rate;
-            points.turn[p] = hub.acceleration + self.alpha * rate;
+            points.turn[p] = carrying.acceleration + self.alpha * rate;
         }
         points
     }

@@ -36,8 +36,8 @@ use super::kicks::Kicks;
 use super::oscillator::{check_turns, kick};
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
-use crate::hub::HubState;
-use crate::math::Scalar;
+use crate::hub::{GravityDirection, HubState};
+use crate::math::{Scalar, dot};
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
 
@@ -92,6 +92,9 @@ pub struct Elastica<T, const K: usize> {
     flexibility: f64,
     numerical_damping: NumericalDamping<T, K>,
     kicks: [Kicks<T>; K],
+    gravity: GravityDirection<T>,
+    /// `φ(L)` per unit of `ωa`, rad.
+    tip_slope: [T; K],
 }
 
 /// The arm's state; [`Elastica::arm_state`] says what it means.
@@ -154,11 +157,12 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// [`Rod::bend`]. A smaller range than the least of [`Self::BEND`] is that one: a stiff arm or
     /// a slow move bends by less, and an expansion fitted to nothing would be none. f64 inside.
     pub fn new(rod: &Rod<K>, tick: f64, quality: Quality, bend: f64) -> Result<Self, Error> {
+        rod.scene().check_no_carrier()?;
         let tick = super::check_tick(tick)?;
         let (least, most) = Self::BEND;
         let bend = Error::check("bend", bend, 0.0, most, "rad")?.max(least);
-        let damping = rod.scene().damping;
-        check_turns(rod.frequency(), damping.alpha, damping.beta, tick)?;
+        let alpha = rod.scene().damping.alpha;
+        check_turns(rod.frequency(), alpha, &rod.stiffness_damping(), tick)?;
         let stepper = Self::fitted(rod, tick, quality, bend, bend);
         if !stepper.is_stable_at_rest() {
             let mut shorter = tick;
@@ -183,26 +187,26 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         let scene = rod.scene();
         let range = rod.range(range);
         let expansion = Expansion::fit(rod, &range);
-        let damping = scene.damping;
+        let (alpha, beta) = (scene.damping.alpha, rod.stiffness_damping());
         Self {
             tick,
             quality,
             per_tick: T::from_f64(1.0 / tick),
             quarter: T::from_f64(0.25),
             eighth_tick: T::from_f64(0.125 * tick),
-            alpha: T::from_f64(damping.alpha),
+            alpha: T::from_f64(alpha),
             modes: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                Mode::new(omega, damping.alpha, damping.beta, b, step)
+                Mode::new(omega, alpha, beta[k], b, step)
             }),
             kink: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                let [a, p] = kick::<f64>(omega, damping.alpha, damping.beta, b, tick);
+                let [a, p] = kick::<f64>(omega, alpha, beta[k], b, tick);
                 [omega * a, p].map(T::from_f64)
             }),
             kicks: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
-                Kicks::new(omega, damping.alpha, damping.beta, b, tick)
+                Kicks::new(omega, alpha, beta[k], b, tick)
             }),
             nonlinear: Nonlinear::new(rod, &expansion, &range),
             numerical_damping: NumericalDamping::new(rod, step, &range),
@@ -210,9 +214,13 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
                 let floor = super::sleep_floor::<f64>(scene.link.length, expansion.linear[k].tip);
                 T::from_f64(rod.frequency()[k] * floor)
             }),
+            tip_slope: core::array::from_fn(|k| {
+                T::from_f64(rod.tip_slope()[k] / rod.frequency()[k])
+            }),
             bend,
             sag: rod.bend(0.0),
             flexibility: rod.bend(1.0) - rod.bend(0.0),
+            gravity: scene.gravity_direction(),
         }
     }
 
@@ -239,8 +247,8 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     #[inline(always)]
-    fn feels_gravity(&self) -> bool {
-        self.nonlinear.feels_gravity()
+    fn gravity(&self) -> &GravityDirection<T> {
+        &self.gravity
     }
 
     #[inline(always)]
@@ -301,6 +309,10 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         let torque =
             if M::AT_REST { state.torque } else { state.torque + state.inertia * hub.acceleration };
         Response { torque, tip: self.tip_of(state) }
+    }
+
+    fn tip_angle(&self, state: &ElasticaState<T, K>) -> T {
+        dot(&self.tip_slope, &state.y.map(|y| y[0]))
     }
 
     #[inline(always)]

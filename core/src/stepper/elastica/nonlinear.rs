@@ -6,6 +6,7 @@ use crate::hub::HubState;
 use crate::math::{Scalar, cast};
 use crate::model::rod::monomials::{EVEN, ODD};
 use crate::model::{Expansion, Rod};
+use crate::scene::AxisKind;
 
 /// The expansion in the tick's scalar and in scaled coordinates, gravity multiplied in.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +21,7 @@ pub(super) struct Nonlinear<T, const K: usize> {
     coupling: [T; K],
     inertia_at_rest: T,
     hub_inertia: T,
-    /// `g ∫ρA (X, Y) dx`, payload included.
+    /// `g ∫ρA (X, Y) dx`, payload included; on a carriage `moment_at_rest` is the whole weight.
     moment_at_rest: T,
     moment: (Even<T, K>, Odd<T, K>),
     tip_at_rest: T,
@@ -33,6 +34,8 @@ pub(super) struct Nonlinear<T, const K: usize> {
     drag: [T; K],
     gravity: bool,
     damping: bool,
+    /// The hub turns, so that what holds the arm against gravity depends on its shape.
+    turns: bool,
     /// Keeps the arguments bounded.
     reach: Reach<T, K>,
 }
@@ -73,7 +76,8 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
     pub(super) fn new(rod: &Rod<K>, expansion: &Expansion<K>, range: &[f64; K]) -> Self {
         let f = T::from_f64;
         let (scene, omega) = (rod.scene(), rod.frequency());
-        let g = scene.gravity;
+        let g = scene.in_plane_gravity();
+        let beta = rod.stiffness_damping();
         let (terms, odd) = (&expansion.even, &expansion.odd);
         let even = |of: &dyn Fn(usize) -> f64| Even::new(&EVEN, omega, of);
         let linear = &expansion.linear;
@@ -87,7 +91,10 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
             coupling: cast(&expansion.coupling),
             inertia_at_rest: f(scene.hub.inertia - expansion.e),
             hub_inertia: f(scene.hub.inertia),
-            moment_at_rest: f(g * expansion.moment),
+            moment_at_rest: f(g * match scene.mount.axis {
+                AxisKind::Rotary => expansion.moment,
+                AxisKind::Linear => rod.kinetics(&[0.0; K]).inertia + scene.hub.inertia,
+            }),
             moment: (
                 even(&|n| g * terms[n].moment),
                 Odd::new(&ODD, omega, |k| g * linear[k].moment, |n| g * odd[n].moment),
@@ -98,11 +105,12 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
                 Odd::new(&ODD, omega, |k| linear[k].tip, |n| odd[n].tip),
             ),
             omega: cast(omega),
-            loss: cast(&omega.map(|omega| scene.damping.beta * omega * omega)),
+            loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
             alpha: f(scene.damping.alpha),
             drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
             gravity: g != 0.0,
-            damping: scene.damping.alpha != 0.0 || scene.damping.beta != 0.0,
+            damping: !scene.damping.is_zero(),
+            turns: !scene.mount.is_linear(),
             reach: Reach::new(omega, range),
         }
     }
@@ -111,6 +119,12 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
     #[inline(always)]
     pub(super) fn feels_gravity(&self) -> bool {
         self.gravity
+    }
+
+    /// True if the hub turns.
+    #[inline(always)]
+    pub(super) fn turns(&self) -> bool {
+        self.turns
     }
 
     /// True if there is damping.
@@ -192,13 +206,17 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         Flow { omega, p, v2, u, rate, lightness }
     }
 
-    /// Adds `∂V/∂x` of the weight to the gradient; returns `∂V/∂θ`.
+    /// Adds `∂V/∂x` of the weight to the gradient; returns `∂V/∂θ`, which on a carriage is the same
+    /// in every shape.
     #[inline(always)]
     fn weigh(&self, shape: &Shape<T, K>, hub: &HubState<T>, gradient: &mut [T; K]) -> T {
         let (along, across) = (self.moment.0.at(shape, Order::Second), self.moment.1.slope(shape));
         let twice = hub.sin + hub.sin;
         for k in 0..K {
             gradient[k] += twice * along.half_slope[k] + hub.cos * across[k];
+        }
+        if !self.turns {
+            return hub.cos * self.moment_at_rest;
         }
         hub.cos * (self.moment_at_rest + along.value) - hub.sin * self.moment.1.value(shape)
     }

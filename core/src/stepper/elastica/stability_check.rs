@@ -5,7 +5,7 @@ use crate::hub::HubState;
 use crate::math::Scalar;
 use crate::stepper::{AtRest, Stepper};
 
-/// Sine and cosine of the hub angles that are checked.
+/// Sine and cosine of the angles χ that are checked for a hub that turns.
 const ANGLES: [(f64, f64); 6] =
     [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0), (0.7, 0.7), (-0.7, -0.7)];
 
@@ -23,7 +23,15 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// True if the arm stays where its weight bends it to. The predictor feeds energy to an arm
     /// that bends far while a tick hardly resolves its first mode. Set-up only.
     pub(super) fn is_stable_at_rest(&self) -> bool {
-        !self.feels_gravity() || ANGLES.iter().all(|&angle| self.is_stable_at(angle))
+        if !self.nonlinear.feels_gravity() {
+            return true;
+        }
+        if self.gravity.follows_hub() {
+            return ANGLES.iter().all(|&angle| self.is_stable_at(angle));
+        }
+        let mut hub = HubState::<T>::ZERO;
+        self.gravity.aim(&mut hub);
+        self.is_stable_at((hub.sin.to_f64(), hub.cos.to_f64()))
     }
 
     fn is_stable_at(&self, (sin, cos): (f64, f64)) -> bool {

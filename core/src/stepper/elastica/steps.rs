@@ -109,8 +109,12 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     fn middle(&self, before: &HubState<T>, after: &HubState<T>) -> HubState<T> {
         let between =
             |x: T, x_dot: T, y: T, y_dot: T| T::HALF * (x + y) + self.eighth_tick * (x_dot - y_dot);
+        let rate = self.middle_rate(before, after);
+        if !self.nonlinear.turns() {
+            return HubState { rate, ..*after };
+        }
         HubState {
-            rate: self.middle_rate(before, after),
+            rate,
             sin: between(before.sin, before.cos * before.rate, after.sin, after.cos * after.rate),
             cos: between(
                 before.cos,

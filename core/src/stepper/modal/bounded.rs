@@ -66,8 +66,13 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Refuses a gravity that would feed the modes likewise where the hub rests: one that takes or
     /// gives much of a mode's stiffness while a tick hardly resolves it. Set-up only.
     pub(super) fn admit_gravity(&self, gravity: f64) -> Result<(), Error> {
+        let mut hub = HubState::ZERO;
+        self.gravity.aim(&mut hub);
+        // A carriage has one slope only.
+        let own = [hub.sin.to_f64()];
+        let slopes = if self.gravity.follows_hub() { &SLOPES[..] } else { &own };
         let carries = |share: f64| {
-            SLOPES.iter().all(|slope| self.held(0.0, slope * share, false).stays_bounded(20, 100.0))
+            slopes.iter().all(|slope| self.held(0.0, slope * share, false).stays_bounded(20, 100.0))
         };
         let mut share = 1.0;
         for _ in 0..MOST_TRIES {

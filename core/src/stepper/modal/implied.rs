@@ -6,7 +6,7 @@ use crate::math::{Scalar, clip};
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// The change of the force over a step that agrees with the coordinates it leads to, from that
-    /// at the predicted ones: `(I + S D) e = c`, `S = θ̇²Γ − g sinθ Π`, `D` what a mode moves by
+    /// at the predicted ones: `(I + S D) e = c`, `S = θ̇²Γ − g sinχ Π`, `D` what a mode moves by
     /// for a change of its force by 1.
     ///
     /// Taken at the predicted coordinates the force would feed modes that turn more than half a

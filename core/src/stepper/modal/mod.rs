@@ -11,13 +11,13 @@ use super::oscillator::Oscillator;
 use super::terms::Terms;
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, HalfForm, Scalar, dot};
 use crate::motion::Peaks;
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
 ///
-/// `äᵢ + (α + βωᵢ²)ȧᵢ + ωᵢ²aᵢ = −bᵢ(θ̈ + αθ̇) − θ̇²(Γa)ᵢ + g sinθ (Πa)ᵢ − g cosθ fᵢ`
+/// `äᵢ + (α + βωᵢ²)ȧᵢ + ωᵢ²aᵢ = −bᵢ(θ̈ + αθ̇) − θ̇²(Γa)ᵢ + g sinχ (Πa)ᵢ − g cosχ fᵢ`
 ///
 /// with `Γ = ΦᵀGΦ`, `Π = ΦᵀK_PΦ`, `b = ΦᵀF`, `f = Φᵀf_g`. Exact for any tick where the right-hand
 /// side's last three terms, the force, vanish and `θ̈` is a parabola; the force is taken along as a
@@ -66,6 +66,9 @@ pub struct Modal<T, const K: usize> {
     /// rad/s.
     fastest: T,
     kicks: [Kicks<T>; K],
+    gravity: GravityDirection<T>,
+    /// `φ(L)` per unit of `ωa`, rad.
+    tip_slope: [T; K],
 }
 
 /// Modal coordinates and their rates, times the frequencies.
@@ -90,7 +93,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         self
     }
 
-    /// `(−θ̇²Γa + g sinθ Πa − g cosθ f, Γa)`, over `ω`.
+    /// `(−θ̇²Γa + g sinχ Πa − g cosχ f, Γa)`, over `ω`.
     #[inline(always)]
     fn force(&self, a: &[T; K], hub: &HubState<T>) -> [[T; K]; 2] {
         let (mut force, mut softening) = ([T::ZERO; K], [T::ZERO; K]);
@@ -108,7 +111,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         [force, softening]
     }
 
-    /// `g sinθ Πa − g cosθ f`, over `ω`.
+    /// `g sinχ Πa − g cosχ f`, over `ω`.
     #[inline(always)]
     fn hanging(&self, a: &[T; K], hub: &HubState<T>) -> [T; K] {
         let mut force = self.tension.times(a);
@@ -130,13 +133,13 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     }
 
     #[inline(always)]
-    fn feels_gravity(&self) -> bool {
-        self.terms.gravity
+    fn gravity(&self) -> &GravityDirection<T> {
+        &self.gravity
     }
 
     #[inline(always)]
     fn is_linear_fast(&self, rate: T) -> bool {
-        let Terms { spin, gravity, damping } = self.terms;
+        let Terms { spin, gravity, damping, .. } = self.terms;
         !gravity && !damping && (!spin || rate <= self.fastest)
     }
 
@@ -171,8 +174,8 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         }
     }
 
-    /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosθ S − g sinθ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ
-    /// − ½ g cosθ aᵀΠa` with `u = θ̈ + αθ̇`; tip `(r + L − ½ aᵀΦᵀSΦa, ψ(L)ᵀa)`.
+    /// `τ = J_h θ̈ + (J_r − bᵀb)u + bᵀ(ä + bu + αȧ) + g cosχ S − g sinχ fᵀa − u aᵀΓa − 2θ̇ aᵀΓȧ
+    /// − ½ g cosχ aᵀΠa` with `u = θ̈ + αθ̇`; tip `(r + L − ½ aᵀΦᵀSΦa, ψ(L)ᵀa)`.
     #[inline(always)]
     fn response<M: HubMotion>(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> Response<T> {
         let mut u = if M::AT_REST { T::ZERO } else { hub.acceleration };
@@ -193,6 +196,10 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
+    }
+
+    fn tip_angle(&self, state: &ModalState<T, K>) -> T {
+        dot(&self.tip_slope, &state.coordinate)
     }
 
     #[inline(always)]

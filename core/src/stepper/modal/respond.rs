@@ -27,9 +27,13 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         dot(&state.softening, &arm)
     }
 
-    /// `g cosθ S − g sinθ fᵀa − ½ g cosθ aᵀΠa`.
+    /// `g cosχ S − g sinχ fᵀa − ½ g cosχ aᵀΠa` on a hub that turns; on a carriage, where the weight
+    /// is the same in every shape, `g cosχ S`.
     #[inline(always)]
     pub(super) fn weight_torque(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> T {
+        if !self.terms.turns {
+            return hub.cos * self.moment;
+        }
         let a = &state.coordinate;
         hub.cos * (self.moment - self.bent.at(a)) - hub.sin * dot(&self.weight, a)
     }

@@ -21,10 +21,17 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         }
         let tick = check_tick(tick)?;
         let scene = model.scene();
-        let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
+        scene.check_no_carrier()?;
+        let (alpha, gravity) = (scene.damping.alpha, scene.in_plane_gravity());
         let modes = Modes::of(model);
         let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);
-        check_turns(&omega, alpha, beta, tick)?;
+        // The joint's own damping by the mode's share in its strain energy.
+        let joint = model.joint_damping();
+        let beta: [f64; K] = core::array::from_fn(|k| {
+            let shape = modes.shape[k].map(|x| x / omega[k]);
+            scene.damping.beta + dot(&shape, &joint.times(&shape))
+        });
+        check_turns(&omega, alpha, &beta, tick)?;
         let shape: [[f64; N]; K] = core::array::from_fn(|k| modes.shape[k].map(|x| x / omega[k]));
         let onto = |load: &[f64; N]| -> [f64; K] { shape.map(|shape| dot(&shape, load)) };
         let between =
@@ -32,12 +39,12 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let rest = onto(model.coupling());
         let coupling: [f64; K] = core::array::from_fn(|k| rest[k] * omega[k]);
         let support: [f64; K] = core::array::from_fn(|k| coupling[k] * omega[k]);
-        let residual = scene.rigid_inertia() - dot(&coupling, &coupling);
+        let residual = model.rigid_inertia() - dot(&coupling, &coupling);
         let tension = between(&model.tension().scaled(gravity));
         let spin: Band<T, K, K> = between(model.spin());
         let modal = Self {
             modes: core::array::from_fn(|k| {
-                Oscillator::new(omega[k], alpha, beta, support[k], tick)
+                Oscillator::new(omega[k], alpha, beta[k], support[k], tick)
                     .forced_by(omega[k] * omega[k])
             }),
             rest: cast(&rest),
@@ -50,24 +57,26 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             inertia: T::from_f64(scene.hub.inertia + residual),
             terms: Terms::of(scene),
             per_tick: T::from_f64(1.0 / tick),
-            kink: core::array::from_fn(|k| kick(omega[k], alpha, beta, support[k], tick)),
+            kink: core::array::from_fn(|k| kick(omega[k], alpha, beta[k], support[k], tick)),
             kicks: core::array::from_fn(|k| {
-                Kicks::new(omega[k], alpha, beta, coupling[k], tick).rates_by(omega[k])
+                Kicks::new(omega[k], alpha, beta[k], coupling[k], tick).rates_by(omega[k])
             }),
             alpha: T::from_f64(alpha),
             drag: T::from_f64(alpha * residual),
-            loss: cast(&support.map(|b| beta * b)),
+            loss: core::array::from_fn(|k| T::from_f64(beta[k] * support[k])),
             tension,
             bent: tension.half_form(),
             weight: cast(&onto(model.weight()).map(|f| gravity * f)),
-            moment: T::from_f64(gravity * scene.first_moment()),
+            moment: T::from_f64(gravity * model.first_moment()),
             awake: core::array::from_fn(|k| {
                 settled_weights(omega[k], sleep_floor(scene.link.length, shape[k][model.tip()]))
             }),
             tick,
+            tip_slope: core::array::from_fn(|k| T::from_f64(dot(&shape[k], model.tip_slope()))),
             most: T::from_f64(
                 MOST_GRAVITY_CHANGE * scene.link.length / shape[0][model.tip()].abs(),
             ),
+            gravity: scene.gravity_direction(),
         };
         modal.bounded(&omega, gravity)
     }

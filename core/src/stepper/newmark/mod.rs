@@ -4,7 +4,7 @@
 //! alone. In the hub frame the whole velocity is `v = q̇ + bθ̇`, with `b = M⁻¹F` the rigid turn as
 //! the mass sees it, so that
 //!
-//! `M v̇ = −αM v − βK q̇ − [K + θ̇²G − g sinθ K_P] q − g cosθ f_g`,  `q̇ = v − bθ̇`.
+//! `M v̇ = −αM v − βK q̇ − [K + θ̇²G − g sinχ K_P] q − g cosχ f_g`,  `q̇ = v − bθ̇`.
 //!
 //! The commanded acceleration is gone: it may jump anywhere, inside a tick too, and the step stays
 //! of second order without solving anew from the right-hand value. (It is the same scheme: with
@@ -31,7 +31,7 @@ mod solve;
 use super::terms::Terms;
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
-use crate::hub::HubState;
+use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, HalfForm, Ldl, Scalar, dot};
 use crate::model::Model;
 use crate::motion::Peaks;
@@ -93,6 +93,9 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     moment: T,
     /// Largest `c`, see [`super::MOST_GRAVITY_CHANGE`].
     most: T,
+    gravity: GravityDirection<T>,
+    /// `φ(L)` per unit of `q`.
+    tip_slope: [T; N],
 }
 
 /// The arm's state. Of banded matrices in m and slopes, of full ones along the principal axes.
@@ -156,8 +159,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     }
 
     #[inline(always)]
-    fn feels_gravity(&self) -> bool {
-        self.terms.gravity
+    fn gravity(&self) -> &GravityDirection<T> {
+        &self.gravity
     }
 
     #[inline(always)]
@@ -213,6 +216,10 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
         *state = Self::correct(q, d, restoring);
     }
 
+    fn tip_angle(&self, state: &NewmarkState<T, N>) -> T {
+        dot(&self.tip_slope, &state.deflection)
+    }
+
     /// Does nothing: the step takes the hub's rates only, which say what a jump inside the tick
     /// gives `v`. Where in the tick it jumps moves `q` by at most `⅛(ωh)²` of what the jump bends
     /// it by: no more than the rule's own period error, `(ωh)²/12` a radian, makes of it within a
@@ -229,8 +236,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
             < T::ONE
     }
 
-    /// `τ = J_h θ̈ + (J_r − Fᵀb)θ̈ + αJ_r θ̇ + Fᵀ(v̇ + αq̇) + g cosθ S − g sinθ f_gᵀq
-    /// − (θ̈ + αθ̇) qᵀGq − 2θ̇ qᵀGq̇ − ½ g cosθ qᵀK_P q`, of second order in `q`;
+    /// `τ = J_h θ̈ + (J_r − Fᵀb)θ̈ + αJ_r θ̇ + Fᵀ(v̇ + αq̇) + g cosχ S − g sinχ f_gᵀq
+    /// − (θ̈ + αθ̇) qᵀGq − 2θ̇ qᵀGq̇ − ½ g cosχ qᵀK_P q`, of second order in `q`;
     /// tip `(r + L − ½ qᵀSq, w(L))`.
     #[inline(always)]
     fn response<M: HubMotion>(&self, state: &NewmarkState<T, N>, hub: &HubState<T>) -> Response<T> {

@@ -23,9 +23,13 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         dot(&self.spun(q), &arm)
     }
 
-    /// `g cosθ S − g sinθ f_gᵀq − ½ g cosθ qᵀK_P q`.
+    /// `g cosχ S − g sinχ f_gᵀq − ½ g cosχ qᵀK_P q` on a hub that turns; on a carriage, where the
+    /// weight is the same in every shape, `g cosχ S`.
     #[inline(never)]
     pub(super) fn weight_torque(&self, state: &NewmarkState<T, N>, hub: &HubState<T>) -> T {
+        if !self.terms.turns {
+            return hub.cos * self.moment;
+        }
         let q = &state.deflection;
         hub.cos * (self.moment - self.bent.at(q)) - hub.sin * dot(&self.weight, q)
     }

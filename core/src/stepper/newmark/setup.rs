@@ -4,7 +4,7 @@ use super::Newmark;
 use crate::Error;
 use crate::math::{Band, Ldl, Scalar, cast, dot, principal_axes, root, round};
 use crate::model::Model;
-use crate::scene::Scene;
+use crate::scene::{Scene, Uniform};
 use crate::stepper::terms::Terms;
 use crate::stepper::{MOST_GRAVITY_CHANGE, SLEEP, check_tick};
 
@@ -30,15 +30,20 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     pub(super) fn set_up<P: Scalar>(model: &Model<N, W, P>, tick: f64) -> Result<Self, Error> {
         let tick = check_tick(tick)?;
         let scene = model.scene();
+        scene.check_no_carrier()?;
         Self::check_payload(scene)?;
-        let (alpha, beta, gravity) = (scene.damping.alpha, scene.damping.beta, scene.gravity);
+        let (alpha, beta) = (scene.damping.alpha, scene.damping.beta);
+        let gravity = scene.in_plane_gravity();
         let half = P::from_f64(0.5 * tick);
         let per_half = P::ONE / half;
         let principal = Self::axes(model);
         let band = |a: &Band<P, N, W>| if Self::PRINCIPAL { a.onto(&principal) } else { *a };
         let vector = |v: &[P; N]| onto(&principal, v);
         let (mass, stiffness) = (band(model.mass()), band(model.stiffness()));
-        let damping = mass.scaled(per_half * alpha).plus(per_half * beta, &stiffness);
+        let damping = mass
+            .scaled(per_half * alpha)
+            .plus(per_half * beta, &stiffness)
+            .plus(per_half, &band(&model.joint_damping()));
         let margin = if Self::PRINCIPAL { 0.0 } else { MARGIN * N as f64 * T::EPSILON.to_f64() };
         let stiffer = P::ONE + P::from_f64(margin);
         let effective = damping.plus(per_half * per_half, &mass).plus(stiffer, &stiffness);
@@ -47,7 +52,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         let tension = band(model.tension()).scaled(gravity);
         let coupling = vector(model.coupling());
         let turn = inertia.solve(&coupling);
-        let residual = scene.rigid_inertia() - dot(&coupling, &turn);
+        let residual = model.rigid_inertia() - dot(&coupling, &turn);
         let scaled = |scale: P| cast(&coupling.map(|f| scale * f));
         let tip: [P; N] = principal.map(|axis| axis[model.tip()]);
         // The shape that turning bends the arm to.
@@ -75,17 +80,19 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             drag: scaled(alpha),
             drag_torque: scaled(per_half * alpha),
             alpha: round(alpha),
-            rigid_drag: round(alpha * scene.rigid_inertia()),
+            rigid_drag: round(alpha * model.rigid_inertia()),
             tension: tension.map(round),
             bent: tension.map(round).half_form(),
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
-            moment: round(gravity * scene.first_moment()),
+            moment: round(gravity * model.first_moment()),
             most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length.to_f64()),
+            gravity: scene.gravity_direction(),
+            tip_slope: cast(&vector(model.tip_slope())),
         })
     }
 
     /// Refuses a payload beyond [`HEAVIEST`].
-    fn check_payload<P: Scalar>(scene: &Scene<P>) -> Result<(), Error> {
+    fn check_payload<P: Scalar>(scene: &Scene<P, Uniform>) -> Result<(), Error> {
         if !Self::PRINCIPAL {
             return Ok(());
         }

@@ -69,8 +69,8 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         }
     }
 
-    /// `c` from `[4/h² M + 2/h C + K_t] c = K_t q + 2/h C d + αFθ̇ + g cosθ f_g`, with
-    /// `K_t = K + θ̇²G − g sinθ K_P`; the factors of set-up serve while `K_t` is `K`.
+    /// `c` from `[4/h² M + 2/h C + K_t] c = K_t q + 2/h C d + αFθ̇ + g cosχ f_g`, with
+    /// `K_t = K + θ̇²G − g sinχ K_P`; the factors of set-up serve while `K_t` is `K`.
     #[inline(always)]
     pub(super) fn solve<M: HubMotion>(&self, q: &[T; N], d: &[T; N], hub: &HubState<T>) -> [T; N] {
         let mut force = self.stiff(q);
@@ -105,7 +105,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         }
     }
 
-    /// `[E + A] c = f + A q + g cosθ f_g`, `A` being `change`.
+    /// `[E + A] c = f + A q + g cosχ f_g`, `A` being `change`.
     #[inline(never)]
     pub(super) fn solve_hanging(
         &self,

@@ -3,7 +3,7 @@
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
-use stillbeam::{Error, Payload, PlanContext, PlannedMove, Scene};
+use stillbeam::{Error, Payload, PlanContext, PlannedMove, UniformScene};
 use stillbeam_protocol::Refusal;
 use stillbeam_wiring::Work;
 use stillbeam_wiring::axes::{self, AXES};
@@ -82,7 +82,7 @@ fn follow(
 /// Sets the arm with another payload up and puts it in the place of the old one.
 fn reload(axis: usize, payload: Payload) -> Outcome<u32> {
     let scene = scene(axis)?;
-    let changed = Scene { payload, ..scene };
+    let changed = UniformScene { payload, ..scene };
     let stepper = axes::stepper(&changed)?;
     on(axis, |joint| joint.replace(changed, stepper))
 }

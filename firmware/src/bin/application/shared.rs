@@ -5,7 +5,7 @@ use core::cell::RefCell;
 
 use embassy_sync::blocking_mutex::CriticalSectionMutex;
 use heapless::Vec;
-use stillbeam::{Error, Scene};
+use stillbeam::{Error, UniformScene};
 use stillbeam_protocol::Refusal;
 use stillbeam_wiring::Configuration;
 use stillbeam_wiring::axes::{self, AXES, CONFIGURATIONS, Joint};
@@ -94,6 +94,6 @@ pub fn on(axis: usize, change: impl FnOnce(&mut Joint) -> Outcome<()>) -> Outcom
 }
 
 /// The arm as it is now.
-pub fn scene(axis: usize) -> Outcome<Scene> {
+pub fn scene(axis: usize) -> Outcome<UniformScene> {
     with(|s| s.joints.get(axis).map(|joint| joint.scene)).ok_or(Refusal::Axis(AXES as u8))
 }

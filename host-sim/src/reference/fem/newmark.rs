@@ -6,6 +6,7 @@ use stillbeam::hub::HubState;
 use super::block::Chain;
 use super::model::Model;
 use super::node::{Change, Deformation, Node};
+use crate::reference::carrying::from_outside;
 use crate::reference::{ReferenceError, Sample};
 
 /// Newton steps that are allowed for an equilibrium.
@@ -52,7 +53,8 @@ impl March {
             if self.equilibrate(&still, &change, 0.0).is_err() {
                 return Err(unstable);
             }
-            if !self.tangent.is_positive_definite(1) {
+            self.model.hold(&mut self.residual, &mut self.tangent);
+            if !self.tangent.is_positive_definite(self.model.first()) {
                 return Err(unstable);
             }
             std::mem::swap(&mut self.state, &mut self.next);
@@ -66,7 +68,8 @@ impl March {
     pub fn restart(&mut self, hub: &HubState<f64>, time: f64) -> Result<(), ReferenceError> {
         self.next.clone_from(&self.state);
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
-        self.equilibrate(hub, &change, time)?;
+        let hub = from_outside(&self.model.scene, hub, time);
+        self.equilibrate(&hub, &change, time)?;
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
     }
@@ -75,14 +78,15 @@ impl March {
     /// = u + h u̇ + ¼h²(ü + ü⁺)`, `u̇⁺ = u̇ + ½h(ü + ü⁺)` (δ = 1/2, β = 1/4), iterated to
     /// equilibrium.
     pub fn step(&mut self, hub: &HubState<f64>, time: f64, h: f64) -> Result<(), ReferenceError> {
-        for i in 1..self.nodes.len() {
+        for i in self.model.first()..self.nodes.len() {
             let (u, v, a) = (self.state.u[i], self.state.v[i], self.state.a[i]);
             self.next.u[i] = u + h * v + 0.5 * h * h * a;
             self.next.v[i] = v + h * a;
             self.next.a[i] = a;
         }
         let change = Change { displacement: 1.0, rate: 2.0 / h, acceleration: 4.0 / (h * h) };
-        self.equilibrate(hub, &change, time)?;
+        let hub = from_outside(&self.model.scene, hub, time);
+        self.equilibrate(&hub, &change, time)?;
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
     }
@@ -106,10 +110,12 @@ impl March {
                 return Ok(());
             }
             before = size;
-            if self.tangent.solve(1, &mut self.residual).is_none() {
+            let first = self.model.first();
+            self.model.hold(&mut self.residual, &mut self.tangent);
+            if self.tangent.solve(first, &mut self.residual).is_none() {
                 break;
             }
-            for i in 1..self.nodes.len() {
+            for i in first..self.nodes.len() {
                 let delta = self.residual[i];
                 self.next.u[i] -= change.displacement * delta;
                 self.next.v[i] -= change.rate * delta;
@@ -123,16 +129,19 @@ impl March {
     /// Returns the present state of the arm, its hub as given.
     pub fn sample(&mut self, t: f64, hub: &HubState<f64>) -> Sample {
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
-        self.model.place(hub, &self.state, &mut self.nodes);
+        let outside = from_outside(&self.model.scene, hub, t);
+        self.model.place(&outside, &self.state, &mut self.nodes);
         self.model.residual(&self.nodes, &change, &mut self.residual, &mut self.tangent);
-        let tip = self.nodes[self.nodes.len() - 1].q;
+        let end = &self.nodes[self.nodes.len() - 1];
+        let (tip, payload) = (end.q, self.model.payload(end));
         Sample {
             t,
             angle: hub.angle.radians(),
             rate: hub.rate,
             acceleration: hub.acceleration,
-            tip: [tip.x, tip.y],
-            deflection: tip.y * hub.cos - tip.x * hub.sin,
+            tip: self.model.on_carrier([tip.x, tip.y], t),
+            payload: self.model.on_carrier(payload, t),
+            deflection: self.model.deflection(&tip, &outside),
             torque: self.model.torque(&self.residual[0], &self.nodes[0], hub),
         }
     }

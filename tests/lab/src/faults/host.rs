@@ -78,7 +78,7 @@ fn payload(rng: &mut StdRng) -> Payload {
         2 => 1e5,
         _ => rng.random_range(0.0..0.1),
     };
-    Payload { mass: value(rng), inertia: 1e-3 * value(rng) }
+    Payload { mass: value(rng), inertia: 1e-3 * value(rng), offset: 0.0 }
 }
 
 /// Draws a number of any bits, one of [`EDGES`], or one from −10 to 10.
@@ -98,7 +98,7 @@ fn nonsense(rng: &mut StdRng) -> Command {
         1 => Command::Move(Move::SpinUp { duration: any(rng), rate: any(rng) }),
         2 => Command::Move(Move::Dwell { duration: any(rng) }),
         3 => Command::Home(any(rng)),
-        4 => Command::Payload(Payload { mass: any(rng), inertia: any(rng) }),
+        4 => Command::Payload(Payload { mass: any(rng), inertia: any(rng), offset: any(rng) }),
         6 => Command::Still { to: any(rng), duration: Some(any(rng)) },
         5 => Command::Move(Move::Still {
             duration: any(rng),

@@ -8,7 +8,7 @@ use crate::stress::growth::grows;
 use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::run::each_tick;
-use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::scene_file::{Deduced, SceneFile};
 use stillbeam_sim::solver::{Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
@@ -66,8 +66,8 @@ const COMPARED: f64 = 60.0;
 /// L, and that first frequency in rad/s.
 pub fn arm(omega: f64) -> Result<Scene, Error> {
     let unit = Scene {
-        hub: Hub { radius: 0.1 * LENGTH, inertia: 0.0 },
-        payload: Payload { mass: 0.05, inertia: 0.0 },
+        hub: Hub { radius: 0.1 * LENGTH, inertia: 0.0, stiffness: None },
+        payload: Payload { mass: 0.05, inertia: 0.0, offset: 0.0 },
         ..Scene::new(Link { length: LENGTH, mass: 0.05, bending_stiffness: 1.0 })
     };
     let model = stillbeam::model::EightElements::consistent(&unit)?;
@@ -98,6 +98,7 @@ pub fn scene(arm: &Scene, omega: f64, tick: f64, task: Task, after: f64) -> Scen
         moves: vec![Step { motion, settle: after * tick }],
         limits: Limits::default(),
         solver: SolverKeys::default(),
+        deduced: Deduced::default(),
         remarks: Vec::new(),
     }
 }

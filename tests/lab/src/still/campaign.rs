@@ -6,9 +6,10 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::model::Rod;
 use stillbeam::planner::{Kinematics, Planner, Request, StillMove, Target};
+use stillbeam::scene::Varied;
 use stillbeam::stepper::{ArmState, Elastica, Quality};
 use stillbeam::{
-    Damping, Error as CoreError, Generator, Hub, Limits, Link, Move, Payload, Profile, Scene,
+    Damping, Error as CoreError, Generator, Hub, Limits, Link, Mount, Move, Payload, Profile, Scene,
 };
 
 use crate::campaign;
@@ -33,16 +34,20 @@ fn arm(rng: &mut StdRng) -> Scene {
     let sag = moved * 9.81 * length * length / (3.0 * bending_stiffness);
     Scene {
         link: Link { length, mass, bending_stiffness },
-        hub: Hub { radius: length * rng.random_range(0.0..0.3), inertia: 0.0 },
+        shape: Varied::UNIFORM,
+        hub: Hub { radius: length * rng.random_range(0.0..0.3), ..Hub::default() },
         payload: Payload {
             mass: payload * mass,
             inertia: mass * length * length * rng.random_range(0.0..0.02),
+            offset: 0.0,
         },
         damping: Damping {
             alpha: damped * rng.random_range(0.0..1.0),
             beta: damped * period * rng.random_range(0.0..0.01),
+            joint: 0.0,
         },
         gravity: if upright { 9.81 * f64::min(1.0, 0.05 / sag) } else { 0.0 },
+        mount: Mount::ROTARY,
     }
 }
 

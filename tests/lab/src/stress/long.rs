@@ -45,9 +45,9 @@ pub struct Shuttle {
 /// Returns a damped arm: 0.4 m of acrylic-like strip with 30 g, first period 0.4 s.
 fn arm() -> Scene {
     Scene {
-        hub: Hub { radius: 0.04, inertia: 1e-4 },
-        payload: Payload { mass: 0.030, inertia: 1e-5 },
-        damping: Damping { alpha: 0.3, beta: 1e-3 },
+        hub: Hub { radius: 0.04, inertia: 1e-4, stiffness: None },
+        payload: Payload { mass: 0.030, inertia: 1e-5, offset: 0.0 },
+        damping: Damping { alpha: 0.3, beta: 1e-3, joint: 0.0 },
         ..Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.26 })
     }
 }

@@ -1,0 +1,67 @@
+//! The method that `auto` takes for a scene's moves, and why.
+
+use serde::Serialize;
+use stillbeam::select::{Assessment, Choice, Rung};
+
+use crate::dispatch;
+use crate::error::Error;
+use crate::scene_file::SceneFile;
+use crate::solver::{Method, Solver};
+use crate::table::significant;
+
+/// A choice of `auto` and its reason.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MethodReport {
+    /// The method with its options, e.g. `elastica, 2 modes, fast`.
+    pub name: String,
+    /// Largest error of the tip to expect, fraction of L.
+    pub tip_error: f64,
+    /// Largest error of the torque to expect, fraction of its peak.
+    pub torque_error: f64,
+    /// The reason, in a sentence.
+    pub why: String,
+}
+
+/// Chooses as `auto` does and gives the reason: the errors of the next cheaper method.
+pub fn advise(scene: &SceneFile) -> Result<MethodReport, Error> {
+    let solver = Solver { method: Method::Auto, ..scene.solver.resolve()? };
+    let (tip, torque) = (100.0 * solver.tolerance, 100.0 * solver.torque_tolerance);
+    let limits = format!("{tip} % of L and {torque} % of the torque\u{2019}s peak");
+    match dispatch::choose(scene, &solver)? {
+        Ok(choice) => Ok(report(&choice, kept(scene, &solver, &choice, &limits))),
+        Err(none) => match none.nearest {
+            Some(nearest) => {
+                let why = format!("none keeps {limits}, this one comes nearest");
+                Ok(report(&nearest, why))
+            }
+            None => Err(none.error.into()),
+        },
+    }
+}
+
+fn report(choice: &Choice, why: String) -> MethodReport {
+    MethodReport {
+        name: choice.rung.to_string(),
+        tip_error: choice.expected.tip,
+        torque_error: choice.expected.torque,
+        why,
+    }
+}
+
+/// Returns the reason for a choice that keeps the tolerances.
+fn kept(scene: &SceneFile, solver: &Solver, choice: &Choice, limits: &str) -> String {
+    let ladder = Rung::ladder(&scene.arm);
+    let place = ladder.iter().position(|rung| *rung == choice.rung).unwrap_or(0);
+    let Some(cheaper) = place.checked_sub(1).map(|below| ladder[below]) else {
+        return format!("the cheapest of all keeps {limits}");
+    };
+    let other = match dispatch::assess_rung(scene, solver, cheaper, choice.bend) {
+        Ok(Assessment { tip, torque, .. }) if tip.is_finite() => format!(
+            "{cheaper} would err by {} % and {} %",
+            significant(100.0 * tip, 2),
+            significant(100.0 * torque, 2)
+        ),
+        _ => format!("{cheaper} cannot follow"),
+    };
+    format!("the cheapest that keeps {limits}; {other}")
+}

@@ -1,0 +1,9 @@
+//! What a scene's arm is: masses, frequencies, damping, sag, what the tick resolves, and the method
+//! that `auto` takes.
+
+mod method;
+pub mod natural;
+mod report;
+
+pub use method::{MethodReport, advise};
+pub use report::{ArmReport, describe};

@@ -1,0 +1,288 @@
+//! Arms on a linear axis: the two references and the methods against each other, tables and refusals
+//! in metres.
+
+use stillbeam_sim::compare::{Comparison, compare};
+use stillbeam_sim::reference::{fem, rod};
+use stillbeam_sim::run::run;
+use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::solver::{Method, Quality, Scalar, Solver};
+use stillbeam_sim::table;
+use stillbeam_sim::truth::{self, Reference};
+use stillbeam_tests::features::featured;
+
+/// Member D on a carriage that moves by 0.5 m in 0.6 s, and what is put before and after that.
+fn scene(head: &str, motion: &str) -> SceneFile {
+    SceneFile::parse("carriage", &text(head, motion)).expect("a scene")
+}
+
+fn text(head: &str, motion: &str) -> String {
+    let motion = if motion.is_empty() {
+        "profile = \"cubic\"\nduration = 0.6\nto = 0.5\nsettle = 0.2\n"
+    } else {
+        motion
+    };
+    format!(
+        "axis = \"linear\"\nhub.mass = 0.3\n{head}\n[link]\nlength = 0.4\nmass = 0.0224\n\
+         bending_stiffness = 0.46\n[move]\n{motion}"
+    )
+}
+
+const HEAVY: &str = "payload = { mass = 0.03, inertia = 1e-5 }\n";
+const LIFTED: &str = "gravity.acceleration = 9.81\npayload.mass = 0.03\n";
+const HANGING: &str = "gravity = { acceleration = 9.81, direction = 1.2 }\npayload.mass = 0.03\n";
+
+/// Largest distance of the tips, of L, and difference of the forces, of the peak.
+fn against_rod(scene: &SceneFile, solver: &Solver) -> Comparison {
+    let rows = run(scene, solver).expect("a run");
+    let trajectory = scene.trajectory(solver.tick).expect("a motion");
+    let times = truth::times(&trajectory, solver.tick);
+    let rod = truth::solve(Reference::Rod, scene, &trajectory, &times, &|_| ()).expect("the rod");
+    compare(&rows, &rod, scene).expect("common times")
+}
+
+/// The two references share no method: the one follows shapes in the frame of the carriage, the
+/// other nodes in the global frame. Measured: see beside.
+#[test]
+fn both_references_agree_on_a_carriage() {
+    for head in ["", HEAVY, LIFTED, HANGING] {
+        let scene = scene(head, "");
+        let trajectory = scene.trajectory(0.01).expect("a motion");
+        let times = truth::times(&trajectory, 0.02);
+        let rod = rod::solve(&scene.arm, &trajectory, &times, &rod::Options::default());
+        let fem = fem::solve(&scene.arm, &trajectory, &times, &fem::Options::default());
+        let (rod, fem) = (rod.expect("the rod"), fem.expect("the elements"));
+        let peak = rod.iter().map(|sample| sample.torque.abs()).fold(0.0, f64::max);
+        for (a, b) in rod.iter().zip(&fem) {
+            let apart = (a.tip[0] - b.tip[0]).hypot(a.tip[1] - b.tip[1]) / 0.4;
+            assert!(apart < 2e-4, "{head}: {apart} of L at {} s", a.t);
+            let force = (a.torque - b.torque).abs() / peak;
+            assert!(force < 0.01, "{head}: {force} of the peak at {} s", a.t);
+        }
+    }
+}
+
+/// On a vertical axis, behind an input shaper.
+const SHAPED: &str = "gravity.acceleration = 9.81\npayload.mass = 0.03\nshaper.kind = \"zv\"\n";
+
+#[test]
+fn elastica_follows_the_rod_on_a_carriage() {
+    for head in ["", HEAVY, LIFTED, HANGING, SHAPED] {
+        let solver = Solver {
+            method: Method::Elastica,
+            modes: 2,
+            quality: Quality::Fine,
+            scalar: Scalar::F32,
+            ..Solver::PAPER
+        };
+        let found = against_rod(&scene(head, ""), &solver);
+        println!("{head:?}: {:.1e} of L, {:.1e} of the force", found.tip_max, found.torque);
+        assert!(found.tip_max < 2e-4, "{head}: {} of L", found.tip_max);
+        assert!(found.torque < 0.01, "{head}: {} of the force", found.torque);
+    }
+}
+
+#[test]
+fn small_deflections_follow_the_rod_on_a_carriage() {
+    for head in ["", LIFTED, HANGING] {
+        for (method, tip) in [(Method::Newmark, 0.02), (Method::Modal, 0.01)] {
+            let solver = Solver { method, elements: 4, tick: 0.002, ..Solver::PAPER };
+            let found = against_rod(&scene(head, ""), &solver);
+            println!("{head:?} {method:?}: {:.1e} of L, {:.1e}", found.tip_max, found.torque);
+            assert!(found.tip_max < tip, "{head} {method:?}: {} of L", found.tip_max);
+        }
+    }
+}
+
+/// A still move on a carriage, judged by the rod: 0.02 % of L.
+#[test]
+fn a_still_move_on_a_carriage_arrives_still() {
+    for head in ["", HEAVY, LIFTED, HANGING] {
+        let arm = scene(head, "").arm;
+        let duration = 2.0 * rod::first_period(&arm).expect("a period");
+        let motion =
+            format!("profile = \"still\"\nduration = {duration}\nto = 0.3\nsettle = 0.2\n");
+        let scene = scene(head, &motion);
+        let trajectory = scene.trajectory(0.01).expect("a motion");
+        let times = truth::times(&trajectory, 0.002);
+        let rows =
+            truth::solve(Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("the rod");
+        let left = stillbeam_sim::compare::residual(&rows, &scene, 0.01).expect("a rest");
+        let left = left.value().expect("at rest");
+        println!("{head:?}: {:.5} % of L", 100.0 * left);
+        assert!(left < 2e-4, "{head}: {left} of L");
+    }
+}
+
+#[test]
+fn a_carriage_writes_metres_and_newtons() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("carriage.csv");
+    let scene = scene("", "");
+    let rows = run(&scene, &Solver::PAPER).expect("a run");
+    table::write(&path, scene.arm.mount.axis, &rows).expect("a table");
+    let header = std::fs::read_to_string(&path).expect("the table");
+    assert_eq!(
+        header.lines().next(),
+        Some(
+            "t_s,hub_position_m,hub_velocity_m_s,hub_acceleration_m_s2,tip_x_m,tip_y_m,\
+             deflection_m,force_n"
+        )
+    );
+    let back = table::read(&path).expect("a table");
+    assert_eq!(back.len(), rows.len());
+    assert!((back.last().expect("rows").hub_angle_rad - 0.5).abs() < 1e-8);
+}
+
+/// Every refusal names its key and speaks of metres and newtons.
+#[test]
+fn refusals_of_a_carriage_are_in_its_units() {
+    let moving = "profile = \"cubic\"\nduration = 0.6\nto = 0.5\n";
+    let far = "profile = \"cubic\"\nduration = 0.6\nto = 1e9\n";
+    let fast = "profile = \"cubic\"\nduration = 0.6\nto = 200.0\n";
+    for (head, motion, words) in [
+        ("limits.rate = 0.5", moving, ["limits.rate = 0.5", "1.250000 m/s"]),
+        ("limits.acceleration = 2.0", moving, ["limits.acceleration = 2", "m/s^2"]),
+        ("", far, ["move.to", "1000000 m"]),
+        ("", fast, ["500", "one metre a tick"]),
+        ("hub.inertia = 0.1", moving, ["hub.inertia = 0.1", "hub.mass"]),
+        ("gravity.tilt = 0.2", moving, ["gravity.tilt = 0.2", "gravity.acceleration"]),
+        (
+            "gravity = { acceleration = 9.81, tilt = 2.0 }",
+            moving,
+            ["gravity.tilt = 2", "0 to 1.57"],
+        ),
+    ] {
+        let error = SceneFile::parse("carriage", &text(head, motion)).expect_err(head).to_string();
+        assert!(words.iter().all(|word| error.contains(word)), "{head}: {error}");
+        assert!(!error.contains("rad/s") && !error.contains('\n'), "{head}: {error}");
+    }
+    let parsed = |head: &str| SceneFile::parse("axis", &text("", "").replace("\"linear\"", head));
+    let error = parsed("\"sideways\"").expect_err("no such axis").to_string();
+    assert!(error.contains("axis = \"sideways\": must be rotary or linear"), "{error}");
+    let error = parsed("\"rotary\"").expect_err("a hub has no mass").to_string();
+    assert!(error.contains("hub.mass = 0.3") && error.contains("hub.inertia"), "{error}");
+    let scene = scene("limits.torque = 0.4", moving);
+    let error = run(&scene, &Solver::PAPER).expect_err("too weak a drive").to_string();
+    assert!(error.contains("limits.torque = 0.4") && error.contains(" N at "), "{error}");
+}
+
+/// A carrier that turns: the link feels the sum of both turns, and is straight before the move. The
+/// rods of both references judge it, the one in the hub frame, the other from outside.
+fn on_carrier(head: &str, motion: &str) -> SceneFile {
+    let text = text(head, motion)
+        .replace("axis = \"linear\"\nhub.mass = 0.3\n", "carrier.rate = 8.0\nhub.radius = 0.05\n");
+    SceneFile::parse("carrier", &text).expect("a scene")
+}
+
+#[test]
+fn both_references_and_elastica_agree_on_a_carrier_that_turns() {
+    let motion = "profile = \"quintic\"\nduration = 0.4\nto = 1.0\nsettle = 0.1\n";
+    let scene = on_carrier("payload.mass = 0.02\n", motion);
+    let trajectory = scene.trajectory(0.01).expect("a motion");
+    let times = truth::times(&trajectory, 0.02);
+    let rod = rod::solve(&scene.arm, &trajectory, &times, &rod::Options::default());
+    let fem = fem::solve(&scene.arm, &trajectory, &times, &fem::Options::default());
+    let (rod, fem) = (rod.expect("the rod"), fem.expect("the elements"));
+    let peak = rod.iter().map(|sample| sample.torque.abs()).fold(0.0, f64::max);
+    for (a, b) in rod.iter().zip(&fem) {
+        let apart = (a.tip[0] - b.tip[0]).hypot(a.tip[1] - b.tip[1]) / 0.4;
+        assert!(apart < 2e-4, "{apart} of L at {} s", a.t);
+        assert!((a.torque - b.torque).abs() < 0.01 * peak, "torque at {} s", a.t);
+    }
+    let resting = SceneFile { arm: resting(&scene), ..scene.clone() };
+    let solver = Solver {
+        method: Method::Elastica,
+        modes: 2,
+        quality: Quality::Fine,
+        scalar: Scalar::F32,
+        ..Solver::PAPER
+    };
+    let found = against_rod(&scene, &solver);
+    println!("{:.1e} of L, {:.1e} of the torque", found.tip_max, found.torque);
+    assert!(found.tip_max < 2e-4 && found.torque < 0.01, "{found:?}");
+    let modal = Solver { method: Method::Modal, modes: 2, elements: 8, ..solver };
+    let found = against_rod(&scene, &modal);
+    assert!(found.tip_max < 0.02, "{found:?}");
+    // What the carrier does is far more than these errors.
+    let without = run(&resting, &solver).expect("a run");
+    let with = run(&scene, &solver).expect("a run");
+    let change = compare(&with, &without, &scene).expect("common times");
+    assert!(change.tip_max > 5e-3, "{change:?}");
+    let newmark = Solver { method: Method::Newmark, ..solver };
+    let error = run(&scene, &newmark).expect_err("no such stepper").to_string();
+    assert!(error.contains("newmark") && error.contains("carrier.rate = 8"), "{error}");
+}
+
+fn resting(scene: &SceneFile) -> stillbeam::Scene {
+    let mount = stillbeam::Mount { carrier: 0.0, ..scene.arm.mount };
+    stillbeam::Scene { mount, ..scene.arm }
+}
+
+#[test]
+fn a_still_move_on_a_carrier_that_turns_arrives_still() {
+    let arm = on_carrier("payload.mass = 0.02\n", "").arm;
+    let duration = 2.0 * rod::first_period(&arm).expect("a period");
+    let motion = format!("profile = \"still\"\nduration = {duration}\nto = 1.0\nsettle = 0.2\n");
+    let scene = on_carrier("payload.mass = 0.02\n", &motion);
+    let trajectory = scene.trajectory(0.01).expect("a motion");
+    let times = truth::times(&trajectory, 0.002);
+    let rows = truth::solve(Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("the rod");
+    let left = stillbeam_sim::compare::residual(&rows, &scene, 0.01).expect("a rest");
+    let left = left.value().expect("at rest");
+    assert!(left < 2e-4, "{left} of L");
+}
+
+#[test]
+fn a_carrier_is_refused_with_what_it_has_no_equilibrium_with() {
+    let moving = "profile = \"cubic\"\nduration = 0.6\nto = 0.5\n";
+    for (head, words) in [
+        ("gravity.acceleration = 9.81", ["gravity.acceleration", "carrier"]),
+        ("damping.alpha = 0.1", ["damping.alpha = 0.1", "carrier"]),
+    ] {
+        let text = text(head, moving)
+            .replace("axis = \"linear\"\nhub.mass = 0.3\n", "carrier.rate = 8.0\n");
+        let error = SceneFile::parse("carrier", &text).expect_err(head).to_string();
+        assert!(words.iter().all(|word| error.contains(word)), "{error}");
+    }
+    let text = text("carrier.rate = 8.0", moving);
+    let error = SceneFile::parse("carrier", &text).expect_err("no turn").to_string();
+    assert!(error.contains("carrier.rate = 8") && error.contains("linear"), "{error}");
+}
+
+#[test]
+fn a_carriage_is_described_by_the_mass_that_it_moves() {
+    let report = stillbeam_sim::arm::describe(&scene(LIFTED, "")).expect("a report");
+    assert_eq!((report.axis, report.inertia_kgm2), ("linear", None));
+    let moved = report.moved_mass_kg.expect("a mass");
+    assert!((moved - 0.3524).abs() < 1e-12, "{moved} kg");
+    assert_eq!(report.sag_m, report.sag_at_start_m);
+}
+
+/// Joints that give, payloads beyond the tip, sections and masses ride on a carriage too.
+#[test]
+fn every_link_rides_on_a_carriage() {
+    let plain = scene(LIFTED, "");
+    let solver = Solver {
+        method: Method::Elastica,
+        modes: 2,
+        quality: Quality::Fine,
+        scalar: Scalar::F32,
+        ..Solver::PAPER
+    };
+    let all = featured(&plain.arm);
+    for (feature, arm) in &all {
+        let found = against_rod(&SceneFile { arm: *arm, ..plain.clone() }, &solver);
+        println!("{feature}: {:.1e} of L, {:.1e} of the force", found.tip_max, found.torque);
+        assert!(found.tip_max < 4e-4, "{feature}: {} of L", found.tip_max);
+        assert!(found.torque < 0.01, "{feature}: {} of the force", found.torque);
+    }
+    let (feature, arm) = all[all.len() - 1];
+    let trajectory = plain.trajectory(0.01).expect("a motion");
+    let times = truth::times(&trajectory, 0.05);
+    let rod = rod::solve(&arm, &trajectory, &times, &rod::Options::default()).expect("the rod");
+    let fem = fem::solve(&arm, &trajectory, &times, &fem::Options::default()).expect("elements");
+    for (a, b) in rod.iter().zip(&fem) {
+        let apart = (a.tip[0] - b.tip[0]).hypot(a.tip[1] - b.tip[1]) / 0.4;
+        assert!(apart < 2e-4, "{feature}: {apart} of L at {} s", a.t);
+    }
+}
