@@ -37,7 +37,7 @@ fn swing(setpoints: &[Setpoint<f32>]) -> f32 {
 /// rest.
 #[test]
 fn an_arm_rests_on_a_hub_that_turns() {
-    for damping in [Damping { alpha: 0.0, beta: 0.0 }, Damping { alpha: 0.3, beta: 1e-3 }] {
+    for damping in [Damping::default(), Damping { alpha: 0.3, beta: 1e-3, ..Damping::default() }] {
         let scene = scene(damping);
         let planner = Planner::<f32, 2>::new(&scene, TICK).expect("planner");
         let mut arm = arm(&scene);
@@ -76,7 +76,7 @@ fn an_arm_rests_on_a_hub_that_turns() {
 /// move that ends turning; a stop ends at rest.
 #[test]
 fn a_passing_move_is_refused_where_it_cannot_be() {
-    let mut scene = scene(Damping { alpha: 0.0, beta: 0.0 });
+    let mut scene = scene(Damping::default());
     let planner = Planner::<f32, 2>::new(&scene, TICK).expect("planner");
     let request = Request::from_rest(0.0, 1.0).passing(2.0).duration(1.5);
     let plan = planner.plan(&request).expect("a plan");
