@@ -6,6 +6,7 @@ mod convergence;
 mod energy;
 mod exact;
 mod limits;
+mod links;
 mod measured;
 mod residual;
 mod scene_files;
