@@ -116,7 +116,8 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     each_tick_of(stepper, scene.from, &motions, |generator, k, ends| {
         let setpoint = generator.tick();
         let shown = if ends { generator.setpoint_before() } else { setpoint };
-        rows.push(row(k as f64 * tick, &shown));
+        let tip_angle = generator.stepper().tip_angle(generator.state());
+        rows.push(row(k as f64 * tick, &shown, payload(scene, &shown, tip_angle)));
     })?;
     Ok(rows)
 }
@@ -145,7 +146,8 @@ fn drive_shaped<S: Stepper>(
         let Response { torque, tip } = stepper.response::<AnyMotion>(&state, &hub);
         let HubState { angle, rate, acceleration, .. } = hub;
         let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
-        rows.push(row(f64::from(k) * tick, &setpoint));
+        let centre = payload(scene, &setpoint, stepper.tip_angle(&state));
+        rows.push(row(f64::from(k) * tick, &setpoint, centre));
     }
     Ok(rows)
 }
@@ -200,8 +202,18 @@ fn each_tick_of<S: Stepper>(
     Ok(())
 }
 
-/// Converts a setpoint to the units of the table.
-pub fn row<T: Real>(t: f64, setpoint: &Setpoint<T>) -> Row {
+/// Returns the payload's centre in the global frame, m, if it is not the tip.
+fn payload<T: Real>(scene: &SceneFile, setpoint: &Setpoint<T>, tip_angle: T) -> Option<[f64; 2]> {
+    let offset = scene.arm.payload.offset;
+    (offset != 0.0).then(|| {
+        let centre = setpoint.payload_centre(T::from_f64(offset), tip_angle);
+        Setpoint { tip: centre, ..*setpoint }.global_tip().map(T::to_f64)
+    })
+}
+
+/// Converts a setpoint to the units of the table. `payload` is the payload's centre in the global
+/// frame, m, if it is not the tip.
+pub fn row<T: Real>(t: f64, setpoint: &Setpoint<T>, payload: Option<[f64; 2]>) -> Row {
     let [x, y] = setpoint.global_tip();
     Row {
         t_s: t,
@@ -212,5 +224,7 @@ pub fn row<T: Real>(t: f64, setpoint: &Setpoint<T>) -> Row {
         tip_y_m: y.to_f64(),
         deflection_m: setpoint.deflection().to_f64(),
         torque_nm: setpoint.torque.to_f64(),
+        payload_x_m: payload.map(|[x, _]| x),
+        payload_y_m: payload.map(|[_, y]| y),
     }
 }

@@ -26,6 +26,12 @@ pub struct Row {
     pub deflection_m: f64,
     /// Torque into the hub, N m; jumps with the acceleration.
     pub torque_nm: f64,
+    /// The payload's centre, global X and Y, m: columns of arms whose payload has an offset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub payload_x_m: Option<f64>,
+    /// See [`Self::payload_x_m`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub payload_y_m: Option<f64>,
 }
 
 impl Row {
@@ -40,6 +46,8 @@ impl Row {
             tip_y_m: significant(self.tip_y_m, 9),
             deflection_m: significant(self.deflection_m, 9),
             torque_nm: significant(self.torque_nm, 9),
+            payload_x_m: self.payload_x_m.map(|x| significant(x, 9)),
+            payload_y_m: self.payload_y_m.map(|y| significant(y, 9)),
         }
     }
 }
@@ -86,6 +94,8 @@ pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
             row.tip_y_m,
             row.deflection_m,
             row.torque_nm,
+            row.payload_x_m.unwrap_or(0.0),
+            row.payload_y_m.unwrap_or(0.0),
         ]
         .iter()
         .all(|value| value.is_finite());

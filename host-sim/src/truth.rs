@@ -1,6 +1,7 @@
 //! Reference solutions as the rows of a table.
 
 use clap::ValueEnum;
+use stillbeam::Scene;
 
 use crate::error::Error;
 use crate::reference::{Sample, fem, rod};
@@ -47,7 +48,7 @@ pub fn solve(
             fem::solve_with(&scene.arm, trajectory, times, &fem::Options::default(), progress)
         }
     };
-    Ok(samples.map_err(Error::new)?.iter().map(row).collect())
+    Ok(samples.map_err(Error::new)?.iter().map(|sample| row(&scene.arm, sample)).collect())
 }
 
 /// Returns times from 0 to the end of a motion, `every` s apart, the end included.
@@ -61,7 +62,8 @@ pub fn times(trajectory: &Trajectory, every: f64) -> Vec<f64> {
     times
 }
 
-fn row(sample: &Sample) -> Row {
+fn row(arm: &Scene, sample: &Sample) -> Row {
+    let payload = (arm.payload.offset != 0.0).then_some(sample.payload);
     Row {
         t_s: sample.t,
         hub_angle_rad: sample.angle,
@@ -71,5 +73,7 @@ fn row(sample: &Sample) -> Row {
         tip_y_m: sample.tip[1],
         deflection_m: sample.deflection,
         torque_nm: sample.torque,
+        payload_x_m: payload.map(|[x, _]| x),
+        payload_y_m: payload.map(|[_, y]| y),
     }
 }

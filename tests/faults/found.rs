@@ -4,14 +4,14 @@ use stillbeam::axis::Mode;
 use stillbeam::model::OneElement;
 use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::Newmark;
-use stillbeam::{Error, Generator, Move, Payload, Profile, Scene};
+use stillbeam::{Error, Generator, Move, Payload, Profile, UniformScene};
 use stillbeam_lab::faults::machine::{CONFIGURATIONS, TICK};
 use stillbeam_lab::faults::{Board, Drive, PERIOD};
 use stillbeam_protocol::Command;
 
 type Arm = Generator<Newmark<f32, 2, 2>, 8>;
 
-fn scene() -> Scene {
+fn scene() -> UniformScene {
     CONFIGURATIONS[0].scene
 }
 
@@ -73,10 +73,10 @@ fn a_move_of_more_turns_than_a_float_resolves_is_refused() {
 #[test]
 fn a_payload_that_hides_the_arm_from_a_float_is_refused() {
     for configuration in &CONFIGURATIONS {
-        let Scene { link, .. } = configuration.scene;
+        let UniformScene { link, .. } = configuration.scene;
         for mass in [0.0, 1e-30, 1e-3, 0.05] {
             let most = 100.0 * (link.mass + mass) * link.length * link.length;
-            let with = |inertia| Scene {
+            let with = |inertia| UniformScene {
                 payload: Payload { mass, inertia, offset: 0.0 },
                 ..configuration.scene
             };

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::motor::{Direction, Joint};
-use stillbeam::{Angle, Limits, Link, Move, Payload, Profile, Scene, Setpoint};
+use stillbeam::{Angle, Hub, Limits, Link, Move, Payload, Profile, Setpoint, UniformScene};
 use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
 use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status};
 
@@ -67,7 +67,10 @@ fn longest() -> [Report<'static>; 4] {
                 axes: 255,
                 method: "a-method-of-24-characters",
                 tick: 0.01,
-                scene: Scene::new(Link { length: 1.0, mass: 1.0, bending_stiffness: 1.0 }),
+                scene: UniformScene {
+                    hub: Hub { radius: 1.0, inertia: 1.0, stiffness: Some(1.0) },
+                    ..UniformScene::uniform(Link { length: 1.0, mass: 1.0, bending_stiffness: 1.0 })
+                },
                 policy: Policy { limits, patience: f64::MAX, missed: u32::MAX },
                 joint: Joint { ratio, ..direct },
                 direction: Direction::Opposite,

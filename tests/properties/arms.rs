@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use stillbeam::model::Rod;
-use stillbeam::scene::Varied;
+use stillbeam::scene::{Section, Varied};
 use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 
 /// h, s.
@@ -12,39 +12,62 @@ pub const TICK: f64 = 0.01;
 /// again.
 pub const BEND: f64 = 1.0;
 
-/// Arms with a first period of a few ticks to a few seconds, payloads to four link masses.
+/// Arms with a first period of a few ticks to a few seconds, payloads to four link masses; half of
+/// them with a joint that gives, with a payload beyond the tip, with a link of sections.
 pub fn arms() -> impl Strategy<Value = Scene> {
     (
         (0.1..2.0, 0.005..2.0, 0.03..1.5),
         (0.0..0.3, 0.0..4.0, 0.0..0.02),
         (0.0..1.0, 0.0..0.01, any::<bool>()),
+        (prop::option::of(4.0..100.0), prop::option::of(0.0..0.15), shapes()),
     )
         .prop_map(
-            |((length, mass, period), (radius, payload, inertia), (alpha, beta, upright))| {
-                // EI from the wanted first period of link and payload, within a few per cent.
+            |(
+                (length, mass, period),
+                (radius, payload, inertia),
+                (alpha, beta, upright),
+                (joint, offset, shape),
+            )| {
+                // EI from the wanted first period of link and payload, within a few per cent where
+                // the link is clamped and uniform.
                 let moved = mass * (0.2427 + payload);
                 let omega: f64 = std::f64::consts::TAU / period;
                 let stiffness = omega * omega * moved * length * length * length / 3.0;
-                let sag = moved * 9.81 * length * length / (3.0 * stiffness);
+                let offset: f64 = offset.unwrap_or(0.0);
+                let give = joint.map_or(0.0, |joint: f64| 3.0 / joint);
+                let sag = (1.0 + give + 3.0 * offset) * moved * 9.81 * length * length
+                    / (3.0 * stiffness);
                 Scene {
                     link: Link { length, mass, bending_stiffness: stiffness },
-                    shape: Varied::UNIFORM,
+                    shape,
                     hub: Hub {
                         radius: radius * length,
                         inertia: 0.1 * mass * length * length,
-                        stiffness: None,
+                        stiffness: joint.map(|joint| joint * stiffness / length),
                     },
                     payload: Payload {
                         mass: payload * mass,
                         inertia: inertia * mass * length * length,
-                        offset: 0.0,
+                        offset: offset * length,
                     },
-                    damping: Damping { alpha, beta: beta * period, joint: 0.0 },
+                    damping: Damping { alpha, beta: beta * period, joint: 0.2 * beta * period },
                     // Weight only where the arm carries it without bending far.
                     gravity: if upright && sag < 0.1 { 9.81 } else { 0.0 },
                 }
             },
         )
+}
+
+/// Uniform links, and links of two sections that taper.
+fn shapes() -> impl Strategy<Value = Varied> {
+    let ends = || (0.5..2.0, 0.5..2.0);
+    prop::option::of((0.2..0.8, ends(), ends())).prop_map(|cut| {
+        let Some((at, (ei0, ei1), (rho0, rho1))) = cut else { return Varied::UNIFORM };
+        let section = |length, ei, rho| Section::linear(length, ei, rho).expect("a section");
+        let sections =
+            [section(at, [ei0, ei1], [rho0, rho1]), section(1.0 - at, [ei1, ei1], [rho1, rho0])];
+        Varied::of_sections(&sections).expect("a link").1
+    })
 }
 
 /// Arms in the horizontal plane.

@@ -31,17 +31,17 @@ impl Units {
             hub: Hub {
                 radius: s.hub.radius * length,
                 inertia: s.hub.inertia * inertia,
-                stiffness: None,
+                stiffness: s.hub.stiffness.map(|k| k * inertia / (time * time)),
             },
             payload: Payload {
                 mass: s.payload.mass * mass,
                 inertia: s.payload.inertia * inertia,
-                offset: 0.0,
+                offset: s.payload.offset * length,
             },
             damping: Damping {
                 alpha: s.damping.alpha / time,
                 beta: s.damping.beta * time,
-                joint: 0.0,
+                joint: s.damping.joint * time,
             },
             gravity: s.gravity * length / (time * time),
         }

@@ -5,6 +5,7 @@ use stillbeam::hub::HubState;
 use stillbeam::model::{EightElements, Model, Modes, Rod};
 use stillbeam::stepper::{Elastica, Modal, ModalState, Newmark, Quality, Stepper};
 use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_tests::features::featured;
 use stillbeam_tests::{TRUTH_SCENES, truth};
 
 const TICK: f64 = 0.001;
@@ -23,7 +24,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// `T = ½(J_h + J_r)ω² + ωFᵀq̇ + ½q̇ᵀMq̇ − ½ω²qᵀGq`,
 /// `V = ½qᵀKq + g[sinθ(S − ½qᵀK_Pq) + cosθ f_gᵀq]`; drag takes `2α T` of link and payload,
-/// the strip `β q̇ᵀKq̇`.
+/// the strip `β q̇ᵀKq̇`, the joint its own.
 fn balance<const N: usize, const W: usize>(
     model: &Model<N, W>,
     hub: &HubState<f64>,
@@ -32,19 +33,20 @@ fn balance<const N: usize, const W: usize>(
 ) -> Balance {
     let scene = model.scene();
     let omega = hub.rate;
-    let carried = 0.5 * scene.rigid_inertia() * omega * omega
+    let carried = 0.5 * model.rigid_inertia() * omega * omega
         + omega * dot(model.coupling(), &q_dot)
         + 0.5 * dot(&model.mass().times(&q_dot), &q_dot)
         - 0.5 * omega * omega * dot(&model.spin().times(&q), &q);
     let bending = 0.5 * dot(&model.stiffness().times(&q), &q);
     let raised = scene.gravity
-        * (hub.sin * (scene.first_moment() - 0.5 * dot(&model.tension().times(&q), &q))
+        * (hub.sin * (model.first_moment() - 0.5 * dot(&model.tension().times(&q), &q))
             + hub.cos * dot(model.weight(), &q));
     let damping = scene.damping;
     Balance {
         work: torque * omega,
         dissipation: 2.0 * damping.alpha * carried
-            + damping.beta * dot(&model.stiffness().times(&q_dot), &q_dot),
+            + damping.beta * dot(&model.stiffness().times(&q_dot), &q_dot)
+            + dot(&model.joint_damping().times(&q_dot), &q_dot),
         energy: 0.5 * scene.hub.inertia * omega * omega + carried + bending + raised,
     }
 }
@@ -62,7 +64,7 @@ fn nodal<const N: usize, const K: usize>(
 }
 
 /// The same of the exact kinematics: `T = ½J_hω² + ½vᵀMv + ωhᵀv + ½ω²T_θθ`,
-/// `V = ½Σωₖ²aₖ² + g(X sinθ + Y cosθ)`; the strip takes `βΣωₖ²vₖ²`.
+/// `V = ½Σωₖ²aₖ² + g(X sinθ + Y cosθ)`; the strip takes `Σβₖωₖ²vₖ²`.
 fn exact_balance<const K: usize>(
     rod: &Rod<K>,
     arm: &Generator<Elastica<f64, K>, 8>,
@@ -78,12 +80,14 @@ fn exact_balance<const K: usize>(
         + 0.5 * omega * omega * kinetics.inertia;
     let stiffness = rod.frequency().map(|omega| omega * omega);
     let elastic = |x: [f64; K]| dot(&stiffness, &x.map(|x| x * x));
+    let beta = rod.stiffness_damping();
+    let lost: f64 = (0..K).map(|k| beta[k] * stiffness[k] * v[k] * v[k]).sum();
     let [x, y] = kinetics.moment;
     let raised = scene.gravity * (hub.sin * x + hub.cos * y);
     let damping = scene.damping;
     Balance {
         work: torque * omega,
-        dissipation: 2.0 * damping.alpha * carried + damping.beta * elastic(v),
+        dissipation: 2.0 * damping.alpha * carried + lost,
         energy: 0.5 * scene.hub.inertia * omega * omega + carried + 0.5 * elastic(a) + raised,
     }
 }
@@ -206,5 +210,32 @@ fn exact_kinematics_balance_to_a_ten_thousandth() {
         assert_below(1e-4, &elastica::<1>(quality));
         assert_below(1e-4, &elastica::<2>(quality));
         assert_below(1e-4, &elastica::<3>(quality));
+    }
+}
+
+/// Arms with joints that give, payloads beyond the tip, sections and masses balance too.
+#[test]
+fn every_feature_balances() {
+    for name in ["d-fast", "a-tip30", "s-gravity"] {
+        let (plain, _) = truth(name);
+        for (feature, arm) in featured(&plain.arm) {
+            let scene = SceneFile { arm, ..plain.clone() };
+            let model = Model::<8, 4>::consistent(&arm).expect("model");
+            let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
+            let newmark = imbalance(&scene, stepper, |arm, torque| {
+                let state = arm.state();
+                let q_dot = arm.stepper().deflection_rate(state);
+                balance(&model, arm.hub(), [state.deflection, q_dot], torque)
+            });
+            let rod = Rod::<2>::new(&arm).expect("rod");
+            let stepper = Elastica::new(&rod, TICK, Quality::Fast, 0.8).expect("stepper");
+            let elastica =
+                imbalance(&scene, stepper, |arm, torque| exact_balance(&rod, arm, torque));
+            println!("{name}, {feature}: {newmark:.1e} {elastica:.1e}");
+            assert!(
+                newmark < 1e-4 && elastica < 1e-4,
+                "{name}, {feature}: {newmark:e} {elastica:e}"
+            );
+        }
     }
 }

@@ -168,6 +168,10 @@ impl<S: Stepper> Stepper for Unguarded<S> {
         self.0.response::<M>(state, hub)
     }
 
+    fn tip_angle(&self, state: &S::State) -> S::Scalar {
+        self.0.tip_angle(state)
+    }
+
     fn kink(&self, state: &mut S::State, moments: KinkMoments<'_, S::Scalar>) {
         self.0.kink(state, moments);
     }

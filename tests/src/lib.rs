@@ -4,6 +4,7 @@
 
 pub mod embedded;
 pub mod emulator;
+pub mod features;
 pub mod firmware;
 pub mod firmware_page;
 pub mod image;

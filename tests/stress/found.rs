@@ -1,11 +1,11 @@
 //! What the campaigns have found, case by case: seed and number of the scene.
 
-use stillbeam_lab::stress::draw::draw;
+use stillbeam_lab::stress::draw::draw_plain;
 use stillbeam_lab::stress::trial::{Verdict, trial};
 use stillbeam_sim::solver::{Mass, Method, Solver};
 
 fn outcome(seed: u64, index: u64, wanted: impl Fn(&Solver) -> bool) -> Verdict {
-    let drawn = draw(seed, index);
+    let drawn = draw_plain(seed, index);
     let solver = drawn.solvers.iter().find(|solver| wanted(solver)).expect("its solver");
     trial(&drawn, solver)
 }

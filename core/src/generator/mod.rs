@@ -48,6 +48,15 @@ impl<T: Scalar> Setpoint<T> {
         let ([x, y], (sin, cos)) = (self.tip, self.angle.sin_cos());
         [x * cos - y * sin, x * sin + y * cos]
     }
+
+    /// The payload's centre in the hub frame `(X, Y)`, m, `offset` (m) beyond the tip along the
+    /// link's tangent there. `tip_angle` (rad) is the stepper's
+    /// [`tip_angle`](crate::Stepper::tip_angle) of the same state.
+    pub fn payload_centre(&self, offset: T, tip_angle: T) -> [T; 2] {
+        let turns = T::from_f64(1.0 / core::f64::consts::TAU) * tip_angle;
+        let (sin, cos) = turns.sin_cos_turns();
+        [self.tip[0] + offset * cos, self.tip[1] + offset * sin]
+    }
 }
 
 /// A queue of moves and the arm that follows them: one [`Generator::tick`] a tick.

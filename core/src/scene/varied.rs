@@ -106,6 +106,34 @@ impl Varied {
         self.masses.iter().filter(|mass| mass.mass > 0.0)
     }
 
+    /// `EI` at `xi`, a fraction of `L`, over the link's. On a border, that of the section nearer to
+    /// the clamp.
+    pub fn stiffness(&self, xi: f64) -> f64 {
+        let (section, s) = self.section_at(xi);
+        polynomial(&section.stiffness, s)
+    }
+
+    /// `ρA` at `xi`, a fraction of `L`, over `m/L`; likewise.
+    pub fn density(&self, xi: f64) -> f64 {
+        let (section, s) = self.section_at(xi);
+        polynomial(&section.density, s)
+    }
+
+    /// Where one section ends and the next begins, fractions of `L`.
+    pub fn borders(&self) -> impl Iterator<Item = f64> {
+        self.sections().skip(1).map(|(begin, _)| begin)
+    }
+
+    fn section_at(&self, xi: f64) -> (Section, f64) {
+        let mut found = (EMPTY, 0.0);
+        for (begin, section) in self.sections() {
+            if begin < xi || begin == 0.0 {
+                found = (section, (xi - begin) / section.length);
+            }
+        }
+        found
+    }
+
     /// `1/3 / ∫(1 − ξ)²/EI dξ`: stiffness of the uniform link that a force at the tip bends as far.
     fn tip_stiffness(&self) -> f64 {
         let mut sum = 0.0;

@@ -193,6 +193,10 @@ impl<T: Scalar> Stepper for Auto<T> {
         each_with_state!(self, state, (s, own) => s.response::<M>(own, hub), Self::NOTHING)
     }
 
+    fn tip_angle(&self, state: &AutoState<T>) -> T {
+        each_with_state!(self, state, (s, own) => s.tip_angle(own), T::ZERO)
+    }
+
     #[inline(always)]
     fn kink(&self, state: &mut AutoState<T>, moments: KinkMoments<'_, T>) {
         each_with_state!(self, state, (s, own) => s.kink(own, moments), ());

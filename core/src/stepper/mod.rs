@@ -89,6 +89,12 @@ pub trait Stepper {
         hub: &HubState<Self::Scalar>,
     ) -> Response<Self::Scalar>;
 
+    /// Angle of the link's tangent at the tip against the hub's x axis, rad. The payload's centre is
+    /// [`Payload::offset`](crate::Payload) beyond the tip in that direction: see
+    /// [`Setpoint::payload_centre`](crate::Setpoint::payload_centre). Costs nothing where it is not
+    /// called.
+    fn tip_angle(&self, state: &Self::State) -> Self::Scalar;
+
     /// Prepares the [`Self::step`] of a tick in which the commanded acceleration jumps or kinks. To
     /// be called before that step. Steppers that take the rates only do nothing here.
     fn kink(&self, state: &mut Self::State, moments: KinkMoments<'_, Self::Scalar>);

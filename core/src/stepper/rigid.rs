@@ -72,6 +72,10 @@ impl<T: Scalar> Stepper for Rigid<T> {
         Response { torque, tip: [self.reach, T::ZERO] }
     }
 
+    fn tip_angle(&self, (): &()) -> T {
+        T::ZERO
+    }
+
     /// Does nothing: an arm that does not bend keeps nothing of a kink.
     #[inline(always)]
     fn kink(&self, (): &mut (), _: KinkMoments<'_, T>) {}

@@ -86,8 +86,7 @@ impl Motion {
         error: f64,
         options: &Options,
     ) -> Result<Judgement, Error> {
-        let mut arm = *arm;
-        arm.link.bending_stiffness *= (1.0 + error) * (1.0 + error);
+        let arm = arm.stiffened((1.0 + error) * (1.0 + error));
         let period = rod::first_period(&arm)?;
         let trajectory = self.trajectory(period)?;
         let end = trajectory.arrivals().last().unwrap_or(0.0);

@@ -30,6 +30,8 @@ pub struct Sample {
     pub acceleration: f64,
     /// The tip in the global frame, origin at the motor axis, m.
     pub tip: [f64; 2],
+    /// The payload's centre in the global frame, m: the tip, where the payload has no offset.
+    pub payload: [f64; 2],
     /// The tip's Y in the hub frame, m.
     pub deflection: f64,
     /// τ at the hub, J_h θ̈ included, N m; positive drives θ forward.

@@ -44,6 +44,11 @@ impl<const D: usize, const N: usize> Condensation<D, N> {
         (0..D).filter(|&i| chain.mass.get(i, i) > 0.0).count()
     }
 
+    /// The chain's degree of freedom `i` by the kept ones.
+    pub(crate) fn row(&self, i: usize) -> &[f64; N] {
+        &self.t[i]
+    }
+
     /// `Tᵀ A T`.
     pub(crate) fn matrix(&self, a: &Band<f64, D, CHAIN>) -> Band<f64, N, N> {
         let mut reduced = Band::ZERO;

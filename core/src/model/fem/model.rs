@@ -35,6 +35,7 @@ pub struct Model<const N: usize, const W: usize, T = f64> {
     coupling: [T; N],
     weight: [T; N],
     root: [T; N],
+    tip_slope: [T; N],
     tip: usize,
 }
 
@@ -70,6 +71,7 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
             coupling: chain.coupling,
             weight: chain.weight,
             root: chain.root,
+            tip_slope: core::array::from_fn(|i| if i + 1 == N { T::ONE } else { T::ZERO }),
             tip: N - 2,
         }
         .upright()
@@ -154,6 +156,11 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
         damping
     }
 
+    /// The tip's angle, `φ(L) = tip_slopeᵀq`.
+    pub fn tip_slope(&self) -> &[T; N] {
+        &self.tip_slope
+    }
+
     /// Index of the tip's deflection in `q`.
     pub fn tip(&self) -> usize {
         self.tip
@@ -179,6 +186,9 @@ impl<const N: usize> Model<N, N> {
     pub fn lumped<const D: usize>(scene: &Scene<f64, impl LinkShape>) -> Result<Self, Error> {
         const { assert!(matches!(D, 2 | 4 | 8 | 16), "1, 2, 4 or 8 elements") }
         let scene = scene.validate()?;
+        // A point beyond the tip would leave a direction of the tip's motion without mass.
+        let lever = scene.payload.mass * scene.payload.offset * scene.payload.offset;
+        Error::check("payload.inertia", scene.payload.inertia, 1e-4 * lever, 1e6, "kg m^2")?;
         let chain = Assembly::<f64, D>::new(&scene, MassMatrix::Lumped);
         let needed = Condensation::<D, N>::kept(&chain);
         if needed != N {
@@ -197,6 +207,7 @@ impl<const N: usize> Model<N, N> {
             coupling: t.vector(&chain.coupling),
             weight: t.vector(&chain.weight),
             root: t.vector(&chain.root),
+            tip_slope: *t.row(D - 1),
             tip: D / 2 - 1,
         }
         .upright()

@@ -129,13 +129,19 @@ impl<const K: usize> Rod<K> {
 
     /// `βₖ` of each mode, s: `β`, and the joint's own damping by the mode's share in its strain
     /// energy. What the joint's damping couples of two modes is left out.
-    pub(crate) fn stiffness_damping(&self) -> [f64; K] {
+    pub fn stiffness_damping(&self) -> [f64; K] {
         let (damping, hub) = (&self.scene.damping, &self.scene.hub);
         let loss = damping.joint * hub.stiffness.unwrap_or(0.0);
         core::array::from_fn(|k| {
             let share = self.root[k] / self.frequency[k];
             damping.beta + loss * share * share
         })
+    }
+
+    /// `½(α/ωₖ + βₖωₖ)`: damping ratios of the modes.
+    pub fn damping_ratio(&self) -> [f64; K] {
+        let (alpha, beta) = (self.scene.damping.alpha, self.stiffness_damping());
+        core::array::from_fn(|k| 0.5 * (alpha / self.frequency[k] + beta[k] * self.frequency[k]))
     }
 
     /// `∂Y/∂aₖ` of the straight link's tip, m.

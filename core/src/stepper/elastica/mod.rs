@@ -37,7 +37,7 @@ use super::oscillator::{check_turns, kick};
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::Scalar;
+use crate::math::{Scalar, dot};
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
 
@@ -92,6 +92,8 @@ pub struct Elastica<T, const K: usize> {
     flexibility: f64,
     numerical_damping: NumericalDamping<T, K>,
     kicks: [Kicks<T>; K],
+    /// `φ(L)` per unit of `ωa`, rad.
+    tip_slope: [T; K],
 }
 
 /// The arm's state; [`Elastica::arm_state`] says what it means.
@@ -210,6 +212,9 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
                 let floor = super::sleep_floor::<f64>(scene.link.length, expansion.linear[k].tip);
                 T::from_f64(rod.frequency()[k] * floor)
             }),
+            tip_slope: core::array::from_fn(|k| {
+                T::from_f64(rod.tip_slope()[k] / rod.frequency()[k])
+            }),
             bend,
             sag: rod.bend(0.0),
             flexibility: rod.bend(1.0) - rod.bend(0.0),
@@ -301,6 +306,10 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         let torque =
             if M::AT_REST { state.torque } else { state.torque + state.inertia * hub.acceleration };
         Response { torque, tip: self.tip_of(state) }
+    }
+
+    fn tip_angle(&self, state: &ElasticaState<T, K>) -> T {
+        dot(&self.tip_slope, &state.y.map(|y| y[0]))
     }
 
     #[inline(always)]

@@ -66,6 +66,8 @@ pub struct Modal<T, const K: usize> {
     /// rad/s.
     fastest: T,
     kicks: [Kicks<T>; K],
+    /// `φ(L)` per unit of `ωa`, rad.
+    tip_slope: [T; K],
 }
 
 /// Modal coordinates and their rates, times the frequencies.
@@ -193,6 +195,10 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
             torque += self.weight_torque(state, hub);
         }
         Response { torque, tip: self.tip_of(state) }
+    }
+
+    fn tip_angle(&self, state: &ModalState<T, K>) -> T {
+        dot(&self.tip_slope, &state.coordinate)
     }
 
     #[inline(always)]

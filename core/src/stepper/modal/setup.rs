@@ -71,6 +71,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                 settled_weights(omega[k], sleep_floor(scene.link.length, shape[k][model.tip()]))
             }),
             tick,
+            tip_slope: core::array::from_fn(|k| T::from_f64(dot(&shape[k], model.tip_slope()))),
             most: T::from_f64(
                 MOST_GRAVITY_CHANGE * scene.link.length / shape[0][model.tip()].abs(),
             ),

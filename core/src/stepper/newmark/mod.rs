@@ -93,6 +93,8 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     moment: T,
     /// Largest `c`, see [`super::MOST_GRAVITY_CHANGE`].
     most: T,
+    /// `φ(L)` per unit of `q`.
+    tip_slope: [T; N],
 }
 
 /// The arm's state. Of banded matrices in m and slopes, of full ones along the principal axes.
@@ -211,6 +213,10 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
             self.damp_numerically(&mut restoring, &d);
         }
         *state = Self::correct(q, d, restoring);
+    }
+
+    fn tip_angle(&self, state: &NewmarkState<T, N>) -> T {
+        dot(&self.tip_slope, &state.deflection)
     }
 
     /// Does nothing: the step takes the hub's rates only, which say what a jump inside the tick

@@ -84,6 +84,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
             moment: round(gravity * model.first_moment()),
             most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length.to_f64()),
+            tip_slope: cast(&vector(model.tip_slope())),
         })
     }
 

@@ -1,15 +1,21 @@
 //! Internal forces of a plane beam element in its corotational frame.
 
+use std::num::NonZeroUsize;
+
+use gauss_quad::GaussLegendre;
 use nalgebra::{Matrix6, Vector6};
 
 use super::node::{Change, Node};
+
+/// Points of the quadrature over an element.
+const DEGREE: NonZeroUsize = NonZeroUsize::new(8).unwrap();
 
 /// A Bernoulli-Euler element between two nodes, cubic in its own frame.
 ///
 /// The frame is the chord; θ̄ᵢ are the end rotations against it and `ε = (l − l₀)/l₀ + (2θ̄₁² −
 /// θ̄₁θ̄₂ + 2θ̄₂²)/30` is the mean stretch of the cubic (second order in slope), which a chord that
-/// shortens by bending does not change. Energy `½ EA l₀ ε² + ½ EI/l₀ (4θ̄₁² + 4θ̄₁θ̄₂ + 4θ̄₂²)`;
-/// stiffness-proportional damping adds β times the rates of ε and θ̄ to them, so that rigid motion
+/// shortens by bending does not change. Energy `½ EA l₀ ε² + ½ EI/l₀ (4θ̄₁² + 4θ̄₁θ̄₂ + 4θ̄₂²)` where
+/// EI is constant; else the end moments bend it as its compliance `∫ξ²/EI` has it. Stiffness-proportional damping adds β times the rates of ε and θ̄ to them, so that rigid motion
 /// is not damped.
 ///
 /// Sources: Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1 (1991),
@@ -20,8 +26,9 @@ pub(super) struct Element {
     pub length: f64,
     /// EA, N.
     pub axial: f64,
-    /// EI, N m².
-    pub bending: f64,
+    /// End moments by the end rotations against the chord, N m: `EI/l₀ [4 2; 2 4]` where EI is
+    /// constant.
+    pub bending: [[f64; 2]; 2],
     /// β, s.
     pub beta: f64,
 }
@@ -39,6 +46,21 @@ struct Deformation {
     bend: [f64; 2],
     /// `∂ε/∂θ̄`.
     slope: [f64; 2],
+}
+
+/// Returns the end moments of a beam of `length` (m) by its end rotations against the chord, N m.
+/// `soft` is `1/EI` by the place ξ = 0..1. The moment is a straight line between the ends.
+pub(super) fn end_stiffness(length: f64, soft: impl Fn(f64) -> f64) -> [[f64; 2]; 2] {
+    let [mut near, mut mixed, mut far] = [0.0; 3];
+    for &(x, weight) in GaussLegendre::new(DEGREE).iter() {
+        let (xi, compliance) = (0.5 * (1.0 + x), 0.5 * weight * length);
+        let compliance = compliance * soft(xi);
+        near += compliance * (1.0 - xi) * (1.0 - xi);
+        mixed -= compliance * xi * (1.0 - xi);
+        far += compliance * xi * xi;
+    }
+    let determinant = near * far - mixed * mixed;
+    [[far / determinant, -mixed / determinant], [-mixed / determinant, near / determinant]]
 }
 
 impl Element {
@@ -100,12 +122,13 @@ impl Element {
         // Axial force and end moments.
         let tension = self.axial * (d.strain + self.beta * strain_rate);
         let d_tension = self.axial * (change.displacement * strain + self.beta * d_strain_rate);
-        let k = 2.0 * self.bending / l0;
+        let k = self.bending;
         let bend = [0, 1].map(|i| d.bend[i] + self.beta * rate[i]);
         let d_bend = [0, 1].map(|i| change.displacement * g[i] + self.beta * d_rate[i]);
-        let moment = [0, 1].map(|i| k * (2.0 * bend[i] + bend[1 - i]) + tension * l0 * s[i]);
+        let moment = [0, 1].map(|i| k[i][0] * bend[0] + k[i][1] * bend[1] + tension * l0 * s[i]);
         let d_moment = [0, 1].map(|i| {
-            k * (2.0 * d_bend[i] + d_bend[1 - i])
+            k[i][0] * d_bend[0]
+                + k[i][1] * d_bend[1]
                 + l0 * s[i] * d_tension
                 + change.displacement * tension * l0 * curl[i]
         });

@@ -1,11 +1,16 @@
 //! Inertia forces, drag and weight.
 
-use nalgebra::{Matrix6, SMatrix, Vector2, Vector3, Vector6};
-use stillbeam::Scene;
+use std::num::NonZeroUsize;
+
+use gauss_quad::GaussLegendre;
+use nalgebra::{Matrix3, Matrix6, SMatrix, Vector2, Vector3, Vector6};
 
 use super::node::{Change, Node};
 
-/// Consistent mass of a uniform element of mass m: its kinetic energy is that of
+/// Points of the quadrature over an element: exact to degree 9.
+const DEGREE: NonZeroUsize = NonZeroUsize::new(5).unwrap();
+
+/// Consistent mass of an element: its kinetic energy is that of
 /// `r(ξ) = N₁x₁ + N₂t₁ + N₃x₂ + N₄t₂`, the cubic Hermite curve through the nodes with the unit
 /// tangents `t = (cos θ, sin θ)`.
 ///
@@ -27,6 +32,24 @@ impl Inertia {
             [-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l],
         ]);
         Self { matrix: matrix * (mass / 420.0), alpha }
+    }
+
+    /// Returns the consistent mass of an element whose mass per length (kg/m) is `density` by the
+    /// place ξ = 0..1, a polynomial of degree 2 or less.
+    pub fn varied(l: f64, alpha: f64, density: impl Fn(f64) -> f64) -> Self {
+        let mut matrix = SMatrix::zeros();
+        for &(x, weight) in GaussLegendre::new(DEGREE).iter() {
+            let xi = 0.5 * (1.0 + x);
+            let (xi2, xi3) = (xi * xi, xi * xi * xi);
+            let n = SMatrix::<f64, 4, 1>::new(
+                1.0 - 3.0 * xi2 + 2.0 * xi3,
+                l * (xi - 2.0 * xi2 + xi3),
+                3.0 * xi2 - 2.0 * xi3,
+                l * (xi3 - xi2),
+            );
+            matrix += n * n.transpose() * (0.5 * weight * l * density(xi));
+        }
+        Self { matrix, alpha }
     }
 
     /// Returns inertia, drag and weight (`gravity` in m/s², along global −Y) as forces that the arm
@@ -80,16 +103,42 @@ impl Inertia {
     }
 }
 
-/// Returns the force of the payload, a point mass with rotary inertia, as [`Inertia::force`] does.
-pub(super) fn payload(
-    scene: &Scene,
+/// Returns the force of a rigid body that is fixed to a node, as [`Inertia::force`] does: of `mass`
+/// kg and `inertia` kg m² about its own centre, which lies `offset` m ahead along the node's tangent.
+pub(super) fn body(
+    [mass, inertia, offset]: [f64; 3],
+    alpha: f64,
     node: &Node,
     gravity: f64,
     change: &Change,
-) -> (Vector3<f64>, Vector3<f64>) {
-    let alpha = scene.damping.alpha;
-    let inertia = Vector3::new(scene.payload.mass, scene.payload.mass, scene.payload.inertia);
-    let weight = Vector3::new(0.0, gravity, 0.0);
-    let force = inertia.component_mul(&(node.a + alpha * node.v + weight));
-    (force, inertia * (change.acceleration + alpha * change.rate))
+) -> (Vector3<f64>, Matrix3<f64>) {
+    let (sin, cos) = node.q.z.sin_cos();
+    let (t, n) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
+    let (rate, turning) = (node.v.z, node.a.z + alpha * node.v.z);
+    let linear = change.acceleration + alpha * change.rate;
+    let weight = Vector2::new(0.0, gravity);
+    let centre = node.a.xy() + alpha * node.v.xy() + weight;
+    let force = mass * (centre + offset * (turning * n - rate * rate * t));
+    // Its derivative over the node's rotation.
+    let turned = mass
+        * offset
+        * ((linear - change.displacement * rate * rate) * n
+            - (change.displacement * turning + 2.0 * rate * change.rate) * t);
+    let lever = mass * linear * offset * n;
+    let moment = offset * n.dot(&force) + inertia * turning;
+    let twist = offset * (n.dot(&turned) - change.displacement * t.dot(&force)) + inertia * linear;
+    (
+        Vector3::new(force.x, force.y, moment),
+        Matrix3::new(
+            mass * linear,
+            0.0,
+            turned.x,
+            0.0,
+            mass * linear,
+            turned.y,
+            lever.x,
+            lever.y,
+            twist,
+        ),
+    )
 }

@@ -112,6 +112,13 @@ pub fn solve_with(
 ) -> Result<Vec<Sample>, ReferenceError> {
     let scene = scene.validate()?;
     options.validate()?;
+    if scene.hub.stiffness.is_some() && options.hub != HubModel::Rigid {
+        let given = format!("hub = {:?}", options.hub);
+        return Err(ReferenceError::Options {
+            given,
+            wanted: "rigid where hub.stiffness is given",
+        });
+    }
     let schedule = Schedule::new(trajectory, times)?;
     let link = &scene.link;
     let period =

@@ -52,7 +52,8 @@ impl March {
             if self.equilibrate(&still, &change, 0.0).is_err() {
                 return Err(unstable);
             }
-            if !self.tangent.is_positive_definite(1) {
+            self.model.hold(&mut self.residual, &mut self.tangent);
+            if !self.tangent.is_positive_definite(self.model.first()) {
                 return Err(unstable);
             }
             std::mem::swap(&mut self.state, &mut self.next);
@@ -75,7 +76,7 @@ impl March {
     /// = u + h u̇ + ¼h²(ü + ü⁺)`, `u̇⁺ = u̇ + ½h(ü + ü⁺)` (δ = 1/2, β = 1/4), iterated to
     /// equilibrium.
     pub fn step(&mut self, hub: &HubState<f64>, time: f64, h: f64) -> Result<(), ReferenceError> {
-        for i in 1..self.nodes.len() {
+        for i in self.model.first()..self.nodes.len() {
             let (u, v, a) = (self.state.u[i], self.state.v[i], self.state.a[i]);
             self.next.u[i] = u + h * v + 0.5 * h * h * a;
             self.next.v[i] = v + h * a;
@@ -106,10 +107,12 @@ impl March {
                 return Ok(());
             }
             before = size;
-            if self.tangent.solve(1, &mut self.residual).is_none() {
+            let first = self.model.first();
+            self.model.hold(&mut self.residual, &mut self.tangent);
+            if self.tangent.solve(first, &mut self.residual).is_none() {
                 break;
             }
-            for i in 1..self.nodes.len() {
+            for i in first..self.nodes.len() {
                 let delta = self.residual[i];
                 self.next.u[i] -= change.displacement * delta;
                 self.next.v[i] -= change.rate * delta;
@@ -125,13 +128,15 @@ impl March {
         let change = Change { displacement: 0.0, rate: 0.0, acceleration: 1.0 };
         self.model.place(hub, &self.state, &mut self.nodes);
         self.model.residual(&self.nodes, &change, &mut self.residual, &mut self.tangent);
-        let tip = self.nodes[self.nodes.len() - 1].q;
+        let end = &self.nodes[self.nodes.len() - 1];
+        let (tip, payload) = (end.q, self.model.payload(end));
         Sample {
             t,
             angle: hub.angle.radians(),
             rate: hub.rate,
             acceleration: hub.acceleration,
             tip: [tip.x, tip.y],
+            payload,
             deflection: tip.y * hub.cos - tip.x * hub.sin,
             torque: self.model.torque(&self.residual[0], &self.nodes[0], hub),
         }

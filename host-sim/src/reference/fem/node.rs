@@ -10,8 +10,9 @@ pub(super) struct Node {
     pub q: Vector3<f64>,
     pub v: Vector3<f64>,
     pub a: Vector3<f64>,
-    /// Deformation u_d alone.
+    /// Deformation u_d alone, and its rate.
     pub deformation: Vector3<f64>,
+    pub deformation_rate: Vector3<f64>,
 }
 
 /// Factors by which a change of the unknowns enters displacements, velocities and accelerations.

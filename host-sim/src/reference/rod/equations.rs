@@ -4,68 +4,86 @@ use nalgebra::{Cholesky, SMatrix, SVector};
 use stillbeam::Scene;
 use stillbeam::hub::HubState;
 
-use super::legendre::{Basis, POINTS, STATIONS};
+use super::legendre::{Basis, POINTS, STATIONS, VARIED_POINTS, VARIED_STATIONS};
 
 /// A rod with N unknowns: the relative angle is `φ(x, t) = Σ aₖ(t) ψₖ(x)`, a point of the link at
-/// hub-frame `X = r + ∫₀ˣ cos φ`, `Y = ∫₀ˣ sin φ`.
-pub(super) struct Rod<const N: usize> {
-    pub basis: Basis<N>,
+/// hub-frame `X = r + ∫₀ˣ cos φ`, `Y = ∫₀ˣ sin φ`. P points, S stations.
+pub(super) struct Rod<const N: usize, const P: usize, const S: usize> {
     pub scene: Scene,
-    /// `ρA L wₚ` of the points, the payload's mass at the tip, kg.
-    masses: [f64; STATIONS],
-    /// `ψₖ` at the points, shape by shape.
-    by_shape: [[f64; POINTS]; N],
+    /// Masses at the stations, kg.
+    pub masses: [f64; S],
+    /// `ψₖ` at the points, and shape by shape; at the tip.
+    pub shapes: [[f64; N]; P],
+    by_shape: [[f64; P]; N],
+    tip: [f64; N],
     /// Matrix R, which integrates values at the points from the clamp to each station, m: station
     /// by station, and the same point by point.
-    by_station: [[f64; POINTS]; STATIONS],
-    by_point: [[f64; STATIONS]; POINTS],
+    pub by_station: [[f64; P]; S],
+    by_point: [[f64; S]; P],
+    /// The same to the tip.
+    to_tip: [f64; P],
     /// `Σₛ mₛ Rₛₚ Rₛ_q`, kg m²: the inertia that the angles at the points p and q share, without
     /// the cosine of their difference.
-    shared: [[f64; POINTS]; POINTS],
-    /// `EI/L ∫ψₖ'²`, N m: the stiffness matrix is diagonal.
-    pub stiffness: [f64; N],
+    shared: [[f64; P]; P],
+    /// Stiffness of link and joint, `∫EI ψᵢ'ψⱼ' dx + k ψᵢ(0)ψⱼ(0)`, N m.
+    pub stiffness: SMatrix<f64, N, N>,
+    /// The joint's own damping, `β_J k ψᵢ(0)ψⱼ(0)`, N m s, if it has any.
+    joint: Option<SMatrix<f64, N, N>>,
 }
+
+/// The rod of a uniform link.
+pub(super) type UniformRod<const N: usize> = Rod<N, POINTS, STATIONS>;
+/// The rod of any other link.
+pub(super) type VariedRod<const N: usize> = Rod<N, VARIED_POINTS, VARIED_STATIONS>;
 
 /// Position and motion of the link in hub axes. Each quantity has its own array, so that the loops
 /// over points and stations run through memory in order, several at a time.
-pub(super) struct Configuration {
+pub(super) struct Configuration<const P: usize, const S: usize> {
     /// Cosine and sine of φ, point by point.
-    cos: [f64; POINTS],
-    sin: [f64; POINTS],
+    cos: [f64; P],
+    sin: [f64; P],
     /// X, Y (m), their rates (m/s) and the part of Ẍ, Ÿ that holds no ä (m/s²), station by station.
-    stations: [[f64; STATIONS]; 6],
+    stations: [[f64; S]; 6],
 }
 
-impl<const N: usize> Rod<N> {
+impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
     pub fn new(scene: &Scene) -> Self {
-        let basis = Basis::new();
-        let masses = std::array::from_fn(|s| match basis.weights.get(s) {
-            Some(weight) => scene.link.mass * weight,
-            None => scene.payload.mass,
-        });
-        let scale = scene.link.bending_stiffness / scene.link.length;
-        let stiffness = std::array::from_fn(|k| scale * basis.bending[k]);
-        let by_station = basis.running.map(|row| row.map(|weight| scene.link.length * weight));
+        let Basis { shapes, root, tip, bending, running, to_tip, masses } =
+            Basis::<N, P, S>::new(scene);
+        let length = scene.link.length;
+        let by_station = running.map(|row| row.map(|weight| length * weight));
         let by_point = transposed(&by_station);
-        let by_shape = transposed(&basis.shapes);
         let of = |p: usize, q: usize| -> f64 {
-            (0..STATIONS).map(|s| masses[s] * by_point[p][s] * by_point[q][s]).sum()
+            (0..S).map(|s| masses[s] * by_point[p][s] * by_point[q][s]).sum()
         };
-        let shared = std::array::from_fn(|p| std::array::from_fn(|q| of(p, q)));
-        Self { basis, scene: *scene, masses, by_shape, by_station, by_point, shared, stiffness }
+        let stiffness = scene.hub.stiffness.unwrap_or(0.0);
+        let hinge = SMatrix::<f64, N, N>::from_fn(|i, j| stiffness * root[i] * root[j]);
+        let joint = scene.damping.joint;
+        Self {
+            scene: *scene,
+            masses,
+            shapes,
+            by_shape: transposed(&shapes),
+            tip,
+            by_station,
+            by_point,
+            to_tip: to_tip.map(|weight| length * weight),
+            shared: std::array::from_fn(|p| std::array::from_fn(|q| of(p, q))),
+            stiffness: bending * (scene.link.bending_stiffness / length) + hinge,
+            joint: (joint > 0.0 && scene.hub.stiffness.is_some()).then(|| hinge * joint),
+        }
     }
 
     /// Returns the configuration at unknowns `a` (rad) and rates `v` (rad/s).
-    pub fn configuration(&self, a: &SVector<f64, N>, v: &SVector<f64, N>) -> Configuration {
+    pub fn configuration(&self, a: &SVector<f64, N>, v: &SVector<f64, N>) -> Configuration<P, S> {
         let (angle, rate) = (self.at_points(a), self.at_points(v));
-        let (mut cos, mut sin) = ([0.0; POINTS], [0.0; POINTS]);
-        for p in 0..POINTS {
+        let (mut cos, mut sin) = ([0.0; P], [0.0; P]);
+        for p in 0..P {
             (sin[p], cos[p]) = angle[p].sin_cos();
         }
         // (cos φ)˙ = −φ̇ sin φ, (sin φ)˙ = φ̇ cos φ, and once more with φ̈ left out.
-        let product = |x: &[f64; POINTS], y: &[f64; POINTS]| -> [f64; POINTS] {
-            std::array::from_fn(|p| x[p] * y[p])
-        };
+        let product =
+            |x: &[f64; P], y: &[f64; P]| -> [f64; P] { std::array::from_fn(|p| x[p] * y[p]) };
         let (across, along) = (product(&rate, &sin), product(&rate, &cos));
         let slopes = [
             cos,
@@ -82,11 +100,17 @@ impl<const N: usize> Rod<N> {
         Configuration { cos, sin, stations }
     }
 
+    /// Returns hub-frame X and Y of the tip, m.
+    pub fn tip(&self, at: &Configuration<P, S>) -> [f64; 2] {
+        let to_tip = |f: &[f64; P]| -> f64 { (0..P).map(|p| f[p] * self.to_tip[p]).sum() };
+        [to_tip(&at.cos) + self.scene.hub.radius, to_tip(&at.sin)]
+    }
+
     /// Returns `Σ aₖ ψₖ` at the points.
-    fn at_points(&self, a: &SVector<f64, N>) -> [f64; POINTS] {
-        let mut sum = [0.0; POINTS];
+    fn at_points(&self, a: &SVector<f64, N>) -> [f64; P] {
+        let mut sum = [0.0; P];
         for k in 0..N {
-            for p in 0..POINTS {
+            for p in 0..P {
                 sum[p] += a[k] * self.by_shape[k][p];
             }
         }
@@ -94,10 +118,10 @@ impl<const N: usize> Rod<N> {
     }
 
     /// Integrates `slope`, given at the points, from the clamp to each station.
-    fn integral(&self, slope: &[f64; POINTS]) -> [f64; STATIONS] {
-        let mut sum = [0.0; STATIONS];
+    fn integral(&self, slope: &[f64; P]) -> [f64; S] {
+        let mut sum = [0.0; S];
         for (q, slope) in slope.iter().enumerate() {
-            for s in 0..STATIONS {
+            for s in 0..S {
                 sum[s] += slope * self.by_point[q][s];
             }
         }
@@ -106,22 +130,22 @@ impl<const N: usize> Rod<N> {
 
     /// Returns `M(a)`, kg m²: `Mᵢⱼ = Σ ψᵢ(p) ψⱼ(q) cos(φₚ − φ_q)` times the inertia that the points
     /// share.
-    pub fn mass_matrix(&self, at: &Configuration) -> SMatrix<f64, N, N> {
-        let mut moved = [[0.0; POINTS]; N];
-        for q in 0..POINTS {
+    pub fn mass_matrix(&self, at: &Configuration<P, S>) -> SMatrix<f64, N, N> {
+        let mut moved = [[0.0; P]; N];
+        for q in 0..P {
             let (cos, sin) = (at.cos[q], at.sin[q]);
-            let mut row = [0.0; POINTS];
-            for p in 0..POINTS {
+            let mut row = [0.0; P];
+            for p in 0..P {
                 row[p] = self.shared[q][p] * (cos * at.cos[p] + sin * at.sin[p]);
             }
             for j in 0..N {
                 let shape = self.by_shape[j][q];
-                for p in 0..POINTS {
+                for p in 0..P {
                     moved[j][p] += shape * row[p];
                 }
             }
         }
-        let (tip, twist) = (&self.basis.tip, self.scene.payload.inertia);
+        let (tip, twist) = (&self.tip, self.scene.payload.inertia);
         let mut mass = SMatrix::zeros();
         for i in 0..N {
             for j in 0..=i {
@@ -134,7 +158,7 @@ impl<const N: usize> Rod<N> {
 
     /// Returns the absolute acceleration of a station in hub axes without the part due to ä, m/s².
     /// Drag and weight count as accelerations.
-    fn bias(&self, at: &Configuration, s: usize, hub: &HubState<f64>) -> [f64; 2] {
+    fn bias(&self, at: &Configuration<P, S>, s: usize, hub: &HubState<f64>) -> [f64; 2] {
         let [x, y, xd, yd, cx, cy] = at.stations.map(|quantity| quantity[s]);
         let (rate, acceleration) = (hub.rate, hub.acceleration);
         let (alpha, gravity) = (self.scene.damping.alpha, self.scene.gravity);
@@ -152,28 +176,31 @@ impl<const N: usize> Rod<N> {
     /// result is not a number if the state is not.
     pub fn acceleration(
         &self,
-        at: &Configuration,
+        at: &Configuration<P, S>,
         a: &SVector<f64, N>,
         v: &SVector<f64, N>,
         hub: &HubState<f64>,
     ) -> SVector<f64, N> {
-        let tip = &self.basis.tip;
+        let tip = &self.tip;
         let turning = self.turning(v, hub);
         let beta = self.scene.damping.beta;
+        let bent = self.stiffness * (a + beta * v);
         let mut force = SVector::<f64, N>::from_fn(|k, _| {
-            -self.stiffness[k] * (a[k] + beta * v[k])
-                - self.scene.payload.inertia * tip[k] * turning
+            -bent[k] - self.scene.payload.inertia * tip[k] * turning
         });
+        if let Some(joint) = &self.joint {
+            force -= joint * v;
+        }
         // What the stations outboard of a point weigh on its angle.
-        let (mut along, mut across) = ([0.0; POINTS], [0.0; POINTS]);
-        for s in 0..STATIONS {
+        let (mut along, mut across) = ([0.0; P], [0.0; P]);
+        for s in 0..S {
             let [x, y] = self.bias(at, s, hub).map(|bias| self.masses[s] * bias);
-            for p in 0..POINTS {
+            for p in 0..P {
                 along[p] += self.by_station[s][p] * x;
                 across[p] += self.by_station[s][p] * y;
             }
         }
-        let moment: [f64; POINTS] =
+        let moment: [f64; P] =
             std::array::from_fn(|p| at.cos[p] * across[p] - at.sin[p] * along[p]);
         for k in 0..N {
             force[k] -= dot(&self.by_shape[k], &moment);
@@ -184,11 +211,17 @@ impl<const N: usize> Rod<N> {
         }
     }
 
+    /// Returns the largest factor of stiffness-proportional damping, s.
+    pub fn loss(&self) -> f64 {
+        let damping = self.scene.damping;
+        damping.beta + self.joint.map_or(0.0, |_| damping.joint)
+    }
+
     /// Returns `αΣψⱼ(L)ȧⱼ + θ̈ + αθ̇`: the payload's angular acceleration without the part due to
     /// ä, drag included.
     fn turning(&self, v: &SVector<f64, N>, hub: &HubState<f64>) -> f64 {
         let alpha = self.scene.damping.alpha;
-        let spin: f64 = (0..N).map(|k| self.basis.tip[k] * v[k]).sum();
+        let spin: f64 = (0..N).map(|k| self.tip[k] * v[k]).sum();
         alpha * (spin + hub.rate) + hub.acceleration
     }
 
@@ -198,19 +231,19 @@ impl<const N: usize> Rod<N> {
     /// a_Y − Y a_X) dm`. Moment: the same about the clamp at `(r, 0)`, without the hub's own.
     pub fn loads(
         &self,
-        at: &Configuration,
+        at: &Configuration<P, S>,
         v: &SVector<f64, N>,
         acceleration: &SVector<f64, N>,
         hub: &HubState<f64>,
     ) -> [f64; 2] {
-        let tip = &self.basis.tip;
+        let tip = &self.tip;
         let spin: f64 = (0..N).map(|k| tip[k] * acceleration[k]).sum();
         let mut moment = self.scene.payload.inertia * (spin + self.turning(v, hub));
         let mut shear = 0.0;
         let bent = self.at_points(acceleration);
         let along = self.integral(&std::array::from_fn(|p| -bent[p] * at.sin[p]));
         let across = self.integral(&std::array::from_fn(|p| bent[p] * at.cos[p]));
-        for s in 0..STATIONS {
+        for s in 0..S {
             let [ax, ay] = self.bias(at, s, hub);
             let (ax, ay) = (ax + along[s], ay + across[s]);
             let (x, y) = (at.stations[0][s], at.stations[1][s]);
@@ -223,17 +256,17 @@ impl<const N: usize> Rod<N> {
     }
 }
 
-impl Configuration {
-    /// Returns hub-frame X and Y of the tip, m.
-    pub fn tip(&self) -> [f64; 2] {
-        [self.stations[0][POINTS], self.stations[1][POINTS]]
+impl<const P: usize, const S: usize> Configuration<P, S> {
+    /// Returns hub-frame X and Y of the payload's centre, m.
+    pub fn payload(&self) -> [f64; 2] {
+        [self.stations[0][S - 1], self.stations[1][S - 1]]
     }
 }
 
 /// Returns the sum of the products, in four partial sums that do not wait for each other.
-fn dot(x: &[f64; POINTS], y: &[f64; POINTS]) -> f64 {
+fn dot<const P: usize>(x: &[f64; P], y: &[f64; P]) -> f64 {
     let mut sum = [0.0; 4];
-    for p in 0..POINTS {
+    for p in 0..P {
         sum[p % 4] += x[p] * y[p];
     }
     (sum[0] + sum[1]) + (sum[2] + sum[3])

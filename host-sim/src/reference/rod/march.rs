@@ -16,15 +16,15 @@ use crate::reference::{ReferenceError, Sample};
 type State<const N: usize> = SMatrix<f64, N, 2>;
 
 /// The rod on one stretch of the commanded motion.
-struct Motion<'a, const N: usize> {
-    rod: &'a Rod<N>,
+struct Motion<'a, const N: usize, const P: usize, const S: usize> {
+    rod: &'a Rod<N, P, S>,
     schedule: &'a Schedule<'a>,
     stretch: Stretch<'a>,
     /// First angular frequency, rad/s.
     scale: f64,
 }
 
-impl<const N: usize> ODE<f64, State<N>> for Motion<'_, N> {
+impl<const N: usize, const P: usize, const S: usize> ODE<f64, State<N>> for Motion<'_, N, P, S> {
     fn diff(&self, t: f64, y: &State<N>, dydt: &mut State<N>) {
         let (a, v) = split(y, self.scale);
         let hub = self.schedule.hub_within(&self.stretch, t);
@@ -40,16 +40,15 @@ fn split<const N: usize>(y: &State<N>, scale: f64) -> (SVector<f64, N>, SVector<
 }
 
 /// Solves the whole run with N unknowns.
-pub(super) fn run<const N: usize>(
-    rod: &Rod<N>,
+pub(super) fn run<const N: usize, const P: usize, const S: usize>(
+    rod: &Rod<N, P, S>,
     schedule: &Schedule<'_>,
     options: &Options,
     progress: &dyn Fn(f64),
 ) -> Result<Vec<Sample>, ReferenceError> {
     let frequencies = rod.frequencies();
     let scale = frequencies[0];
-    let integrator =
-        options.integrator.unwrap_or_else(|| choose(frequencies[N - 1], rod.scene.damping.beta));
+    let integrator = options.integrator.unwrap_or_else(|| choose(frequencies[N - 1], rod.loss()));
 
     let mut y = at_rest(rod, schedule)?;
     let mut samples = Vec::new();
@@ -68,8 +67,8 @@ pub(super) fn run<const N: usize>(
 }
 
 /// Returns the rod in static equilibrium at the beginning of the run.
-fn at_rest<const N: usize>(
-    rod: &Rod<N>,
+fn at_rest<const N: usize, const P: usize, const S: usize>(
+    rod: &Rod<N, P, S>,
     schedule: &Schedule<'_>,
 ) -> Result<State<N>, ReferenceError> {
     let start = schedule.hub(0.0);
@@ -84,8 +83,8 @@ fn at_rest<const N: usize>(
 /// Simulates the rod from `resume`, or from rest at the run's beginning, to `until` s. `visit` sees
 /// the loads at both ends of every stretch, from within, and after every step between. Returns the
 /// final state.
-pub(super) fn watch<const N: usize>(
-    rod: &Rod<N>,
+pub(super) fn watch<const N: usize, const P: usize, const S: usize>(
+    rod: &Rod<N, P, S>,
     schedule: &Schedule<'_>,
     options: &Options,
     resume: Option<&Resume>,
@@ -94,8 +93,7 @@ pub(super) fn watch<const N: usize>(
 ) -> Result<Resume, ReferenceError> {
     let frequencies = rod.frequencies();
     let scale = frequencies[0];
-    let integrator =
-        options.integrator.unwrap_or_else(|| choose(frequencies[N - 1], rod.scene.damping.beta));
+    let integrator = options.integrator.unwrap_or_else(|| choose(frequencies[N - 1], rod.loss()));
     let mut y = match resume {
         Some(resume) => State::<N>::from_column_slice(&resume.state),
         None => at_rest(rod, schedule)?,
@@ -125,10 +123,10 @@ pub(super) fn watch<const N: usize>(
 }
 
 /// Integrates one stretch with an integrator. See [`march`].
-fn go<const N: usize>(
+fn go<const N: usize, const P: usize, const S: usize>(
     integrator: Integrator,
     tolerance: f64,
-    motion: &Motion<'_, N>,
+    motion: &Motion<'_, N, P, S>,
     start: State<N>,
     visit: &mut dyn FnMut(f64, &State<N>),
     each_step: &mut dyn FnMut(f64, &State<N>),
@@ -162,9 +160,9 @@ fn choose(highest: f64, beta: f64) -> Integrator {
 
 /// Integrates one stretch. Calls `visit` at its sample times, each the end of a step without
 /// interpolation, and `each_step` after every step. Returns the state at the end.
-fn march<const N: usize>(
+fn march<const N: usize, const P: usize, const S: usize>(
     mut method: impl OrdinaryNumericalMethod<f64, State<N>>,
-    motion: &Motion<'_, N>,
+    motion: &Motion<'_, N, P, S>,
     start: State<N>,
     visit: &mut dyn FnMut(f64, &State<N>),
     each_step: &mut dyn FnMut(f64, &State<N>),
@@ -184,9 +182,9 @@ fn march<const N: usize>(
 }
 
 /// Steps to exactly `stop`, s.
-fn advance<const N: usize>(
+fn advance<const N: usize, const P: usize, const S: usize>(
     method: &mut impl OrdinaryNumericalMethod<f64, State<N>>,
-    motion: &Motion<'_, N>,
+    motion: &Motion<'_, N, P, S>,
     stop: f64,
     each_step: &mut dyn FnMut(f64, &State<N>),
 ) -> Result<(), ReferenceError> {
@@ -224,8 +222,8 @@ fn failure<const N: usize>(begin: f64, error: Error<f64, State<N>>) -> Reference
     ReferenceError::Integration { time, reason }
 }
 
-fn sample<const N: usize>(
-    rod: &Rod<N>,
+fn sample<const N: usize, const P: usize, const S: usize>(
+    rod: &Rod<N, P, S>,
     schedule: &Schedule<'_>,
     scale: f64,
     t: f64,
@@ -235,13 +233,15 @@ fn sample<const N: usize>(
     let (a, v) = split(y, scale);
     let at = rod.configuration(&a, &v);
     let acceleration = rod.acceleration(&at, &a, &v, &hub);
-    let [x, deflection] = at.tip();
+    let [x, deflection] = rod.tip(&at);
+    let global = |[x, y]: [f64; 2]| [x * hub.cos - y * hub.sin, x * hub.sin + y * hub.cos];
     Sample {
         t,
         angle: hub.angle.radians(),
         rate: hub.rate,
         acceleration: hub.acceleration,
-        tip: [x * hub.cos - deflection * hub.sin, x * hub.sin + deflection * hub.cos],
+        tip: global([x, deflection]),
+        payload: global(at.payload()),
         deflection,
         torque: rod.loads(&at, &v, &acceleration, &hub)[0],
     }

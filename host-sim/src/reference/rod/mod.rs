@@ -11,13 +11,36 @@ mod legendre;
 mod march;
 mod statics;
 
-use equations::Rod;
+use equations::{UniformRod, VariedRod};
 use stillbeam::hub::HubState;
 use stillbeam::{Angle, Scene};
 
 use super::schedule::Schedule;
 use super::{ReferenceError, Sample};
 use crate::trajectory::Trajectory;
+
+/// Polynomials of what is asked of the rod without options.
+const ORDER: usize = 7;
+
+/// Makes the rod of a scene with that many unknowns, whose type depends on it, and hands it to the
+/// expression.
+macro_rules! with_rod {
+    ($scene:expr, $order:expr, |$rod:ident| $body:expr) => {
+        with_rod!(@each $scene, $order, $rod, $body, 5 6 7 8)
+    };
+    (@each $scene:expr, $order:expr, $rod:ident, $body:expr, $($n:literal)*) => {
+        match ($order, $scene.shape.is_uniform()) {
+            $(
+                ($n, true) => { let $rod = UniformRod::<$n>::new($scene); $body }
+                ($n, false) => { let $rod = VariedRod::<$n>::new($scene); $body }
+            )*
+            (order, _) => Err(ReferenceError::Options {
+                given: format!("order = {order}"),
+                wanted: "5 to 8 polynomials",
+            }),
+        }
+    };
+}
 
 /// Options of the rod's solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,16 +97,7 @@ pub fn solve_with(
         return Err(ReferenceError::Options { given, wanted: "1e-12 to 1e-4" });
     }
     let schedule = Schedule::new(trajectory, times)?;
-    match options.order {
-        5 => march::run(&Rod::<5>::new(&scene), &schedule, options, progress),
-        6 => march::run(&Rod::<6>::new(&scene), &schedule, options, progress),
-        7 => march::run(&Rod::<7>::new(&scene), &schedule, options, progress),
-        8 => march::run(&Rod::<8>::new(&scene), &schedule, options, progress),
-        order => Err(ReferenceError::Options {
-            given: format!("order = {order}"),
-            wanted: "5 to 8 polynomials",
-        }),
-    }
+    with_rod!(&scene, options.order, |rod| march::run(&rod, &schedule, options, progress))
 }
 
 /// Loads at the hub at one instant of a flight.
@@ -123,44 +137,42 @@ pub fn watch(
 ) -> Result<Resume, ReferenceError> {
     let scene = scene.validate()?;
     let schedule = Schedule::new(trajectory, &[])?;
-    match options.order {
-        5 => march::watch(&Rod::<5>::new(&scene), &schedule, options, resume, until, visit),
-        6 => march::watch(&Rod::<6>::new(&scene), &schedule, options, resume, until, visit),
-        7 => march::watch(&Rod::<7>::new(&scene), &schedule, options, resume, until, visit),
-        8 => march::watch(&Rod::<8>::new(&scene), &schedule, options, resume, until, visit),
-        order => Err(ReferenceError::Options {
-            given: format!("order = {order}"),
-            wanted: "5 to 8 polynomials",
-        }),
-    }
+    with_rod!(&scene, options.order, |rod| {
+        march::watch(&rod, &schedule, options, resume, until, visit)
+    })
 }
 
 /// Returns hub torque and bending moment at the clamp, N m, of the arm at rest under its own weight
 /// with the hub at `angle`.
 pub fn rest_loads(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], ReferenceError> {
-    let rod = Rod::<7>::new(&scene.validate()?);
-    let (sin, cos) = angle.sin_cos();
-    let a = rod
-        .equilibrium(sin, cos)
-        .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
-    let still = a.map(|_| 0.0);
-    let hub = HubState { angle, rate: 0.0, acceleration: 0.0, sin, cos };
-    Ok(rod.loads(&rod.configuration(&a, &still), &still, &still, &hub))
+    let scene = scene.validate()?;
+    with_rod!(&scene, ORDER, |rod| {
+        let (sin, cos) = angle.sin_cos();
+        let a = rod
+            .equilibrium(sin, cos)
+            .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
+        let still = a.map(|_| 0.0);
+        let hub = HubState { angle, rate: 0.0, acceleration: 0.0, sin, cos };
+        Ok(rod.loads(&rod.configuration(&a, &still), &still, &still, &hub))
+    })
 }
 
-/// Returns the first natural period of the straight clamped arm, s.
+/// Returns the first natural period of the straight arm on a hub that is held, s.
 pub fn first_period(scene: &Scene) -> Result<f64, ReferenceError> {
-    Ok(std::f64::consts::TAU / Rod::<7>::new(&scene.validate()?).frequencies()[0])
+    let scene = scene.validate()?;
+    with_rod!(&scene, ORDER, |rod| Ok(std::f64::consts::TAU / rod.frequencies()[0]))
 }
 
 /// Returns the hub-frame Y of the tip, m, of the arm at rest under its own weight with the hub at
 /// `angle`. A run's residual vibration is measured from it, whatever model made the run. Error
 /// below 1e-9 L.
 pub fn rest_deflection(scene: &Scene, angle: Angle<f64>) -> Result<f64, ReferenceError> {
-    let rod = Rod::<7>::new(&scene.validate()?);
-    let (sin, cos) = angle.sin_cos();
-    let a = rod
-        .equilibrium(sin, cos)
-        .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
-    Ok(rod.configuration(&a, &a.map(|_| 0.0)).tip()[1])
+    let scene = scene.validate()?;
+    with_rod!(&scene, ORDER, |rod| {
+        let (sin, cos) = angle.sin_cos();
+        let a = rod
+            .equilibrium(sin, cos)
+            .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
+        Ok(rod.tip(&rod.configuration(&a, &a.map(|_| 0.0)))[1])
+    })
 }

@@ -8,11 +8,11 @@ use super::equations::Rod;
 /// starts at the straight link.
 const LOAD_STEPS: u32 = 16;
 
-impl<const N: usize> Rod<N> {
+impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
     /// Returns the static shape under gravity at the hub angle given by its sine and cosine, rad.
     /// Returns `None` if it is not stable.
     ///
-    /// Minimises `½ Σ kₖ aₖ² + g ∫ M(x) sin(θ + φ) dx`, `M(x) = ρA(L − x) + m_p` the mass outboard.
+    /// Minimises `½ aᵀKa + g Σ mₛ (Xₛ sin θ + Yₛ cos θ)` over the stations.
     pub fn equilibrium(&self, sin: f64, cos: f64) -> Option<SVector<f64, N>> {
         let mut a = SVector::zeros();
         if self.scene.gravity == 0.0 {
@@ -45,15 +45,13 @@ impl<const N: usize> Rod<N> {
         cos: f64,
         a: &SVector<f64, N>,
     ) -> (SVector<f64, N>, SMatrix<f64, N, N>) {
-        let basis = &self.basis;
-        let (link, payload) = (&self.scene.link, &self.scene.payload);
-        let mut gradient = SVector::from_fn(|k, _| self.stiffness[k] * a[k]);
-        let mut hessian = SMatrix::from_diagonal(&SVector::from(self.stiffness));
-        for (p, shapes) in basis.shapes.iter().enumerate() {
+        let mut gradient = self.stiffness * a;
+        let mut hessian = self.stiffness;
+        for (p, shapes) in self.shapes.iter().enumerate() {
             let shapes = SVector::from(*shapes);
             let (s, c) = shapes.dot(a).sin_cos();
-            let outboard = link.mass * (1.0 - basis.points[p]) + payload.mass;
-            let weight = gravity * outboard * link.length * basis.weights[p];
+            let outboard: f64 = (0..S).map(|s| self.masses[s] * self.by_station[s][p]).sum();
+            let weight = gravity * outboard;
             gradient += shapes * (weight * (cos * c - sin * s));
             hessian -= shapes * shapes.transpose() * (weight * (sin * c + cos * s));
         }
@@ -65,10 +63,13 @@ impl<const N: usize> Rod<N> {
     pub fn frequencies(&self) -> SVector<f64, N> {
         let rest = SVector::zeros();
         let mass = self.mass_matrix(&self.configuration(&rest, &rest));
-        // K is diagonal: ω⁻² are the eigenvalues of K^-½ M K^-½.
-        let scaled = DMatrix::from_fn(N, N, |i, j| {
-            mass[(i, j)] / (self.stiffness[i] * self.stiffness[j]).sqrt()
-        });
+        // With K = LLᵀ, ω⁻² are the eigenvalues of L⁻¹ M L⁻ᵀ.
+        let stiffness = DMatrix::from_fn(N, N, |i, j| self.stiffness[(i, j)]);
+        let mass = DMatrix::from_fn(N, N, |i, j| mass[(i, j)]);
+        let lower = Cholesky::new(stiffness).expect("a stiff link").unpack();
+        let half = lower.solve_lower_triangular(&mass).expect("no zero on the diagonal");
+        let scaled =
+            lower.solve_lower_triangular(&half.transpose()).expect("no zero on the diagonal");
         let mut omega: Vec<f64> = scaled
             .symmetric_eigenvalues()
             .iter()

@@ -129,7 +129,7 @@ fn arm(rng: &mut StdRng) -> Result<Scene, Error> {
             Payload { mass, inertia: twist * arm.link.mass * length * length, offset: 0.0 };
     }
     if rng.random_bool(0.5) {
-        arm.hub = Hub { radius: rng.random_range(0.0..1.0) * length, inertia: 0.0 };
+        arm.hub = Hub { radius: rng.random_range(0.0..1.0) * length, ..Hub::default() };
     }
     // The period goes with the inverse root of the stiffness.
     let stiffness = (rod::first_period(&arm)? / period).powi(2);
@@ -137,7 +137,7 @@ fn arm(rng: &mut StdRng) -> Result<Scene, Error> {
     let omega = std::f64::consts::TAU / period;
     if rng.random_bool(0.3) {
         let beta = rng.random_range(0.0..0.02) / omega;
-        arm.damping = Damping { alpha: rng.random_range(0.0..0.5), beta };
+        arm.damping = Damping { alpha: rng.random_range(0.0..0.5), beta, joint: 0.0 };
     }
     if rng.random_bool(0.4) {
         // Level, of the payload and three eighths of the link at the tip.

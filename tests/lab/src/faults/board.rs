@@ -8,7 +8,7 @@ use stillbeam::axis::{Axis, Mode, Pace, Tick};
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::Demand;
-use stillbeam::{Error as CoreError, Move, Payload, PlannedMove, Scene};
+use stillbeam::{Error as CoreError, Move, Payload, PlannedMove, UniformScene};
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Request};
 use stillbeam_wiring::axes::{Joint, QUEUE, Stepper, stepper};
@@ -65,7 +65,7 @@ enum Ready {
         again: bool,
     },
     Arm {
-        scene: Scene,
+        scene: UniformScene,
         stepper: Stepper,
     },
 }
@@ -202,7 +202,7 @@ impl Board {
     }
 
     fn set_up(&self, payload: Payload) -> Result<Ready, Refusal<'static>> {
-        let scene = Scene { payload, ..self.joint.scene };
+        let scene = UniformScene { payload, ..self.joint.scene };
         Ok(Ready::Arm { scene, stepper: stepper(&scene)? })
     }
 

@@ -90,7 +90,8 @@ fn samples(path: &Path) -> Result<Vec<Sample>, Error> {
         .map(|row| {
             let [t, angle, rate, acceleration, x, y, deflection, torque]: [f64; 8] =
                 row.map_err(refuse)?;
-            Ok(Sample { t, angle, rate, acceleration, tip: [x, y], deflection, torque })
+            let tip = [x, y];
+            Ok(Sample { t, angle, rate, acceleration, tip, payload: tip, deflection, torque })
         })
         .collect()
 }

@@ -35,14 +35,16 @@ fn arm(rng: &mut StdRng) -> Scene {
     Scene {
         link: Link { length, mass, bending_stiffness },
         shape: Varied::UNIFORM,
-        hub: Hub { radius: length * rng.random_range(0.0..0.3), inertia: 0.0 },
+        hub: Hub { radius: length * rng.random_range(0.0..0.3), ..Hub::default() },
         payload: Payload {
             mass: payload * mass,
             inertia: mass * length * length * rng.random_range(0.0..0.02),
+            offset: 0.0,
         },
         damping: Damping {
             alpha: damped * rng.random_range(0.0..1.0),
             beta: damped * period * rng.random_range(0.0..0.01),
+            joint: 0.0,
         },
         gravity: if upright { 9.81 * f64::min(1.0, 0.05 / sag) } else { 0.0 },
     }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
-use stillbeam::scene::Varied;
+use stillbeam::scene::{PointMass, Section, Varied};
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Profile, Scene};
 
 use stillbeam_sim::scene_file::{Deduced, SceneFile};
@@ -12,10 +12,14 @@ use stillbeam_sim::solver::{Mass, Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
 /// Drawn quantities and their ranges, for a page.
-pub const RANGES: [(&str, &str); 10] = [
+pub const RANGES: [(&str, &str); 14] = [
     ("link", "length 0.03 to 10 m, mass 1 g to 100 kg"),
     ("bending stiffness", "10⁻⁶ to 10⁶ N m², or such that ω₁h is 10⁻³·⁵ to 10²"),
     ("payload over link mass", "0, 10⁻³ to 10³; with rotary inertia in half of the scenes"),
+    ("payload beyond the tip", "in three of ten, −0.3 L to L"),
+    ("sections", "in four of ten, 1 to 4; stiffness and mass over two decades"),
+    ("masses on the link", "in three of ten, 1 or 2, of 10⁻³ to 3 link masses"),
+    ("joint", "in three of ten, 0.1 to 1000 EI/L; some with damping of its own"),
     ("hub radius", "0, 10⁻² L to 10 L"),
     ("tick", "0.1 ms to 1 s"),
     ("damping of the first mode", "0, 10⁻⁴ to 10 of critical, by α, by β or by both"),
@@ -36,8 +40,37 @@ pub struct Drawn {
     pub omega: f64,
 }
 
-/// Draws the scene of that number under that seed.
+/// Draws the scene of that number under that seed: that of [`draw_plain`], and features that only
+/// some arms have, from numbers of their own.
 pub fn draw(seed: u64, index: u64) -> Drawn {
+    let plain = draw_plain(seed, index);
+    let mut rng = StdRng::seed_from_u64(!seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index);
+    let mut arm = plain.scene.arm;
+    let (length, mass) = (arm.link.length, arm.link.mass);
+    arm.shape = shape(&mut rng, length, mass);
+    let link = arm.link.bending_stiffness / length;
+    let mut softness = 1.0;
+    if rng.random_bool(0.3) {
+        let stiffness = link * decades(&mut rng, -1.0, 3.0);
+        arm.hub.stiffness = Some(stiffness);
+        softness += 3.0 * link / stiffness;
+    }
+    let omega = plain.omega / softness.sqrt();
+    if rng.random_bool(0.3) {
+        arm.damping.joint = Damping::joint_of_ratio(decades(&mut rng, -4.0, 0.5), omega).min(1e3);
+    }
+    if rng.random_bool(0.3) {
+        let offset = rng.random_range(-0.3..1.0) * length;
+        // Lumped elements take an offset with some rotary inertia only.
+        let least = 1e-4 * arm.payload.mass * offset * offset;
+        arm.payload = Payload { offset, inertia: arm.payload.inertia.max(least), ..arm.payload };
+    }
+    Drawn { scene: SceneFile { arm, ..plain.scene }, omega, ..plain }
+}
+
+/// Draws the scene of that number under that seed, its link uniform and clamped without give, its
+/// payload at the tip. Cases that campaigns have found are named by these numbers.
+pub fn draw_plain(seed: u64, index: u64) -> Drawn {
     let mut rng = StdRng::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index);
     let rng = &mut rng;
     let length = decades(rng, -1.5, 1.0);
@@ -45,7 +78,7 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
     let tick = decades(rng, -4.0, 0.0);
     let payload = Payload {
         mass: if rng.random_bool(0.1) { 0.0 } else { mass * decades(rng, -3.0, 3.0) },
-        inertia: 0.0,
+        ..Payload::default()
     };
     let inertia = if rng.random_bool(0.5) { decades(rng, -4.0, -1.0) } else { 0.0 };
     let payload = Payload { inertia: inertia * payload.mass * length * length, ..payload };
@@ -89,6 +122,28 @@ impl Drawn {
     pub fn sag(&self) -> f64 {
         self.scene.arm.gravity / (self.omega * self.omega * self.scene.arm.link.length)
     }
+}
+
+/// Draws a uniform link, or up to four sections, and up to two masses on it.
+fn shape(rng: &mut StdRng, length: f64, mass: f64) -> Varied {
+    let mut shape = Varied::UNIFORM;
+    if rng.random_bool(0.4) {
+        let count = rng.random_range(1..5);
+        let sections: Vec<Section> = (0..count)
+            .map(|_| {
+                let ei = [decades(rng, -1.0, 1.0), decades(rng, -1.0, 1.0)];
+                let rho = [decades(rng, -1.0, 1.0), decades(rng, -1.0, 1.0)];
+                Section::linear(decades(rng, -1.0, 0.0), ei, rho).expect("within range")
+            })
+            .collect();
+        shape = Varied::of_sections(&sections).expect("a link").1;
+    }
+    let count = if rng.random_bool(0.7) { 0 } else { rng.random_range(1..3) };
+    (0..count).fold(shape, |shape, _| {
+        let position = rng.random_range(0.0..1.0) * length;
+        let mounted = PointMass { position, mass: mass * decades(rng, -3.0, 0.5) };
+        shape.with_mass(length, mounted).expect("on the link")
+    })
 }
 
 fn decades(rng: &mut StdRng, low: f64, high: f64) -> f64 {

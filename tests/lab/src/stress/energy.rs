@@ -6,7 +6,7 @@ use stillbeam::model::{Model, Modes, Rod};
 use stillbeam::stepper::{self, AnyMotion, AtRest, Elastica, Modal, Newmark, Stepper};
 use stillbeam::{Damping, Generator, Move, Scalar as Real, Scene};
 
-use super::draw::draw;
+use super::draw::draw_plain;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::step::Step;
 
@@ -70,7 +70,7 @@ struct Arm {
 /// Returns the scene without damping and gravity, if a tick resolves its first mode and its move
 /// bends it by a hundredth to half a radian.
 fn suitable(seed: u64, index: u64) -> Option<Arm> {
-    let drawn = draw(seed, index);
+    let drawn = draw_plain(seed, index);
     let tick = drawn.solvers.first()?.tick;
     let turn = drawn.omega * tick;
     let arm = Scene { damping: Damping::default(), gravity: 0.0, ..drawn.scene.arm };

@@ -1,0 +1,160 @@
+//! Arms with joints that give, payloads beyond the tip and links of sections: the two references
+//! against each other, and the methods of the tick against the rod.
+
+use std::f64::consts::PI;
+
+use stillbeam::model::{FourElements, Rod};
+use stillbeam::planner::{Planner, Request};
+use stillbeam::stepper::{Elastica, Modal2, Newmark4, Quality};
+use stillbeam::{Link, Payload, Scene};
+use stillbeam_lab::reference::truth::difference;
+use stillbeam_sim::plan::judge::Motion;
+use stillbeam_sim::reference::{Sample, fem, rod};
+use stillbeam_sim::run::drive;
+use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::scenes;
+use stillbeam_tests::features::featured;
+
+const TICK: f64 = 0.01;
+
+fn with(file: &SceneFile, arm: Scene) -> SceneFile {
+    SceneFile { arm, ..file.clone() }
+}
+
+fn times(file: &SceneFile) -> Vec<f64> {
+    let ticks = file.trajectory(TICK).expect("a motion").ticks();
+    (0..=ticks).map(|k| k as f64 * TICK).collect()
+}
+
+fn by_rod(file: &SceneFile) -> Vec<Sample> {
+    let trajectory = file.trajectory(TICK).expect("a motion");
+    rod::solve(&file.arm, &trajectory, &times(file), &rod::Options::default()).expect("a run")
+}
+
+/// The two solvers share nothing but the scene: a term that one lacks shows.
+#[test]
+fn rod_and_elements_agree_on_every_feature() {
+    for (name, options) in [
+        ("d-fast", fem::Options::default()),
+        ("a-tip30", fem::Options { elements: 16, step: Some(2e-3), ..Default::default() }),
+        ("s-gravity", fem::Options { elements: 16, step: Some(2e-3), ..Default::default() }),
+    ] {
+        let file = scenes::open(name).expect("a scene");
+        for (feature, arm) in featured(&file.arm) {
+            let file = with(&file, arm);
+            let trajectory = file.trajectory(TICK).expect("a motion");
+            let elements = fem::solve(&arm, &trajectory, &times(&file), &options).expect("a run");
+            let apart = difference(&arm, &trajectory, &elements, &by_rod(&file));
+            println!("{name}, {feature}: {apart:?}");
+            assert!(apart.tip < 2e-4 && apart.torque < 0.01, "{name}, {feature}: {apart:?}");
+        }
+    }
+}
+
+/// The payload's centre is `d` beyond the tip in both.
+#[test]
+fn the_payload_comes_out() {
+    let file = scenes::open("s-gravity").expect("a scene");
+    let arm = featured(&file.arm)[2].1;
+    let file = with(&file, arm);
+    let stepper =
+        Elastica::<f64, 2>::new(&Rod::new(&arm).expect("an arm"), TICK, Quality::Fine, 1.0);
+    let rows = drive(stepper.expect("a stepper"), &file).expect("a run");
+    for (row, sample) in rows.iter().zip(&by_rod(&file)) {
+        let [x, y] = [row.payload_x_m, row.payload_y_m].map(|x| x.expect("a column"));
+        let apart = (x - sample.payload[0]).hypot(y - sample.payload[1]);
+        assert!(apart < 2e-4, "{} s: {apart} m", row.t_s);
+    }
+    let trajectory = file.trajectory(TICK).expect("a motion");
+    let options = fem::Options { elements: 8, step: Some(2e-3), ..Default::default() };
+    let elements = fem::solve(&arm, &trajectory, &times(&file), &options).expect("a run");
+    for (a, b) in elements.iter().zip(&by_rod(&file)) {
+        let apart = (a.payload[0] - b.payload[0]).hypot(a.payload[1] - b.payload[1]);
+        assert!(apart < 2e-4, "{} s: {apart} m", a.t);
+        let ahead = (b.payload[0] - b.tip[0]).hypot(b.payload[1] - b.tip[1]);
+        assert!((ahead - arm.payload.offset).abs() < 1e-6, "{ahead} m");
+    }
+}
+
+/// Largest distance of the tip from the rod's, fraction of L, in ticks of 10 ms in f32.
+fn error(file: &SceneFile) -> f64 {
+    let rod = Rod::<2>::new(&file.arm).expect("an arm");
+    let bend = Elastica::<f32, 2>::nearest_bend(1.2);
+    let stepper = Elastica::<f32, 2>::new(&rod, TICK, Quality::Fast, bend).expect("a stepper");
+    let rows = drive(stepper, file).expect("a run");
+    let truth = by_rod(file);
+    assert_eq!(rows.len(), truth.len());
+    let apart = |(row, sample): (&stillbeam_sim::table::Row, &Sample)| {
+        (row.tip_x_m - sample.tip[0]).hypot(row.tip_y_m - sample.tip[1])
+    };
+    rows.iter().zip(&truth).map(apart).fold(0.0, f64::max) / file.arm.link.length
+}
+
+#[test]
+fn ticks_follow_every_feature_as_they_do_the_plain_arm() {
+    for name in ["d-fast", "a-tip30", "s-gravity"] {
+        let file = scenes::open(name).expect("a scene");
+        let plain = error(&file);
+        println!("{name}: {plain:.1e}");
+        for (feature, arm) in featured(&file.arm) {
+            let error = error(&with(&file, arm));
+            println!("{name}, {feature}: {error:.1e}");
+            assert!(error < 2.0 * plain, "{name}, {feature}: {error:.1e}, plain {plain:.1e}");
+        }
+    }
+}
+
+/// A half turn in two periods leaves the arm within 0.01 % of L.
+#[test]
+fn still_moves_are_still_behind_a_joint_and_with_a_payload_beyond_the_tip() {
+    let mut machine = Scene::new(Link { length: 0.44, mass: 0.27646, bending_stiffness: 94.74 });
+    machine.payload.mass = 0.95;
+    machine.hub.stiffness = Some(7.1e3);
+    // An aluminium strip of 0.5 m × 40 × 4 mm.
+    let mut gripper = Scene::new(Link { length: 0.5, mass: 0.224, bending_stiffness: 14.72 });
+    gripper.payload = Payload { mass: 0.5, inertia: 4e-4, offset: 0.05 };
+    let file = scenes::open("a-tip30").expect("a scene");
+    let mut arms = vec![("machine", machine), ("gripper", gripper)];
+    arms.extend(featured(&file.arm));
+    for (name, arm) in arms {
+        let planner = Planner::<f32, 2>::new(&arm, TICK).expect("a planner");
+        let duration = 2.0 * planner.first_period();
+        let request = Request::from_rest(0.0, PI).duration(duration).any_deflection();
+        let plan = planner.plan(&request).expect("a plan");
+        let motion = Motion::of(0.0, plan.motion(), plan.tick);
+        let left = motion.judge(&arm, 0.0).expect("a run").residual;
+        println!("{name}: {left:.1e}");
+        assert!(left < 1e-4, "{name}: {left:.1e}");
+    }
+}
+
+/// Behind a joint of 10⁸ EI/L every method ends where it does behind a clamp, to 1e-6 of L.
+#[test]
+fn a_joint_that_hardly_gives_is_a_clamp() {
+    let file = scenes::open("a-tip30").expect("a scene");
+    let mut arm = file.arm;
+    arm.hub.stiffness = Some(1e8 * arm.link.bending_stiffness / arm.link.length);
+    let runs = |arm: &Scene| {
+        let file = with(&file, *arm);
+        let rod = Rod::<2>::new(arm).expect("an arm");
+        let model = FourElements::consistent(arm).expect("a model");
+        let elastica = Elastica::<f64, 2>::new(&rod, TICK, Quality::Fast, 1.0);
+        [
+            drive(Newmark4::<f64>::new(&model, TICK).expect("a stepper"), &file),
+            drive(Modal2::<f64>::new(&model, TICK).expect("a stepper"), &file),
+            drive(elastica.expect("a stepper"), &file),
+        ]
+        .map(|rows| rows.expect("a run"))
+    };
+    for (stiff, clamped) in runs(&arm).iter().zip(&runs(&file.arm)) {
+        for (a, b) in stiff.iter().zip(clamped) {
+            let apart = (a.tip_x_m - b.tip_x_m).hypot(a.tip_y_m - b.tip_y_m);
+            assert!(apart < 1e-6 * arm.link.length, "{} s: {apart} m", a.t_s);
+        }
+    }
+    let apart = |a: &[Sample], b: &[Sample]| {
+        let each = |(a, b): (&Sample, &Sample)| (a.deflection - b.deflection).abs();
+        a.iter().zip(b).map(each).fold(0.0, f64::max)
+    };
+    assert!(apart(&by_rod(&with(&file, arm)), &by_rod(&file)) < 1e-6 * arm.link.length);
+}
