@@ -1,8 +1,11 @@
 //! What the pages say in words about figures of their tables and of the code.
 
+use stillbeam::material::MATERIALS;
 use stillbeam::{Error, Link, Scene};
 use stillbeam_lab::markers;
 use stillbeam_protocol::frame;
+use stillbeam_sim::arm;
+use stillbeam_sim::scene_file::{Deduced, SceneFile};
 use stillbeam_tests::{instructions, root};
 
 fn page(name: &str) -> String {
@@ -142,6 +145,28 @@ fn sine_and_cosine_are_as_much_better_as_the_page_says() {
 #[test]
 fn the_wire_page_knows_the_longest_frame() {
     says(&page("docs/firmware.md"), &format!("At most {} bytes", frame::MAX));
+}
+
+/// The page on arms has a file of every kind: each is read, without a remark, and is an arm.
+#[test]
+fn every_file_on_the_page_of_arms_is_an_arm() {
+    let page = page("docs/arms.md");
+    let files: Vec<&str> = page
+        .split("```toml\n")
+        .skip(1)
+        .map(|rest| rest.split("```").next().expect("an end"))
+        .collect();
+    assert_eq!(files.len(), 5);
+    for file in &files {
+        let scene = SceneFile::parse_arm("docs/arms.md", file).expect(file);
+        assert_eq!(scene.remarks, Vec::<String>::new(), "{file}");
+        let report = arm::describe(&scene).expect(file);
+        assert!(report.frequency_hz[0] > 1.0 && report.method.is_none(), "{file}");
+        let measured = ["frequency = ", "ratio = "].iter().any(|key| file.contains(key));
+        assert_eq!(scene.deduced != Deduced::default(), measured, "{file}");
+    }
+    let materials = MATERIALS.map(|material| material.name).join(", ");
+    says(&page, &format!("**Materials**: {materials} (spruce, along the grain)."));
 }
 
 /// The map and the recipes name files: each is there, below the root or the folder that it is told

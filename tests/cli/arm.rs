@@ -181,3 +181,38 @@ fn what_is_no_arm_is_refused_in_a_line() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("must be a scene file or one of"));
 }
+
+/// What was deduced is noted by a run, and the payload's centre has its columns.
+#[test]
+fn a_run_notes_what_was_deduced() {
+    let folder = tempfile::tempdir().expect("folder");
+    let scene = "[link]\nlength = 0.4\nmass = 0.0224\nfrequency = 4.0\n[hub]\nstiffness = \
+                 20\n[payload]\nmass = 0.03\noffset = 0.02\n[damping]\nratio = 0.01\nfrom = \
+                 \"beta\"\n[move]\nprofile = \"quintic\"\nduration = 0.5\nto = 0.5\nsettle = 0.5\n";
+    fs::write(folder.path().join("arm.toml"), scene).expect("scene");
+    let output = sim()
+        .current_dir(folder.path())
+        .args(["run", "arm.toml", "--csv", "a.csv", "--method", "elastica"])
+        .output()
+        .expect("program");
+    let notes = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(0), "{notes}");
+    let lines: Vec<&str> = notes.lines().collect();
+    assert_eq!(lines.len(), 2, "{notes}");
+    assert!(lines[0].starts_with("note: bending_stiffness = "), "{notes}");
+    assert!(lines[0].ends_with("N m^2, from link.frequency = 4 Hz"), "{notes}");
+    assert!(lines[1].starts_with("note: damping.beta = 7.9577e-4 s, from a damping"), "{notes}");
+    let table = fs::read_to_string(folder.path().join("a.csv")).expect("table");
+    let header: Vec<&str> = table.lines().next().expect("header").split(',').collect();
+    assert_eq!(header[8..], ["payload_x_m", "payload_y_m"]);
+    let rows = table.lines().skip(1).map(|line| -> Vec<f64> {
+        line.split(',').map(|cell| cell.parse().expect("a number")).collect()
+    });
+    let mut bent: f64 = 0.0;
+    for row in rows {
+        let [x, y] = [row[8] - row[4], row[9] - row[5]];
+        assert!((x.hypot(y) - 0.02).abs() < 1e-6, "{row:?}");
+        bent = bent.max((y.atan2(x) - row[1]).abs());
+    }
+    assert!(bent > 0.01, "the tip turns against the hub: {bent}");
+}

@@ -5,6 +5,7 @@ use std::fs;
 
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
+use stillbeam_sim::error::Error;
 use stillbeam_sim::scene_file::SceneFile;
 
 use crate::sim;
@@ -128,14 +129,58 @@ fn the_program_says_it_in_one_line() {
     }
 }
 
+/// An arm of every kind of table.
+const ARM: &str = "[link]
+material = \"aluminium\"
+frequency = [9.0, 60.0]
+
+[[link.sections]]
+length = 0.2
+width = [0.03, 0.02]
+thickness = 0.01
+
+[[link.sections]]
+length = 0.3
+diameter = 0.012
+wall = 0.001
+
+[[link.masses]]
+at = 0.25
+mass = 0.015
+
+[hub]
+stiffness = 230
+
+[payload]
+mass = 0.05
+offset = 0.02
+
+[damping]
+ratio = 0.02
+from = \"joint\"
+";
+
 /// Bytes struck out, doubled, swapped, put in and cut off at random: a scene, or one line.
 #[test]
 fn mangled_scenes_are_read_or_refused_in_a_line() {
+    let refused = mangled(GOOD, 3000, SceneFile::parse);
+    assert!((500..2990).contains(&refused), "{refused}");
+}
+
+#[test]
+fn mangled_arms_are_read_or_refused_in_a_line() {
+    SceneFile::parse_arm("arm.toml", ARM).expect("an arm");
+    let refused = mangled(ARM, 2000, SceneFile::parse_arm);
+    assert!((500..1990).contains(&refused), "{refused}");
+}
+
+/// Reads a text `count` times with other mistakes and returns how often it is refused.
+fn mangled(good: &str, count: usize, read: fn(&str, &str) -> Result<SceneFile, Error>) -> u32 {
     let mut rng = StdRng::seed_from_u64(13);
     let inserted = ["=", "\"", "[", "]", ",", "\n", ".", "-", "e", "1", " ", "#", "\u{b0}", "nan"];
     let mut refused = 0;
-    for _ in 0..3000 {
-        let mut text: Vec<char> = GOOD.chars().collect();
+    for _ in 0..count {
+        let mut text: Vec<char> = good.chars().collect();
         for _ in 0..rng.random_range(1..4) {
             let at = rng.random_range(0..text.len());
             match rng.random_range(0..5) {
@@ -154,7 +199,7 @@ fn mangled_scenes_are_read_or_refused_in_a_line() {
             }
         }
         let text: String = text.into_iter().collect();
-        if let Err(error) = SceneFile::parse("arm.toml", &text) {
+        if let Err(error) = read("arm.toml", &text) {
             let error = error.to_string();
             assert!(error.starts_with("arm.toml"), "{error}");
             assert!(!error.contains(['\n', '\r']) && error.len() < 600, "{error}");
@@ -162,7 +207,7 @@ fn mangled_scenes_are_read_or_refused_in_a_line() {
             refused += 1;
         }
     }
-    assert!((500..2990).contains(&refused), "{refused}");
+    refused
 }
 
 #[test]

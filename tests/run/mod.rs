@@ -7,6 +7,7 @@ mod convergence;
 mod energy;
 mod exact;
 mod limits;
+mod links;
 mod measured;
 mod methods;
 mod residual;

@@ -222,6 +222,7 @@ impl LinkTable {
             };
             sections.push(table.build(&place, &material)?);
         }
+        let built = self.scaled(&sections, some_modulus)?;
         let sum: f64 = tables.iter().map(|table| table.length).sum();
         let differs = |length: &f64| (sum - length).abs() > 1e-9 * length || length.is_nan();
         if let Some(length) = self.length.filter(differs) {
@@ -229,7 +230,7 @@ impl LinkTable {
                 "link.length = {length}: must be {sum} m, the sum of [[link.sections]], or absent"
             )));
         }
-        self.scaled(&sections, some_modulus)
+        Ok(built)
     }
 
     /// Refuses sizes of the whole link beside sections.

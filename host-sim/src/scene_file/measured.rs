@@ -31,6 +31,12 @@ pub(super) enum Unknown {
     Both,
 }
 
+/// κ of the joints that a fit starts from.
+const STARTS: [f64; 2] = [0.3, 300.0];
+
+/// Largest relative error of frequencies that are met exactly.
+const EXACT: f64 = 1e-9;
+
 /// Result of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Fit {
@@ -40,6 +46,14 @@ pub(super) struct Fit {
     pub joint: Option<f64>,
     /// Largest relative error of a frequency.
     pub misfit: f64,
+}
+
+impl Fit {
+    /// True if both are the same but for rounding.
+    fn is_like(&self, other: &Self) -> bool {
+        let joints = self.joint.zip(other.joint);
+        joints.is_some_and(|(one, other)| (one / other - 1.0).abs() < 1e-3)
+    }
 }
 
 /// Fits the unknowns to frequencies of the first modes, Hz. The arm is taken as it is in all else:
@@ -62,33 +76,59 @@ struct Point {
 }
 
 impl Problem<'_> {
-    /// Takes Gauss-Newton steps, none of them longer than a factor of e.
+    /// Fits from both ends of a joint's range, as two frequencies may be those of a stiff link
+    /// behind a soft joint and of a soft link behind a stiff one.
     fn solve(&self) -> Result<Fit, Error> {
-        let mut point = self.start()?;
+        let [soft, stiff] = STARTS.map(|start| self.descend(start));
+        let (soft, stiff) = (soft?, stiff?);
+        if self.unknown != Unknown::Both {
+            return self.judged(soft);
+        }
+        let is_exact = self.measured.len() == 2;
+        let (mut fits, mut refusal) = (Vec::new(), None);
+        for point in [soft, stiff].into_iter().filter(|point| !self.is_beyond(*point)) {
+            match self.judged(point) {
+                Ok(fit) if !is_exact || fit.misfit < EXACT => fits.push(fit),
+                Ok(_) => {}
+                Err(error) => refusal = Some(error),
+            }
+        }
+        fits.sort_by(|one, other| one.misfit.total_cmp(&other.misfit));
+        match (&fits[..], refusal) {
+            ([], Some(error)) if !is_exact => Err(error),
+            ([], _) => Err(self.no_joint()?),
+            ([one, other], _) if is_exact && !one.is_like(other) => Err(self.ambiguous(one, other)),
+            ([best, ..], _) => Ok(*best),
+        }
+    }
+
+    /// Takes Gauss-Newton steps from a joint of that κ, none of them longer than a factor of e.
+    fn descend(&self, start: f64) -> Result<Point, Error> {
+        let mut point = self.start(start)?;
         for _ in 0..200 {
             let (errors, slopes) = self.linearised(point)?;
             let step = slopes
                 .svd(true, true)
                 .solve(&-errors, 1e-14)
                 .map_err(|reason| Error::new(format_args!("{}: {reason}", self.name())))?;
-            let step = step.map(|part| part.clamp(-1.0, 1.0));
+            let step = &step / step.amax().max(1.0);
             point = self.moved(point, &step);
             if self.is_beyond(point) || step.amax() < 1e-12 {
                 break;
             }
         }
-        self.judged(point)
+        Ok(point)
     }
 
-    /// Starts with the clamped link that fits best, and a joint of three times its stiffness.
-    fn start(&self) -> Result<Point, Error> {
+    /// Starts with the clamped link that fits best, and a joint of that κ.
+    fn start(&self, joint: f64) -> Result<Point, Error> {
         let clamped = self.logarithms(None)?;
         let count = self.measured.len() as f64;
         let mean = self.pairs(&clamped).map(|(own, measured)| measured - own).sum::<f64>() / count;
         let link = if self.unknown == Unknown::Joint { 0.0 } else { 2.0 * mean };
         let joint = match self.unknown {
             Unknown::Link => self.arm.hub.stiffness.map(f64::ln),
-            Unknown::Joint | Unknown::Both => Some((3.0 * self.unit()).ln() + link),
+            Unknown::Joint | Unknown::Both => Some((joint * self.unit()).ln() + link),
         };
         Ok(Point { link, joint })
     }
@@ -147,7 +187,7 @@ impl Problem<'_> {
         }
         let (errors, _) = self.linearised(point)?;
         let misfit = errors.amax();
-        if !(misfit < MISFIT) {
+        if misfit.is_nan() || misfit >= MISFIT {
             let nearest: Vec<String> = self
                 .measured
                 .iter()
@@ -161,27 +201,50 @@ impl Problem<'_> {
                 nearest.join(", ")
             )));
         }
-        let joint = point.joint.map(f64::exp);
+        let joint = match self.unknown {
+            Unknown::Link => self.arm.hub.stiffness,
+            Unknown::Joint | Unknown::Both => point.joint.map(f64::exp),
+        };
         Ok(Fit { stiffness: point.link.exp(), joint, misfit })
     }
 
     /// The error of frequencies that leave a joint nothing to give.
     fn not_softer(&self) -> Result<Error, Error> {
         let clamped = self.logarithms(None)?.map(f64::exp);
-        Ok(match self.unknown {
-            Unknown::Both => Error::new(format_args!(
-                "{}: the second over the first must be more than {:.3}, that of the clamped link, for \
-                 a joint that gives; leave hub.stiffness out",
-                self.name(),
-                clamped[1] / clamped[0]
-            )),
-            _ => Error::new(format_args!(
-                "{}: must be less than {:.4} Hz, that of the clamped link, for a joint that gives; \
-                 leave hub.stiffness out, or give a stiffer link",
-                self.name(),
-                clamped[0]
-            )),
-        })
+        Ok(Error::new(format_args!(
+            "{}: must be less than {:.4} Hz, that of the clamped link, for a joint that gives; leave \
+             hub.stiffness out, or give a stiffer link",
+            self.name(),
+            clamped[0]
+        )))
+    }
+
+    /// The error of frequencies that no joint gives.
+    fn no_joint(&self) -> Result<Error, Error> {
+        let clamped = self.logarithms(None)?.map(f64::exp);
+        Ok(Error::new(format_args!(
+            "{}: must be those of a link behind a joint: the second over the first is {:.3}, that of \
+             the clamped link {:.3}; leave hub.stiffness out, or measure again",
+            self.name(),
+            self.measured[1] / self.measured[0],
+            clamped[1] / clamped[0]
+        )))
+    }
+
+    /// The error of two frequencies that two joints give.
+    fn ambiguous(&self, one: &Fit, other: &Fit) -> Error {
+        let told = |fit: &Fit| {
+            let stiffness = fit.stiffness * self.arm.link.bending_stiffness;
+            let joint = fit.joint.unwrap_or(f64::INFINITY);
+            format!("EI = {stiffness:.4} N m^2 behind {joint:.4} N m/rad")
+        };
+        Error::new(format_args!(
+            "{}: must be three frequencies here, as two are those of {} and of {}; or give the link\u{2019}s \
+             stiffness and one frequency",
+            self.name(),
+            told(one),
+            told(other)
+        ))
     }
 
     /// The error of frequencies that no link reaches behind this joint, or no joint below this link.
