@@ -22,7 +22,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Small deflections: `T = ½(J_h + J_r)ω² + ωFᵀq̇ + ½q̇ᵀMq̇ − ½ω²qᵀGq`,
 /// `V = ½qᵀKq + g[sinθ(S − ½qᵀK_Pq) + cosθ f_gᵀq]`; drag takes `2αT` of link and payload, the
-/// strip `βq̇ᵀKq̇`.
+/// strip `βq̇ᵀKq̇`, the joint its own.
 fn small<S: Stepper<Scalar = f64>, const N: usize, const W: usize>(
     model: &Model<N, W>,
     arm: &Generator<S, 16>,
@@ -31,23 +31,24 @@ fn small<S: Stepper<Scalar = f64>, const N: usize, const W: usize>(
 ) -> Balance {
     let (scene, omega) = (model.scene(), arm.hub().rate);
     let (sin, cos) = arm.hub().angle.sin_cos();
-    let carried = 0.5 * scene.rigid_inertia() * omega * omega
+    let carried = 0.5 * model.rigid_inertia() * omega * omega
         + omega * dot(model.coupling(), rate)
         + model.mass().half_form().at(rate)
         - omega * omega * model.spin().half_form().at(q);
-    let raised = sin * (scene.first_moment() - model.tension().half_form().at(q))
+    let raised = sin * (model.first_moment() - model.tension().half_form().at(q))
         + cos * dot(model.weight(), q);
     let energy = 0.5 * scene.hub.inertia * omega * omega
         + carried
         + model.stiffness().half_form().at(q)
         + scene.gravity * raised;
     let loss = 2.0 * scene.damping.alpha * carried
-        + 2.0 * scene.damping.beta * model.stiffness().half_form().at(rate);
+        + 2.0 * scene.damping.beta * model.stiffness().half_form().at(rate)
+        + 2.0 * model.joint_damping().half_form().at(rate);
     Balance { energy, loss, work: arm.setpoint().torque * omega }
 }
 
 /// The bent rod: `T = ½J_hω² + ½vᵀMv + ωhᵀv + ½ω²T_θθ`, `V = ½Σωₖ²aₖ² + g(X sinθ + Y cosθ)`; the
-/// strip takes `βΣωₖ²vₖ²`.
+/// strip takes `Σβₖωₖ²vₖ²`.
 fn large(rod: &Rod<2>, arm: &Generator<Elastica<f64, 2>, 16>) -> Balance {
     let (scene, omega) = (rod.scene(), arm.hub().rate);
     let (sin, cos) = arm.hub().angle.sin_cos();
@@ -65,7 +66,9 @@ fn large(rod: &Rod<2>, arm: &Generator<Elastica<f64, 2>, 16>) -> Balance {
         + carried
         + 0.5 * elastic(&flex.coordinate)
         + scene.gravity * (x * sin + y * cos);
-    let loss = 2.0 * scene.damping.alpha * carried + scene.damping.beta * elastic(&flex.rate);
+    let beta = rod.stiffness_damping();
+    let lost: f64 = (0..2).map(|k| beta[k] * (rod.frequency()[k] * flex.rate[k]).powi(2)).sum();
+    let loss = 2.0 * scene.damping.alpha * carried + lost;
     Balance { energy, loss, work: arm.setpoint().torque * omega }
 }
 

@@ -228,7 +228,7 @@ fn every_feature_balances() {
                 balance(&model, arm.hub(), [state.deflection, q_dot], torque)
             });
             let rod = Rod::<2>::new(&arm).expect("rod");
-            let stepper = Elastica::new(&rod, TICK, Quality::Fast, 0.8).expect("stepper");
+            let stepper = Elastica::new(&rod, TICK, Quality::Fast, 1.2).expect("stepper");
             let elastica =
                 imbalance(&scene, stepper, |arm, torque| exact_balance(&rod, arm, torque));
             println!("{name}, {feature}: {newmark:.1e} {elastica:.1e}");
