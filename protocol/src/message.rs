@@ -49,6 +49,8 @@ pub enum Command {
 }
 
 /// A report from the firmware.
+// There is no heap to keep the largest, the description, apart on.
+#[expect(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Report<'a> {
     /// The request is carried out, between two ticks. A move begins with this tick, or behind the

@@ -47,7 +47,9 @@ pub fn arms() -> impl Strategy<Value = Scene> {
                     },
                     payload: Payload {
                         mass: payload * mass,
-                        inertia: inertia * mass * length * length,
+                        // Lumped elements take an offset with some rotary inertia only.
+                        inertia: (inertia + 1e-3 * payload * offset * offset)
+                            * (mass * length * length),
                         offset: offset * length,
                     },
                     damping: Damping { alpha, beta: beta * period, joint: 0.2 * beta * period },
@@ -110,4 +112,11 @@ pub fn turns() -> impl Strategy<Value = Turn> {
     (0.05_f64..4.0, any::<bool>(), 20_u32..300, profiles).prop_map(|(by, back, ticks, profile)| {
         Turn { profile, by: if back { -by } else { by }, duration: f64::from(ticks) * TICK }
     })
+}
+
+/// The rate of a spin-up in `duration` s, or a slower one that bends the arm by [`BEND`] at most.
+pub fn gentle_spin(scene: &Scene, rate: f64, duration: f64) -> f64 {
+    let rod = Rod::<1>::new(scene).expect("an arm");
+    let (sag, bend) = (rod.bend(0.0), rod.bend(2.0 * rate.abs() / duration));
+    rate * ((BEND - sag) / (bend - sag)).min(1.0)
 }

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use stillbeam::{Move, Scalar, Scene, Setpoint};
 
-use crate::arms::{TICK, Turn, arms, turns};
+use crate::arms::{TICK, Turn, arms, gentle_spin, turns};
 use crate::cases;
 use crate::methods::{Method, Property, all};
 use crate::runs::{arm, close, numbers, push, run, ticks};
@@ -135,6 +135,7 @@ proptest! {
     fn a_cruise_in_pieces_is_the_cruise(wait in waits(), rate in -3.0..3.0) {
         // Slow against the first frequency, so that small-deflection kinematics have a meaning.
         let turn = Turn { by: rate, ..wait.turn }.gentle(&wait.scene);
-        all(&Cruise { rate: 0.9 * turn.by.clamp(-3.0, 3.0), wait })?;
+        let rate = gentle_spin(&wait.scene, 0.9 * turn.by.clamp(-3.0, 3.0), 0.8);
+        all(&Cruise { rate, wait })?;
     }
 }

@@ -190,7 +190,7 @@ fn every_feature_balances() {
                 energy::small(&model, arm.hub(), &state.deflection, &q_dot)
             });
             let rod = Rod::<2>::new(&arm).expect("rod");
-            let stepper = Elastica::new(&rod, TICK, Quality::Fast, 0.8).expect("stepper");
+            let stepper = Elastica::new(&rod, TICK, Quality::Fast, 1.2).expect("stepper");
             let elastica = along(&scene, stepper, |arm| {
                 let flex = arm.stepper().arm_state(arm.state(), arm.hub());
                 energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)

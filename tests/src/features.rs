@@ -58,6 +58,7 @@ pub fn featured(arm: &Scene) -> Vec<(&'static str, Scene)> {
         ("offset", offset(arm)),
         ("sections", sections(arm)),
         ("masses", masses(arm)),
-        ("all", damped(&joint(&offset(&masses(&sections(arm)))))),
+        ("all", joint(&offset(&masses(&sections(arm))))),
+        ("all, damped joint", damped(&joint(&offset(&masses(&sections(arm)))))),
     ]
 }

@@ -26,7 +26,7 @@ pub struct Payload<T = f64> {
     /// `J_p` about the payload's own centre of mass, kg m²; up to 100 (m + m_p) L².
     pub inertia: T,
     /// `d`, from the tip of the link to the payload's centre of mass along the link's tangent, m;
-    /// up to 10 L, negative where the centre lies short of the tip, down to −L.
+    /// up to 10 L.
     pub offset: T,
 }
 

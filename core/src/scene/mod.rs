@@ -185,7 +185,7 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
         let most = (T::from_f64(100.0) * mass * square).to_f64().min(1e6);
         Error::check("payload.inertia", self.payload.inertia, 0.0, most, "kg m^2")?;
         let length = self.link.length.to_f64();
-        Error::check("payload.offset", self.payload.offset, -length, 10.0 * length, "m")?;
+        Error::check("payload.offset", self.payload.offset, 0.0, 10.0 * length, "m")?;
         self.damping.validate()?;
         Error::check("gravity.acceleration", self.gravity, 0.0, 1e3, "m/s^2")?;
         self.mount.validate()?;

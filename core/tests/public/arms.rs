@@ -202,6 +202,8 @@ fn bad_arms_are_refused_by_name() {
     scene = machine(None);
     scene.payload.offset = 5.0;
     refused(scene.validate(), "payload.offset = 5: must be");
+    scene.payload.offset = -0.01;
+    refused(scene.validate(), "payload.offset = -0.01: must be 0 to 4.4 m");
     let beyond = PointMass { position: 0.5, mass: 0.01 };
     refused(machine(None).with_mass(beyond), "link.masses.position = 0.5: must be 0 to 0.44 m");
     refused(Scene::of_sections(&[]), "link.sections = 0: must be 1 to 8 sections");

@@ -25,12 +25,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let (alpha, gravity) = (scene.damping.alpha, scene.in_plane_gravity());
         let modes = Modes::of(model);
         let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);
-        // The joint's own damping by the mode's share in its strain energy.
-        let joint = model.joint_damping();
-        let beta: [f64; K] = core::array::from_fn(|k| {
-            let shape = modes.shape[k].map(|x| x / omega[k]);
-            scene.damping.beta + dot(&shape, &joint.times(&shape))
-        });
+        let beta: [f64; K] = stiffness_damping(model, &modes);
         check_turns(&omega, alpha, &beta, tick)?;
         let shape: [[f64; N]; K] = core::array::from_fn(|k| modes.shape[k].map(|x| x / omega[k]));
         let onto = |load: &[f64; N]| -> [f64; K] { shape.map(|shape| dot(&shape, load)) };
@@ -89,6 +84,18 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         }
         Ok(self)
     }
+}
+
+/// `βₖ` of each mode, s: `β`, and the joint's own damping by the mode's share in its strain energy.
+fn stiffness_damping<const K: usize, const N: usize, const W: usize>(
+    model: &Model<N, W>,
+    modes: &Modes<N>,
+) -> [f64; K] {
+    let joint = model.joint_damping();
+    core::array::from_fn(|k| {
+        let shape = modes.shape[k].map(|x| x / modes.frequency[k]);
+        model.scene().damping.beta + dot(&shape, &joint.times(&shape))
+    })
 }
 
 /// Weights of the squares of `ωa` and of `ωȧ` of a mode that is settled below the coordinate

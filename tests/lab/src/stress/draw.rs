@@ -18,7 +18,7 @@ pub const RANGES: [(&str, &str); 15] = [
     ("link", "length 0.03 to 10 m, mass 1 g to 100 kg"),
     ("bending stiffness", "10⁻⁶ to 10⁶ N m², or such that ω₁h is 10⁻³·⁵ to 10²"),
     ("payload over link mass", "0, 10⁻³ to 10³; with rotary inertia in half of the scenes"),
-    ("payload beyond the tip", "in three of ten, −0.3 L to L"),
+    ("payload beyond the tip", "in three of ten, up to L"),
     ("sections", "in four of ten, 1 to 4; stiffness and mass over two decades"),
     ("masses on the link", "in three of ten, 1 or 2, of 10⁻³ to 3 link masses"),
     ("joint", "in three of ten, 0.1 to 1000 EI/L; some with damping of its own"),
@@ -63,7 +63,7 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
         arm.damping.joint = Damping::joint_of_ratio(decades(&mut rng, -4.0, 0.5), omega).min(1e3);
     }
     if rng.random_bool(0.3) {
-        let offset = rng.random_range(-0.3..1.0) * length;
+        let offset = rng.random_range(0.0..1.0) * length;
         // Lumped elements take an offset with some rotary inertia only.
         let least = 1e-4 * arm.payload.mass * offset * offset;
         arm.payload = Payload { offset, inertia: arm.payload.inertia.max(least), ..arm.payload };
