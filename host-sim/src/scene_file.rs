@@ -111,6 +111,7 @@ struct GravityTable {
 struct LimitsTable {
     rate: Option<f64>,
     acceleration: Option<f64>,
+    deceleration: Option<f64>,
     jerk: Option<f64>,
     torque: Option<f64>,
     moment: Option<f64>,
@@ -146,6 +147,7 @@ impl SceneFile {
         let limits = Limits {
             rate: file.limits.rate,
             acceleration: file.limits.acceleration,
+            deceleration: file.limits.deceleration,
             jerk: file.limits.jerk,
             torque: file.limits.torque,
             moment: file.limits.moment,

@@ -7,8 +7,14 @@ use stillbeam::{Angle, Error, Limits, Link, Move, Profile, Scene};
 
 pub const TICK: f64 = 0.010;
 
-pub const LIMITS: Limits =
-    Limits { rate: Some(6.0), acceleration: Some(40.0), jerk: None, torque: None, moment: None };
+pub const LIMITS: Limits = Limits {
+    rate: Some(6.0),
+    acceleration: Some(40.0),
+    deceleration: None,
+    jerk: None,
+    torque: None,
+    moment: None,
+};
 
 pub const POLICY: Policy = Policy { limits: LIMITS, patience: 0.2, missed: 2 };
 

@@ -50,6 +50,7 @@ fn longest() -> [Report<'static>; 4] {
     let limits = Limits {
         rate: Some(1.0),
         acceleration: Some(1.0),
+        deceleration: Some(1.0),
         jerk: Some(1.0),
         torque: Some(1.0),
         moment: Some(1.0),

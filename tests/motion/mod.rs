@@ -1,4 +1,5 @@
 //! Moves of the core, judged by the reference solvers.
 
 mod loads;
+mod shortest;
 mod still;

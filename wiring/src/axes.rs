@@ -79,6 +79,7 @@ const fn policy(rate: f64, acceleration: f64) -> Policy {
     let limits = Limits {
         rate: Some(rate),
         acceleration: Some(acceleration),
+        deceleration: None,
         jerk: None,
         torque: None,
         moment: None,

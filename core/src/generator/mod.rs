@@ -141,6 +141,15 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         Plan::remedy(motion, self.next_start(), &self.limits, self.stepper.tick())
     }
 
+    /// Returns `motion` with the shortest duration in whole ticks in which [`Self::push`] now takes
+    /// it: see [`Plan::shortest`].
+    ///
+    /// # Errors
+    /// As in [`Plan::shortest`].
+    pub fn shortest(&self, motion: &Move) -> Result<Move, Error> {
+        Plan::shortest(motion, self.next_start(), &self.limits, self.stepper.tick())
+    }
+
     /// The next setpoint. Never fails, never allocates; the same operations on host and target.
     #[inline(always)]
     pub fn tick(&mut self) -> Setpoint<S::Scalar> {

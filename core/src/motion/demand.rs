@@ -43,12 +43,26 @@ impl Demand {
     #[inline(always)]
     pub fn admit(&self, limits: &Limits, ticks: u32, tick: f64) -> Result<Peaks, Error> {
         let peaks = self.peaks(f64::from(ticks) * tick);
-        admit(limits, &peaks, tick).map(|()| peaks)
+        admit(&self.held(limits), &peaks, tick).map(|()| peaks)
+    }
+
+    /// Returns the limits that the motion is held against: a change of the rate that keeps its sign
+    /// has accelerations of one kind.
+    #[inline(always)]
+    fn held(&self, limits: &Limits) -> Limits {
+        match *self {
+            Self::Spin { from, to } if from * to >= 0.0 && from.abs() >= to.abs() => {
+                limits.of_slowing()
+            }
+            Self::Spin { from, to } if from * to >= 0.0 => limits.of_speeding(),
+            _ => *limits,
+        }
     }
 
     /// Returns the shortest duration in whole ticks that keeps every limit, or why none does. It is
     /// found by bisection, as no peak grows with the duration.
     pub fn remedy(&self, limits: &Limits, tick: f64) -> Remedy {
+        let limits = &self.held(limits);
         let peaks = |ticks: u32| self.peaks(f64::from(ticks) * tick);
         let fits = |ticks: u32| admit(limits, &peaks(ticks), tick).is_ok();
         if !fits(MAX_TICKS) {

@@ -23,6 +23,10 @@ pub struct Limits {
     pub rate: Option<f64>,
     /// |θ̈|, rad/s².
     pub acceleration: Option<f64>,
+    /// |θ̈| of a hub that slows down, rad/s²; `None` for the limit of `acceleration`. A motion that
+    /// both speeds up and slows down is held with its greatest |θ̈| against the lower of the two,
+    /// but for the time-optimal ones ([`optimal`](super::optimal)), which know both.
+    pub deceleration: Option<f64>,
     /// |d³θ/dt³| inside the move, rad/s³. The jumps of acceleration that a cubic or a trapezoid
     /// makes have no finite jerk: with this limit they are refused.
     pub jerk: Option<f64>,
@@ -53,13 +57,14 @@ impl Limits {
         };
         check("limits.rate", self.rate, "rad/s")?;
         check("limits.acceleration", self.acceleration, "rad/s^2")?;
+        check("limits.deceleration", self.deceleration, "rad/s^2")?;
         check("limits.jerk", self.jerk, "rad/s^3")?;
         check("limits.torque", self.torque, "N m")?;
         check("limits.moment", self.moment, "N m")?;
         Ok(self)
     }
 
-    /// The limits of the hub's motion alone: rate, acceleration and jerk.
+    /// The limits of the hub's motion alone: rate, acceleration, deceleration and jerk.
     pub fn kinematic(self) -> Self {
         Self { torque: None, moment: None, ..self }
     }
@@ -75,11 +80,33 @@ impl Limits {
         Ok(self)
     }
 
-    /// Refuses peaks of the hub's motion above a limit of rate, acceleration or jerk, with 1e-9 of
-    /// it for rounding.
+    /// Refuses limits of which none is of the hub's motion: nothing then tells how long a move
+    /// takes.
+    pub(crate) fn any_of_motion(&self) -> Result<(), Error> {
+        let given = [self.rate, self.acceleration, self.deceleration, self.jerk];
+        if given.iter().any(Option::is_some) {
+            return Ok(());
+        }
+        Error::check("limits.acceleration", f64::INFINITY, 1e-9, 1e12, "rad/s^2").map(drop)
+    }
+
+    /// The limits of a hub that only slows down: the deceleration's in place of the acceleration's.
+    pub(crate) fn of_slowing(self) -> Self {
+        let acceleration = if self.deceleration.is_some() { None } else { self.acceleration };
+        Self { acceleration, ..self }
+    }
+
+    /// The limits of a hub that only speeds up.
+    pub(crate) fn of_speeding(self) -> Self {
+        Self { deceleration: None, ..self }
+    }
+
+    /// Refuses peaks of the hub's motion above a limit of rate, acceleration, deceleration or jerk,
+    /// with 1e-9 of it for rounding. The greatest acceleration is taken for one of either kind.
     pub fn admit(&self, peaks: &Peaks) -> Result<(), Error> {
         within("limits.rate", self.rate, peaks.rate, "rad/s")?;
         within("limits.acceleration", self.acceleration, peaks.acceleration, "rad/s^2")?;
+        within("limits.deceleration", self.deceleration, peaks.acceleration, "rad/s^2")?;
         within("limits.jerk", self.jerk, peaks.jerk, "rad/s^3")
     }
 

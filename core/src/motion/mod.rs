@@ -7,6 +7,7 @@ mod curve;
 mod curve_peaks;
 mod demand;
 mod limits;
+pub mod optimal;
 mod plan;
 mod profile;
 mod remedy;

@@ -11,6 +11,7 @@ use super::segment::Shape;
 use super::shapes::{Shapes, quintic, rest_to_rest, spin_up};
 use super::{Limits, Move, Peaks, Remedy, Segment, curve_peaks};
 use crate::Error;
+use crate::error::MAX_TICKS;
 use crate::hub::{Angle, HubState, MAX_ANGLE};
 use crate::math::Scalar;
 
@@ -74,6 +75,31 @@ impl Plan {
             Move::Still { .. } => return Remedy::Longer,
         };
         demand.remedy(limits, tick)
+    }
+
+    /// Returns `motion` with the shortest duration in whole ticks that keeps every limit of the
+    /// motion and one radian a tick; the duration it comes with does not matter. A still move and a
+    /// dwell come back as they are: the one is planned for its duration, the other keeps every
+    /// limit in any.
+    ///
+    /// # Errors
+    /// No limit at all, or one that no duration keeps; what [`Self::new`] refuses.
+    pub fn shortest(
+        motion: &Move,
+        start: HubState<f64>,
+        limits: &Limits,
+        tick: f64,
+    ) -> Result<Move, Error> {
+        limits.any_of_motion()?;
+        let shortest = match *motion {
+            Move::Still { .. } | Move::Dwell { .. } => *motion,
+            _ => motion.lasting(match Self::remedy(motion, start, limits, tick) {
+                Remedy::Duration(duration) => duration,
+                // Refused below.
+                _ => f64::from(MAX_TICKS) * tick,
+            }),
+        };
+        plan_segments::<f64>(&shortest, start, limits, tick, &mut |_| ()).map(|_| shortest)
     }
 }
 

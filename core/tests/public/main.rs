@@ -4,6 +4,7 @@
 mod exact;
 mod generator;
 mod motor;
+mod optimal;
 mod peaks;
 mod plan;
 mod remedy;

@@ -33,6 +33,26 @@ fn assert_mended(motion: Move, start: HubState<f64>, limits: &Limits, tick: f64)
     assert!(digits.len() < 14, "{digits} in {remedy}");
 }
 
+/// The move in its shortest duration is taken, and a tick less is not.
+fn assert_shortest(motion: Move, start: HubState<f64>, limits: &Limits, tick: f64) {
+    let fits = |ticks: u32| {
+        Plan::new(&motion.lasting(f64::from(ticks) * tick), start, limits, tick).is_ok()
+    };
+    match Plan::shortest(&motion, start, limits, tick) {
+        Ok(shortest) => {
+            let ticks = shortest.ticks(tick).expect("ticks");
+            assert!(fits(ticks) && (ticks == 1 || !fits(ticks - 1)), "{shortest}");
+            assert_eq!(shortest, motion.lasting(shortest.duration()));
+        }
+        Err(error) => {
+            let remedy = Plan::remedy(&motion, start, limits, tick);
+            let none = *limits == Limits::default();
+            assert!(none || !matches!(remedy, Remedy::Duration(_)), "{error}; {remedy}");
+            assert!(none || !fits(1 << 24), "{error}");
+        }
+    }
+}
+
 fn limit() -> impl Strategy<Value = Option<f64>> {
     proptest::option::of((-1.0..3.0_f64).prop_map(|power| 10_f64.powf(power)))
 }
@@ -47,12 +67,14 @@ proptest! {
         to in -6.0..6.0,
         rate in limit(),
         acceleration in limit(),
+        deceleration in limit(),
         jerk in limit(),
         duration in 0.01..2.0,
     ) {
         let jumps = matches!(profile, Profile::Cubic | Profile::Trapezoid);
-        let limits = Limits { rate, acceleration, jerk, ..Limits::default() };
+        let limits = Limits { rate, acceleration, deceleration, jerk, ..Limits::default() };
         let motion = Move::To { profile, duration, to };
+        assert_shortest(motion, start(0.0), &limits, tick);
         if jumps && jerk.is_some() {
             Plan::new(&motion, start(0.0), &limits, tick).expect_err("a jump");
             let remedy = Plan::remedy(&motion, start(0.0), &limits, tick);
@@ -68,12 +90,35 @@ proptest! {
         turning in -6.0..6.0,
         rate in -6.0..6.0,
         acceleration in limit(),
+        deceleration in limit(),
         jerk in limit(),
         duration in 0.01..2.0,
     ) {
-        let limits = Limits { rate: Some(6.0), acceleration, jerk, ..Limits::default() };
+        let rate_limit = Some(6.0);
+        let limits =
+            Limits { rate: rate_limit, acceleration, deceleration, jerk, ..Limits::default() };
         assert_mended(Move::SpinUp { duration, rate }, start(turning), &limits, tick);
+        assert_shortest(Move::SpinUp { duration, rate }, start(turning), &limits, tick);
     }
+}
+
+/// Half as long to slow down as to speed up, where the deceleration may be twice as high.
+#[test]
+fn a_spin_down_keeps_the_limit_of_deceleration() {
+    let (acceleration, deceleration) = (Some(4.0), Some(8.0));
+    let limits = Limits { acceleration, deceleration, ..Limits::default() };
+    let shortest = |from: f64, to: f64| {
+        let motion = Move::SpinUp { duration: 1.0, rate: to };
+        Plan::shortest(&motion, start(from), &limits, 0.001).expect("shortest").duration()
+    };
+    // 2Δω/T.
+    assert_eq!([shortest(0.0, 3.0), shortest(3.0, 0.0)], [1.5, 0.75]);
+    assert_eq!(shortest(-1.0, 2.0), 1.5, "it slows down and speeds up");
+    let turn = Move::To { profile: Profile::Trapezoid, duration: 1.0, to: 1.6 };
+    let turn = Plan::shortest(&turn, start(0.0), &limits, 0.001).expect("shortest");
+    assert_eq!(turn.duration(), 1.424, "√(4.5 · 1.8 / 4) s");
+    let error = Plan::shortest(&turn, start(0.0), &Limits::default(), 0.001).unwrap_err();
+    assert!(error.to_string().starts_with("limits.acceleration = inf: must be"), "{error}");
 }
 
 #[test]

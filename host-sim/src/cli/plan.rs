@@ -63,6 +63,7 @@ impl PlanArgs {
             limits: Limits {
                 rate: self.max_rate.or(limits.rate),
                 acceleration: self.max_acceleration.or(limits.acceleration),
+                deceleration: limits.deceleration,
                 jerk: self.max_jerk.or(limits.jerk),
                 torque: self.max_torque.or(limits.torque),
                 moment: self.max_moment.or(limits.moment),

@@ -25,14 +25,15 @@ const CHORD: f64 = 1.171_572_875_253_81;
 const LONGEST: u32 = 1 << 20;
 
 impl<T: Scalar> Braking<T> {
-    /// Needs a limit of acceleration; those of rate and jerk are kept where they are set. `tick` in
-    /// s.
+    /// Needs a limit of deceleration or of acceleration, and keeps the first if both are set; those
+    /// of rate and jerk are kept where they are set. `tick` in s.
     ///
     /// # Errors
     /// No limit of acceleration, or one of torque or moment, which a stop cannot check.
     pub fn new(limits: &Limits, tick: f64) -> Result<Self, Error> {
         let limits = limits.validate()?.of_motion()?;
-        let unlimited = limits.acceleration.unwrap_or(f64::INFINITY);
+        let limit = limits.deceleration.or(limits.acceleration);
+        let unlimited = limit.unwrap_or(f64::INFINITY);
         let acceleration = Error::check("limits.acceleration", unlimited, 1e-9, 1e12, "rad/s^2")?;
         Ok(Self {
             acceleration: T::from_f64(acceleration),

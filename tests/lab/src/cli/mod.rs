@@ -6,6 +6,7 @@ mod docs;
 mod faults;
 mod pareto;
 mod reference;
+mod shortest;
 mod stability;
 mod still;
 mod stress;
@@ -48,6 +49,8 @@ enum Command {
     Sweep(sweep::SweepArgs),
     /// Draw a sweep's error against its time and answer what a choice costs
     Pareto(pareto::ParetoArgs),
+    /// Plan random time-optimal motions, and hold their durations against Ruckig's
+    Shortest(shortest::ShortestArgs),
     /// Let the two reference solvers converge to each other
     Reference(reference::ReferenceArgs),
     /// Print the tables of README.md and docs/accuracy.md
@@ -67,6 +70,7 @@ impl Cli {
             Command::Faults(args) => args.execute(),
             Command::Sweep(args) => args.execute(),
             Command::Pareto(args) => args.execute(),
+            Command::Shortest(args) => args.execute(),
             Command::Reference(args) => args.execute(),
             Command::Tables(args) => args.execute(),
         }
