@@ -104,6 +104,8 @@
 //! | `04_input_shaper` | five shapers on the same move |
 //! | `05_motor_and_drive` | from setpoint to shaft to bytes |
 //! | `06_choose_method` | the cheapest stepper within a tolerance |
+//! | `07_waypoints` | a path of any length through a queue of eight |
+//! | `08_follow` | a hub that another program moves, and a target that moves |
 
 pub mod axis;
 pub mod drive;

@@ -7,6 +7,8 @@
 mod arrive_still;
 #[path = "../examples/06_choose_method.rs"]
 mod choose_method;
+#[path = "../examples/08_follow.rs"]
+mod follow;
 #[path = "../examples/04_input_shaper.rs"]
 mod input_shaper;
 #[path = "../examples/05_motor_and_drive.rs"]
@@ -15,6 +17,8 @@ mod motor_and_drive;
 mod one_move;
 #[path = "../examples/02_queue_and_limits.rs"]
 mod queue_and_limits;
+#[path = "../examples/07_waypoints.rs"]
+mod waypoints;
 
 #[test]
 fn one_move_rings() {
@@ -44,4 +48,14 @@ fn a_demand_survives_the_drives_bytes() {
 #[test]
 fn a_faster_move_takes_a_higher_rung() {
     choose_method::main().unwrap();
+}
+
+#[test]
+fn a_path_passes_its_waypoints() {
+    waypoints::main().unwrap();
+}
+
+#[test]
+fn an_axis_follows_stops_and_tracks() {
+    follow::main().unwrap();
 }

@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+use stillbeam_golden::motions::{MOTIONS, WAYPOINTS};
 use stillbeam_golden::record::{BYTES, FIELDS};
 use stillbeam_golden::run::STILL_SCENES;
 use stillbeam_golden::scenes::SCENES;
@@ -47,7 +48,12 @@ fn every_scene_runs_with_every_method() {
     let mut methods = BTreeSet::new();
     let mut cases = BTreeSet::new();
     let mut planned = BTreeSet::new();
-    let count = stillbeam_golden::run(&mut |case, _, _| {
+    let mut motions = [0; MOTIONS.len()];
+    let count = stillbeam_golden::run(&mut |case, tick, _| {
+        if let Some(motion) = MOTIONS.iter().position(|name| *name == case.method) {
+            motions[motion] = tick + 1;
+            return;
+        }
         if case.method == "still" {
             planned.insert(case.scene);
             return;
@@ -64,9 +70,11 @@ fn every_scene_runs_with_every_method() {
         .filter(|pair| !cases.contains(pair))
         .collect();
     assert_eq!(refused, [("spin-up", ("newmark", 1, "lumped", ""))]);
-    let tried: u32 = cases.len() as u32 + refused.len() as u32 + STILL_SCENES.len() as u32;
+    let tried = (cases.len() + refused.len() + STILL_SCENES.len() + MOTIONS.len()) as u32;
     assert_eq!(tried, count);
     assert_eq!(planned, BTreeSet::from(STILL_SCENES));
+    // Two and a half ticks a waypoint, and the one that begins.
+    assert_eq!(motions, [WAYPOINTS / 2 * 5 + 1, 300, 300]);
 }
 
 /// The comparison can fail: one bit anywhere is found and named.

@@ -9,19 +9,26 @@
 //! | move refused, queue full, not enabled | nothing changes; the reason is returned |
 //! | stop | brake along the path within the limits, then hold; moves are refused until enabled |
 //! | link silent for the patience | as stop |
+//! | another target, duration, hold, cancel | from the next tick on, without a jump |
+//! | no state to follow | the acceleration is kept; beyond the allowed number of ticks, as stop |
+//! | no next row of a path | brake along the path behind the last row, then hold |
 //! | late tick | nothing: setpoints count ticks, not seconds |
 //! | missed ticks | the path waits: the next setpoint is the next on the path; beyond the allowed number, as stop |
 //! | tick not due (a burst after a freeze) | no tick is made and nothing is sent; the path does not run ahead of time |
 //! | new arm (payload) | at rest only; the angle stays, the torque is the new arm's |
 
+mod change;
+mod follow;
 mod pace;
+mod path;
 mod sequence;
 mod still;
 
 use core::fmt;
 
+pub use change::Change;
+use follow::Reach;
 use heapless::Deque;
-
 pub use pace::{Pace, Timing};
 pub use sequence::{Freshness, Sequence};
 
@@ -46,6 +53,8 @@ pub enum Cause {
     LinkLost,
     /// More ticks in a row were missed than are allowed.
     MissedTicks,
+    /// No state to follow has come for more ticks in a row than are allowed.
+    FollowLost,
 }
 
 impl fmt::Display for Cause {
@@ -54,6 +63,7 @@ impl fmt::Display for Cause {
             Self::Requested => "asked to stop",
             Self::LinkLost => "nothing heard from the host for too long",
             Self::MissedTicks => "too many ticks missed in a row",
+            Self::FollowLost => "no state to follow for too many ticks in a row",
         })
     }
 }
@@ -110,6 +120,9 @@ pub struct Axis<S: Stepper, const QUEUE: usize = 8> {
     clock: u32,
     /// Ticks since the host was heard, missed ones included.
     silence: u32,
+    /// Ticks in a row without a state to follow.
+    unfollowed: u32,
+    reach: Reach<S::Scalar>,
     moves: Deque<Accepted, QUEUE>,
 }
 
@@ -148,6 +161,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     pub fn new(stepper: S, angle: Angle<S::Scalar>, policy: Policy) -> Result<Self, Error> {
         let patience = ticks("policy.patience", policy.patience, stepper.tick())?;
         let braking = Braking::new(&policy.limits, stepper.tick())?;
+        let reach = Reach::new(&policy.limits, stepper.tick());
         let mut generator = Generator::new(stepper, 0.0)?;
         generator.limit(policy.limits)?;
         generator.restart(angle);
@@ -161,6 +175,8 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
             then_off: false,
             clock: 0,
             silence: 0,
+            unfollowed: 0,
+            reach,
             moves: Deque::new(),
         })
     }
@@ -168,13 +184,25 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// The next setpoint. The tick path: no allocation, no panic, no `Result`.
     #[inline(always)]
     pub fn tick(&mut self) -> Tick<S::Scalar> {
+        self.listen();
+        let setpoint = self.generator.tick();
+        self.done(setpoint)
+    }
+
+    /// Stops if the host has been silent for too long.
+    #[inline(always)]
+    fn listen(&mut self) {
         if self.mode == Mode::Enabled && self.patience > 0 {
             self.silence = self.silence.saturating_add(1);
             if self.silence > self.patience {
                 self.stop(Cause::LinkLost);
             }
         }
-        let setpoint = self.generator.tick();
+    }
+
+    /// Numbers a tick and notes what ends with it.
+    #[inline(always)]
+    fn done(&mut self, setpoint: Setpoint<S::Scalar>) -> Tick<S::Scalar> {
         let number = self.clock;
         self.clock = self.clock.wrapping_add(1);
         while self.moves.front().is_some_and(|first| !before(number, first.arrival)) {
@@ -224,6 +252,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         self.mode = Mode::Enabled;
         self.cause = None;
         self.silence = 0;
+        self.unfollowed = 0;
         Ok(())
     }
 
@@ -315,11 +344,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
 
     /// Returns the end of the move under way, if it comes to rest.
     fn arrival(&self) -> Option<Arrival> {
-        let current = self.moves.front()?;
-        let latest = self.clock.wrapping_sub(1);
-        let under_way = !before(latest, current.begin);
-        let ticks = current.arrival.wrapping_sub(latest);
-        (under_way && current.end.rate == 0.0).then_some(Arrival { ticks, end: current.end })
+        self.under_way().filter(|arrival| arrival.end.rate == 0.0)
     }
 }
 

@@ -22,9 +22,12 @@ impl Display for Error {
             Self::TooShort { .. } | Self::NotStill { .. } | Self::DeflectsTooFar { .. } => {
                 still_move(self, f)
             }
-            Self::QueueFull { .. } | Self::WrongMode { .. } | Self::Moving | Self::Stale => {
-                request(self, f)
-            }
+            Self::QueueFull { .. }
+            | Self::WrongMode { .. }
+            | Self::Moving
+            | Self::Stale
+            | Self::Starved
+            | Self::NoMove => request(self, f),
         }
     }
 }
@@ -146,6 +149,15 @@ fn request(error: &Error, f: &mut Formatter<'_>) -> Result {
             f,
             "move = planned before the hub's motion changed: plan it again from a new context"
         ),
+        Error::Starved => write!(
+            f,
+            "waypoint.time = past: the row came after the hub had begun to stop at the one before; \
+             offer rows earlier, or begin a new path at rest"
+        ),
+        Error::NoMove => write!(
+            f,
+            "duration = given while no move is under way: take a move first, or give a target"
+        ),
         _ => Ok(()),
     }
 }
@@ -158,7 +170,7 @@ mod tests {
     use crate::error::Mode;
 
     /// One error of every kind. The match is there to fail to compile when a kind is added.
-    fn every_kind() -> [Error; 17] {
+    fn every_kind() -> [Error; 19] {
         let (parameter, unit) = ("link.length", "m");
         let all = [
             Error::OutOfRange { parameter, value: -1.0, min: 1e-3, max: 1e3, unit },
@@ -183,6 +195,8 @@ mod tests {
             Error::WrongMode { mode: Mode::Stopped },
             Error::Moving,
             Error::Stale,
+            Error::Starved,
+            Error::NoMove,
         ];
         for error in &all {
             match error {
@@ -194,7 +208,7 @@ mod tests {
                 Error::NotStill { .. } | Error::DeflectsTooFar { .. } => {}
                 Error::Elsewhere { .. } | Error::Buckles { .. } => {}
                 Error::DegreesOfFreedom { .. } | Error::WrongMode { .. } => {}
-                Error::Moving | Error::Stale => {}
+                Error::Moving | Error::Stale | Error::Starved | Error::NoMove => {}
             }
         }
         all

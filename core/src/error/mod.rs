@@ -134,6 +134,10 @@ pub enum Error {
     Moving,
     /// The hub's motion has changed since the move was planned, for example by a stop.
     Stale,
+    /// A path's next row came too late: the hub has begun to stop behind the last one.
+    Starved,
+    /// No move is under way whose duration could be changed.
+    NoMove,
 }
 
 /// Longest move, ticks: counts up to here are exact in an f32.

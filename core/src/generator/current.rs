@@ -44,6 +44,8 @@ pub(super) struct Current<T> {
     /// Ticks with an index below this have a hub at rest that the stepper has a fast path for.
     at_rest: u32,
     phase: Phase,
+    /// True if the hub is followed, or holds what it was followed to.
+    follows: bool,
     segment: Segment<T>,
 }
 
@@ -53,7 +55,14 @@ impl<T: Scalar> Current<T> {
     pub(super) fn unstarted(hold: &Segment<T>) -> Self {
         let mut segment = *hold;
         segment.cut(0);
-        Self { k: u32::MAX, linear: 0, at_rest: 0, phase: Phase::Unstarted, segment }
+        Self {
+            k: u32::MAX,
+            linear: 0,
+            at_rest: 0,
+            phase: Phase::Unstarted,
+            follows: false,
+            segment,
+        }
     }
 
     /// Takes up `segment`, in which `k` is the index of the latest tick.
@@ -70,12 +79,36 @@ impl<T: Scalar> Current<T> {
             (Part::Hold, true) => Phase::Ringing,
         };
         self.k = k;
+        self.follows &= part == Part::Hold;
         let fast = S::FAST.linear
             && self.segment.is_cubic()
             && stepper.is_linear_fast(self.segment.rate_bound());
         self.linear = if fast { self.segment.count() } else { 0 };
         let fast = S::FAST.at_rest && self.rests();
         self.at_rest = if fast { self.segment.count() } else { 0 };
+    }
+
+    /// Notes that the latest tick was given the hub, which would go on along `hold`, a segment
+    /// without a tick.
+    pub(super) fn follow(&mut self, hold: &Segment<T>) {
+        self.phase = match (hold.is_rest(), self.phase) {
+            (true, Phase::Asleep) => Phase::Asleep,
+            (true, _) => Phase::Ringing,
+            (false, _) => Phase::Cruising,
+        };
+        self.segment.copy_from(hold);
+        (self.k, self.linear, self.at_rest, self.follows) = (0, 0, 0, true);
+    }
+
+    /// True if no tick has been made.
+    pub(super) fn is_unstarted(&self) -> bool {
+        self.phase == Phase::Unstarted
+    }
+
+    /// True if the hub is followed, or holds what it was followed to.
+    #[inline(always)]
+    pub(super) fn follows(&self) -> bool {
+        self.follows
     }
 
     /// Ends the segment `count` ticks after its beginning, be it a hold or a move.

@@ -96,11 +96,14 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         // Whole turns apart: a fraction of many turns would be rounded with them.
         let by = Angle::default().plus(turned).cast();
         let mut first = Some(start.angle.cast());
+        let mut moment = self.border_moment();
         for segment in &planned.segments {
             // There is room: just counted.
-            let _ = self.queue.push_back(segment.shifted(by, first.take()));
+            let segment = segment.shifted(by, first.take()).behind(&mut moment);
+            let _ = self.queue.push_back(segment);
         }
         self.current.end_hold();
+        self.revision = self.revision.wrapping_add(1);
         let end = planned.summary.end;
         self.end = HubState::turning(end.angle.plus(turned), end.rate);
         self.tail = super::hold(self.end, self.stepper.tick());

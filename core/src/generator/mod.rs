@@ -1,10 +1,14 @@
 //! The one type the firmware drives.
 
+mod change;
 mod current;
+mod follow;
 mod handover;
 mod redirect;
 mod stop;
+mod stream;
 
+pub(crate) use change::Replaced;
 use current::{Current, Part};
 pub use handover::{PlanContext, PlannedMove};
 use heapless::Deque;
@@ -74,6 +78,8 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
     end: HubState<f64>,
     limits: Limits,
     queue: Deque<Segment<S::Scalar>, QUEUE>,
+    /// Counts the changes of the queue, but for those that a tick makes.
+    revision: u32,
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
@@ -97,6 +103,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             tail,
             end,
             limits: Limits::default(),
+            revision: 0,
         })
     }
 
@@ -116,10 +123,11 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn push(&mut self, motion: &Move) -> Result<MoveSummary, Error> {
         let (start, tick) = (self.next_start(), self.stepper.tick());
         let (mut needed, free) = (0, QUEUE - self.queue.len());
+        let mut moment = self.border_moment();
         let summary = plan_segments(motion, start, &self.limits, tick, &mut |segment| {
             needed += 1;
             // A full queue gives it back; told below.
-            let _ = self.queue.push_back(*segment);
+            let _ = self.queue.push_back(segment.behind(&mut moment));
         })?;
         let fits = if needed > free { Err(Error::QueueFull { needed, free }) } else { Ok(()) };
         if let Err(error) = fits.and(self.stepper.admit(&summary.peaks, summary.end.rate)) {
@@ -129,6 +137,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return Err(error);
         }
         self.current.end_hold();
+        self.revision = self.revision.wrapping_add(1);
         self.end = summary.end;
         self.tail = hold(summary.end, tick);
         Ok(summary)
@@ -260,10 +269,18 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     fn next_start(&self) -> HubState<f64> {
         if self.is_holding() {
             let angle = self.current.segment().angle(self.current.next_k());
-            HubState::turning(angle.precise(), self.end.rate)
+            let follows = self.current.follows();
+            let rate = if follows { self.hub.rate.to_f64() } else { self.end.rate };
+            HubState::turning(angle.precise(), rate)
         } else {
             self.end
         }
+    }
+
+    /// Moment of the queue's end within the tick before the next move, see
+    /// [`Segment::kink_moment`]: not zero if the motion before ends inside a tick.
+    fn border_moment(&self) -> S::Scalar {
+        if self.is_holding() { S::Scalar::ZERO } else { self.tail.kink_moment() }
     }
 
     /// Takes up the next segment of the queue, or the hold behind it, and moves the hub to its
@@ -289,10 +306,15 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.stepper.kink(&mut self.state, KinkMoments::First(moment));
     }
 
-    /// Lets a hold that has run out (after 497 days at 10 ms) go on from where it is.
+    /// Lets a hold that has run out (after 497 days at 10 ms) go on from where it is, or a hub that
+    /// is no longer [followed](Self::follow) from where it would be.
     #[cold]
     #[inline(never)]
     fn renew_hold(&mut self) {
+        if self.current.follows() {
+            self.tail = *self.current.segment();
+            self.tail.cut(u32::MAX);
+        }
         self.tail = self.tail.moved(self.current.segment().angle(self.current.k()));
     }
 }

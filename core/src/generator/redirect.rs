@@ -30,7 +30,7 @@ enum Place {
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Replaces all that follows by `branch`, which begins with the coming tick number `lead`; 0 is
     /// the next one. Nothing changes if it is refused.
-    pub(crate) fn follow(&mut self, lead: u32, branch: &Branch) -> Result<(), Error> {
+    pub(crate) fn branch(&mut self, lead: u32, branch: &Branch) -> Result<(), Error> {
         let tick = self.stepper.tick();
         admit(&self.limits, &branch.peaks, tick)?;
         self.stepper.admit(&branch.peaks, 0.0)?;
@@ -66,6 +66,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.queue.pop_back();
         }
         let _ = self.queue.push_back(branch.segment.cast());
+        self.revision = self.revision.wrapping_add(1);
         let end = HubState::at_rest(Angle::from_radians(branch.to));
         self.end = end;
         self.tail = hold(end, tick);

@@ -29,6 +29,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// stop on its path, and within the limits it was accepted for.
     pub(crate) fn brake(&mut self, braking: &Braking<S::Scalar>, arrival: Option<Arrival>) {
         self.end_acceleration = self.acceleration_before();
+        self.revision = self.revision.wrapping_add(1);
         if self.hub.rate == S::Scalar::ZERO {
             self.queue.clear();
             self.rest_at(self.hub.angle);
@@ -47,8 +48,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         self.queue.clear();
         self.rest_at(rest);
-        // Its tick 0 is the next.
-        self.current.take_up(&segment, Part::Move, u32::MAX, &self.stepper);
+        // Its tick 0 is the latest setpoint's.
+        self.current.take_up(&segment, Part::Move, 0, &self.stepper);
         // The right-hand value, where it drops.
         self.hub.acceleration = acceleration;
     }
@@ -63,8 +64,15 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         {
             waiting = waiting.saturating_sub(last.count());
         }
+        self.revision = self.revision.wrapping_add(1);
         self.end = arrival.end;
         self.tail = Segment::rest(arrival.end.angle.cast());
+    }
+
+    /// Drops what lies behind the arrival, after which the hub may go on turning. Not for the tick.
+    pub(crate) fn end_with(&mut self, arrival: Arrival) {
+        self.finish(arrival);
+        self.tail = super::hold(arrival.end, self.stepper.tick());
     }
 
     /// Makes the hub rest at `angle` after the queue.

@@ -1,14 +1,20 @@
 //! The commanded motion of the hub: what a user asks for ([`Move`]), checked against the drive's
 //! [`Limits`] and cut into [`Segment`]s that cost a few multiplications a tick.
 
+mod blend;
 mod commanded;
 mod cubics;
 mod curve;
 mod curve_peaks;
 mod demand;
+mod joiner;
 mod limits;
 pub mod optimal;
+mod pass;
+mod path;
+mod piece;
 mod plan;
+mod polynomial;
 mod profile;
 mod remedy;
 pub(crate) mod segment;
@@ -20,6 +26,8 @@ pub use curve::BULGE;
 pub(crate) use curve_peaks::curve_peaks;
 pub(crate) use demand::admit;
 pub use limits::{Limits, Peaks};
+pub(crate) use path::{NextPiece, Stream};
+pub use path::{Path, RowError, Spline, WINDOW, Waypoint};
 pub(crate) use plan::plan_segments;
 pub use plan::{MAX_SEGMENTS, MoveSummary, Plan};
 pub use profile::{Move, Profile};

@@ -6,7 +6,8 @@ use core::f64::consts::TAU;
 use heapless::Vec;
 
 use super::cubics::lay_cubics;
-use super::demand::Demand;
+use super::demand::{Demand, admit};
+use super::pass::Pass;
 use super::segment::Shape;
 use super::shapes::{Shapes, quintic, rest_to_rest, spin_up};
 use super::{Limits, Move, Peaks, Remedy, Segment, curve_peaks};
@@ -72,7 +73,8 @@ impl Plan {
             Move::SpinUp { rate, .. } => Demand::Spin { from: start.rate, to: rate },
             Move::Dwell { .. } => Demand::Hold(start.rate),
             // A still move is planned for its duration; in another it is another curve.
-            Move::Still { .. } => return Remedy::Longer,
+            // The peaks of a motion that ends turning need not fall with the duration.
+            Move::Still { .. } | Move::Pass { .. } => return Remedy::Longer,
         };
         demand.remedy(limits, tick)
     }
@@ -115,7 +117,17 @@ pub(crate) fn plan_segments<T: Scalar>(
     let duration = f64::from(ticks) * tick;
     let turned = |rate: f64| rate * duration / TAU;
     let limits = limits.of_motion()?;
+    let rounded_by = duration - motion.duration();
     let (shapes, end, demand) = match *motion {
+        Move::Pass { profile, to, rate, .. } => {
+            let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+            let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
+            let end = HubState::turning(Angle::from_radians(to), rate);
+            let pass = Pass::new(profile, start, end, duration, tick);
+            admit(&limits, &pass.peaks, tick)?;
+            pass.emit(start, sink);
+            return Ok(MoveSummary { end, ticks, peaks: pass.peaks, rounded_by });
+        }
         Move::To { profile, to, .. } => {
             let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
             if start.rate != 0.0 {
@@ -153,7 +165,7 @@ pub(crate) fn plan_segments<T: Scalar>(
     };
     let peaks = demand.admit(&limits, ticks, tick)?;
     emit(shapes, &start, ticks, tick, sink);
-    Ok(MoveSummary { end, ticks, peaks, rounded_by: duration - motion.duration() })
+    Ok(MoveSummary { end, ticks, peaks, rounded_by })
 }
 
 /// Turns from `start` to the angle `to`, rad, and the hub at rest there. The end is exactly that

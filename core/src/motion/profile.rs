@@ -112,6 +112,19 @@ pub enum Move {
         /// T, s; rounded to the nearest whole tick.
         duration: f64,
     },
+    /// From the state that the hub has, at rest or turning, to an angle that it passes at a rate.
+    /// The hub keeps turning after it, without acceleration.
+    Pass {
+        /// The motion's shape. A cubic and a trapezoid jump in acceleration; the others begin with
+        /// the hub's own.
+        profile: Profile,
+        /// T, s; rounded to the nearest whole tick.
+        duration: f64,
+        /// Angle at the end, rad, counted from the same zero as the hub's.
+        to: f64,
+        /// Rate at the end, rad/s; 0 comes to rest there.
+        rate: f64,
+    },
 }
 
 impl Move {
@@ -121,7 +134,8 @@ impl Move {
             Self::To { duration, .. }
             | Self::SpinUp { duration, .. }
             | Self::Still { duration, .. }
-            | Self::Dwell { duration } => duration,
+            | Self::Dwell { duration }
+            | Self::Pass { duration, .. } => duration,
         }
     }
 
@@ -134,6 +148,7 @@ impl Move {
             Self::SpinUp { rate, .. } => Self::SpinUp { duration, rate },
             Self::Still { to, bulge, .. } => Self::Still { duration, to, bulge },
             Self::Dwell { .. } => Self::Dwell { duration },
+            Self::Pass { profile, to, rate, .. } => Self::Pass { profile, duration, to, rate },
         }
     }
 
@@ -162,6 +177,9 @@ impl fmt::Display for Move {
             Self::SpinUp { duration, rate } => write!(f, "spin-up to {rate} rad/s in {duration} s"),
             Self::Still { duration, to, .. } => write!(f, "still to {to} rad in {duration} s"),
             Self::Dwell { duration } => write!(f, "dwell for {duration} s"),
+            Self::Pass { profile, duration, to, rate } => {
+                write!(f, "{profile} to {to} rad at {rate} rad/s in {duration} s")
+            }
         }
     }
 }

@@ -49,6 +49,6 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         Error::check("plan.to", plan.to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
         // Of the curve itself: what a plan states of it may be anything.
         let peaks = plan.curve_peaks::<S::Scalar>();
-        self.follow(lead, &Branch { from: plan.from, segment: plan.segment(), peaks, to: plan.to })
+        self.branch(lead, &Branch { from: plan.from, segment: plan.segment(), peaks, to: plan.to })
     }
 }

@@ -1,10 +1,13 @@
 //! The core by its public names alone: what a user of the crate may rely on. What needs other
 //! crates, such as the reference solvers, stands in the workspace's `tests/`.
 
+mod change;
 mod exact;
+mod follow;
 mod generator;
 mod motor;
 mod optimal;
+mod path;
 mod peaks;
 mod plan;
 mod remedy;

@@ -6,6 +6,7 @@ use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Error, Generator, Setpoint};
 
 use crate::methods::{Method, Visitor, visit_all};
+use crate::motions::{self, MOTIONS};
 use crate::scenes::{Run, SCENES};
 
 /// Segments of the longest scene, at least.
@@ -43,6 +44,7 @@ where
     let mut runner = Runner { sink, cases: 0, result: Ok(()) };
     visit_all(&mut runner);
     runner.stills();
+    runner.motions();
     runner.result.map(|()| runner.cases)
 }
 
@@ -85,6 +87,9 @@ fn one<M: Method>(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Resu
     Ok(())
 }
 
+/// The arm of the motions that no scene has.
+pub const MOTION_SCENE: &str = "d-tip30";
+
 /// Arms whose moves are planned anew, still, and are changed half-way.
 pub const STILL_SCENES: [&str; 4] = ["d-fast", "a-tip30", "b-tip30-damped-hub", "s-gravity"];
 
@@ -103,6 +108,27 @@ impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Runner<'_, F> {
             self.cases += 1;
             let result = one_still(scene, &mut |k, setpoint| (self.sink)(&case, k, setpoint));
             self.result = self.result.and(result);
+        }
+    }
+}
+
+impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Runner<'_, F> {
+    fn motions(&mut self) {
+        for motion in MOTIONS {
+            for scene in SCENES.iter().filter(|run| run.name == MOTION_SCENE) {
+                let case = Case {
+                    index: self.cases,
+                    scene: scene.name,
+                    method: motion,
+                    size: 1,
+                    quality: "",
+                    skip: "",
+                };
+                self.cases += 1;
+                let sink = &mut |k, setpoint: &Setpoint<f32>| (self.sink)(&case, k, setpoint);
+                let result = motions::one(motion, scene, sink);
+                self.result = self.result.and(result);
+            }
         }
     }
 }

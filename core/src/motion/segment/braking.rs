@@ -1,10 +1,11 @@
 //! Stops a turning hub. Planned in the tick's own precision, as a stop cannot wait for set-up.
 
-use super::{End, Rest, Segment};
+use super::{End, Rest, Segment, Shape};
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
 use crate::motion::Limits;
+use crate::motion::joiner::{Curve, Joiner};
 
 /// Limits of a stop, in the scalar of the tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +46,7 @@ impl<T: Scalar> Braking<T> {
     }
 
     /// The segment from `hub`, which is turning, to rest, the angle it ends at and the acceleration
-    /// it begins with. Its first tick is the one after `hub`'s.
+    /// it begins with. Its tick 0 is `hub`'s own.
     ///
     /// `θ̇(s) = (1 − s)²[v + s(2v + aT)]`, `s = t/T`: from rate `v` and acceleration `a` to rest
     /// with no acceleration, never turning back. With `β = 6v/T` its peak is `(2a + β)²/4(3a + β)`,
@@ -54,8 +55,15 @@ impl<T: Scalar> Braking<T> {
     /// rate on its way, its acceleration drops to zero at once, as it jumps at the ends of a cubic.
     /// Order of precedence: angle and rate without a step, acceleration, rate, jerk.
     pub(crate) fn stop(&self, hub: &HubState<T>) -> (Segment<T>, Angle<T>, T) {
-        let sign = if hub.rate < T::ZERO { -T::ONE } else { T::ONE };
-        let (v, mut a) = (sign * hub.rate, sign * hub.acceleration);
+        let (a, ticks) = self.begin(hub.rate, hub.acceleration);
+        let (segment, end) = self.segment(hub, a, ticks);
+        (segment, end, a)
+    }
+
+    /// The acceleration with which the stop begins, and its ticks.
+    fn begin(&self, rate: T, acceleration: T) -> (T, u32) {
+        let sign = if rate < T::ZERO { -T::ONE } else { T::ONE };
+        let (v, mut a) = (sign * rate, sign * acceleration);
         if a > T::ZERO && self.rate.is_some_and(|limit| self.peak_rate(v, a) > limit) {
             a = T::ZERO;
         }
@@ -65,8 +73,7 @@ impl<T: Scalar> Braking<T> {
             a = T::ZERO;
             ticks = self.ticks(v, a);
         }
-        let (segment, end) = self.segment(hub, sign * a, ticks);
-        (segment, end, sign * a)
+        (sign * a, ticks)
     }
 
     /// `T` that the acceleration allows, s.
@@ -104,25 +111,31 @@ impl<T: Scalar> Braking<T> {
         ticks
     }
 
-    /// The rate's cubic as a quartic of the angle about the segment's middle.
-    fn segment(&self, hub: &HubState<T>, a: T, ticks: u32) -> (Segment<T>, Angle<T>) {
+    /// The rate's cubic as a quartic of the angle about the segment's middle: `c₁ … c₄`, turns.
+    fn quartic(&self, rate: T, a: T, ticks: u32) -> [T; 4] {
         let n = T::from_u32(ticks);
         // vT and aT², turns.
-        let p = hub.rate * self.turns * n;
+        let p = rate * self.turns * n;
         let q = a * self.turns * self.tick * n * n;
         let (four, six) = (T::from_u32(4), T::from_u32(6));
         let c1 = (four * p + q) / T::from_u32(16);
         let c2 = -(six * p + q) / T::from_u32(32);
         let c3 = -q / T::from_u32(48);
         let c4 = (T::TWO * p + q) / T::from_u32(64);
+        [c1, c2, c3, c4]
+    }
+
+    fn segment(&self, hub: &HubState<T>, a: T, ticks: u32) -> (Segment<T>, Angle<T>) {
+        let [c1, c2, c3, c4] = self.quartic(hub.rate, a, ticks);
+        let n = T::from_u32(ticks);
         let half = T::HALF * n * self.tick;
         let origin = hub.angle.plus(c1 - c2 + c3 - c4);
         let tau = T::from_f64(core::f64::consts::TAU);
         let segment = Segment {
             origin,
-            count: ticks - 1,
-            begin: End { angle: origin, rate: T::ZERO, acceleration: T::ZERO },
-            offset: T::TWO / n - T::ONE,
+            count: ticks,
+            begin: End { angle: hub.angle, rate: hub.rate, acceleration: a },
+            offset: -T::ONE,
             advance: T::TWO / n,
             rate_scale: tau / half,
             acceleration_scale: T::TWO * tau / (half * half),
@@ -131,7 +144,22 @@ impl<T: Scalar> Braking<T> {
             low: [c1, c2, c3],
             rest: Rest::Quintic([c4, T::ZERO]),
         };
-        (segment.begun(), origin.plus(c1 + c2 + c3 + c4))
+        (segment, origin.plus(c1 + c2 + c3 + c4))
+    }
+}
+
+impl Braking<f64> {
+    /// The stop from the end of a motion that is laid curve by curve, which turns.
+    pub(crate) fn curve(&self, joiner: &Joiner) -> Curve {
+        let here = joiner.here();
+        let (a, ticks) = self.begin(here.rate, here.acceleration);
+        let [c1, c2, c3, c4] = self.quartic(here.rate, a, ticks);
+        Curve {
+            shape: Shape::Quintic([c1, c2, c3, c4, 0.0]),
+            until: joiner.border() + f64::from(ticks),
+            end: HubState::at_rest(here.angle.plus(2.0 * (c1 + c3))),
+            begin_acceleration: a,
+        }
     }
 }
 

@@ -32,6 +32,14 @@ impl<T: Scalar> Segment<T> {
         self
     }
 
+    /// Returns the first segment of a move with the moment of the border before it, and takes that
+    /// away from the segments behind.
+    pub(crate) fn behind(&self, moment: &mut T) -> Self {
+        let kink_moment = if *moment == T::ZERO { self.kink_moment } else { *moment };
+        *moment = T::ZERO;
+        Self { kink_moment, ..*self }
+    }
+
     /// Ends a segment at constant rate `count` ticks after its beginning.
     pub(crate) fn cut(&mut self, count: u32) {
         self.count = count;

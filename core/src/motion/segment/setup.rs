@@ -3,8 +3,10 @@
 use core::f64::consts::TAU;
 
 use super::{End, Rest, Segment, Shape};
-use crate::hub::Angle;
+use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
+use crate::motion::Peaks;
+use crate::motion::piece::Ends;
 
 impl<T: Scalar> Segment<T> {
     /// A segment of `length` ticks (not whole in general) that begins `before` ticks, 0 to 1,
@@ -48,6 +50,37 @@ impl<T: Scalar> Segment<T> {
         // At most ½ turn a tick by the rate check of `Plan`, so the product fits an i64.
         let step = (rate * tick * (18_446_744_073_709_551_616.0 / TAU)) as i64;
         Self::steady(start.cast(), T::from_f64(rate), step, count)
+    }
+
+    /// The quintic from the state `hub` through `turn` turns to `rate` (rad/s) without acceleration,
+    /// in `count` ticks of `tick` s, and its peaks. Its tick 0 is the hub's own. Planned in the
+    /// precision of the tick.
+    pub(crate) fn from_hub(
+        hub: &HubState<T>,
+        turn: T,
+        rate: T,
+        count: u32,
+        tick: f64,
+    ) -> (Self, Peaks) {
+        let duration = T::from_u32(count) * T::from_f64(tick);
+        let ends = Ends::new(turn, [hub.rate, rate], [hub.acceleration, T::ZERO], duration);
+        let piece = ends.quintic();
+        let (start, length) = (hub.angle.precise(), T::from_u32(count));
+        let segment = Self::new(start, Shape::Quintic(piece.0), length, T::ZERO, count, tick)
+            .beginning(hub.rate, hub.acceleration)
+            .ending(T::ZERO);
+        (segment, piece.peaks(duration))
+    }
+
+    /// The hub `hub` at its rate, without a tick: planned in the precision of the tick, whose
+    /// length is `tick` s.
+    pub(crate) fn carried_on(hub: &HubState<T>, tick: T) -> Self {
+        let n = T::from_f64;
+        // Two parts of 30 bits, so that no wider scalar is needed: |turns a tick| is below ½.
+        let (high, rest) = (hub.rate * tick * n(1073741824.0 / TAU)).split();
+        let (low, _) = (rest * n(1073741824.0)).split();
+        let step = (i64::from(high) << 34).wrapping_add(i64::from(low) << 4);
+        Self::steady(hub.angle, hub.rate, step, 0)
     }
 
     /// At rest at `angle` for as long as ticks can be counted.

@@ -1,0 +1,35 @@
+//! Paths of any length on an axis.
+
+use super::Axis;
+use crate::Error;
+use crate::error::Mode;
+use crate::motion::{Path, RowError, Spline};
+use crate::stepper::Stepper;
+
+impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
+    /// A path from the end of the moves on, within the policy's limits. Rows are
+    /// [offered](Path::offer) to it and taken by [`Axis::advance`].
+    ///
+    /// # Errors
+    /// [`Error::WrongMode`] if the axis is not enabled.
+    pub fn path(&self, spline: Spline) -> Result<Path, Error> {
+        match self.mode {
+            Mode::Enabled => self.generator.path(spline),
+            mode => Err(Error::WrongMode { mode }),
+        }
+    }
+
+    /// Takes the rows of a path that were offered, as many as there is room for; true if that was
+    /// the last. See [`Generator::feed`](crate::Generator::feed): behind the last row taken there
+    /// is always a stop along the path, so that nothing happens to an axis whose rows stay away but
+    /// that it stops there and holds.
+    ///
+    /// # Errors
+    /// As there; and of the axis' mode, as a row's error, if it is not enabled.
+    pub fn advance(&mut self, path: &mut Path) -> Result<bool, RowError> {
+        if self.mode != Mode::Enabled {
+            return Err(path.row_error(Error::WrongMode { mode: self.mode }));
+        }
+        self.generator.advance(path)
+    }
+}
