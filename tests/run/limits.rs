@@ -364,7 +364,7 @@ fn peaks_of_a_window_are_those_of_its_profile() {
             (Quantity::Acceleration, exact.acceleration),
             (Quantity::Jerk, exact.jerk),
         ] {
-            let peak = peaks.of(quantity).expect("a peak").value;
+            let peak = peaks.of(quantity, &stillbeam::Limits::default()).expect("a peak").value;
             if exact.is_infinite() {
                 assert!(peak.is_infinite(), "{profile:?} {quantity:?}");
             } else {

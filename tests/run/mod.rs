@@ -10,5 +10,6 @@ mod methods;
 mod residual;
 mod scene_files;
 mod shaped;
+mod shortest;
 mod still;
 mod truth;

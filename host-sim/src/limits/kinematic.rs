@@ -19,6 +19,9 @@ const CLOSE: f64 = 0.97;
 /// Number of times that a bracket is narrowed by a third: to 1e-5 of it, a peak to 1e-10 of itself.
 const NARROWINGS: u32 = 28;
 
+/// Number of times that the bracket of a zero of the rate is halved.
+const HALVINGS: u32 = 40;
+
 /// Step of the difference quotient that gives the jerk, fraction of the stretch.
 const DIFFERENCE: f64 = 1e-4;
 
@@ -33,16 +36,20 @@ pub struct Peaks {
     pub rate: Peak,
     /// |θ̈|, rad/s².
     pub acceleration: Peak,
+    /// |θ̈| of a hub that speeds up, and of one that slows down, rad/s².
+    pub kinds: [Peak; 2],
     /// |d³θ/dt³|, rad/s³.
     pub jerk: Peak,
 }
 
 impl Peaks {
-    /// Returns the peak of a quantity, or `None` for a load.
-    pub fn of(&self, quantity: Quantity) -> Option<Peak> {
+    /// Returns the peak of a quantity that `limits` hold, or `None` for a load.
+    pub fn of(&self, quantity: Quantity, limits: &Limits) -> Option<Peak> {
         match quantity {
             Quantity::Rate | Quantity::Turn => Some(self.rate),
+            Quantity::Acceleration if limits.deceleration.is_some() => Some(self.kinds[0]),
             Quantity::Acceleration => Some(self.acceleration),
+            Quantity::Deceleration => Some(self.kinds[1]),
             Quantity::Jerk => Some(self.jerk),
             Quantity::Torque | Quantity::Moment => None,
         }
@@ -52,7 +59,8 @@ impl Peaks {
 /// Returns the first window in which the motion exceeds a limit or turns by more than a radian a
 /// tick.
 pub fn excess(case: &Case<'_>, trajectory: &Trajectory, limits: &Limits) -> Option<Excess> {
-    if limits.rate.is_none() && limits.acceleration.is_none() && limits.jerk.is_none()
+    let kinematic = [limits.rate, limits.acceleration, limits.deceleration, limits.jerk];
+    if kinematic.iter().all(Option::is_none)
         // Without a shaper the moves themselves have been held against the tick.
         && case.shaper.is_none()
     {
@@ -81,12 +89,10 @@ fn excess_within(
     tick: f64,
 ) -> Option<Excess> {
     let peaks = stretches.peaks(window.begin, window.end);
-    [Quantity::Rate, Quantity::Turn, Quantity::Acceleration, Quantity::Jerk].into_iter().find_map(
-        |quantity| {
-            let limit = quantity.limit(limits, tick)?;
-            Excess::of(quantity, peaks.of(quantity)?, limit, window.index)
-        },
-    )
+    Quantity::KINEMATIC.into_iter().find_map(|quantity| {
+        let limit = quantity.limit(limits, tick)?;
+        Excess::of(quantity, peaks.of(quantity, limits)?, limit, window.index)
+    })
 }
 
 /// A motion between its breaks.
@@ -117,6 +123,7 @@ impl<'a> Stretches<'a> {
             let stretch = Stretch { trajectory: self.trajectory, begin: pair[0], end: pair[1] };
             stretch.raise(&mut peaks.rate, &|t| stretch.hub(t).0);
             stretch.raise(&mut peaks.acceleration, &|t| stretch.hub(t).1);
+            stretch.raise_kinds(&mut peaks.kinds);
             stretch.raise(&mut peaks.jerk, &|t| stretch.jerk(t));
         }
         // The window's own end is the next one's beginning; that of the run is nobody's.
@@ -171,6 +178,33 @@ impl Stretch<'_> {
             (3.0 * a(t) - 4.0 * a(t - step) + a(t - 2.0 * step)) / (2.0 * step)
         } else {
             (a(t + step) - a(t - step)) / (2.0 * step)
+        }
+    }
+
+    /// Raises the peaks of a hub that speeds up and of one that slows down. Between two zeros of
+    /// the rate the sign of the acceleration tells which it is.
+    fn raise_kinds(&self, [up, down]: &mut [Peak; 2]) {
+        let rate = |t: f64| self.hub(t).0;
+        let step = (self.end - self.begin) / f64::from(SAMPLES);
+        let at = |k: u32| self.begin + f64::from(k) * step;
+        let mut cuts = vec![self.begin];
+        for k in 0..SAMPLES {
+            let (mut low, mut high) = (at(k), at(k + 1));
+            if rate(low) * rate(high) < 0.0 {
+                let before = rate(low);
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (low + high);
+                    if rate(middle) * before > 0.0 { low = middle } else { high = middle }
+                }
+                cuts.push(high);
+            }
+        }
+        cuts.push(self.end);
+        for pair in cuts.windows(2) {
+            let part = Stretch { trajectory: self.trajectory, begin: pair[0], end: pair[1] };
+            let sign = rate(0.5 * (part.begin + part.end)).signum();
+            part.raise(up, &|t| (sign * part.hub(t).1).max(0.0));
+            part.raise(down, &|t| (-sign * part.hub(t).1).max(0.0));
         }
     }
 

@@ -4,7 +4,7 @@
 //! acceleration and jerk are those of the whole trajectory ([`kinematic`]). Torque and clamp moment
 //! are those of the reference rod along the motion ([`load`]). The motor feels them whatever method
 //! makes the setpoints. A [`Refusal`] names the move, the limit, what the move needs, and a remedy
-//! ([`remedy`]).
+//! ([`remedy`]). [`shortest`] gives a move the shortest duration that keeps them all.
 
 mod case;
 pub mod kinematic;
@@ -12,11 +12,13 @@ pub mod load;
 mod quantity;
 mod refusal;
 pub mod remedy;
+mod shortest;
 mod weight;
 
 pub use case::{Case, Window};
 pub use quantity::Quantity;
 pub use refusal::{Excess, Refusal, Way};
+pub use shortest::shortest;
 pub use weight::holding;
 
 /// A greatest magnitude and the time at which it occurs.

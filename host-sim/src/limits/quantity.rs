@@ -9,8 +9,10 @@ pub enum Quantity {
     Rate,
     /// Hub rate again, held against one radian a tick.
     Turn,
-    /// Hub acceleration.
+    /// Hub acceleration; of a hub that speeds up, if the deceleration has a limit of its own.
     Acceleration,
+    /// Hub acceleration of a hub that slows down.
+    Deceleration,
     /// Hub jerk.
     Jerk,
     /// Hub torque.
@@ -20,12 +22,17 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// Quantities of the hub's motion alone.
+    pub const KINEMATIC: [Self; 5] =
+        [Self::Rate, Self::Turn, Self::Acceleration, Self::Deceleration, Self::Jerk];
+
     /// Returns the quantity's field of a scene file.
     pub fn parameter(self) -> &'static str {
         match self {
             Self::Rate => "limits.rate",
             Self::Turn => "solver.tick",
             Self::Acceleration => "limits.acceleration",
+            Self::Deceleration => "limits.deceleration",
             Self::Jerk => "limits.jerk",
             Self::Torque => "limits.torque",
             Self::Moment => "limits.moment",
@@ -36,7 +43,7 @@ impl Quantity {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Rate | Self::Turn => "rad/s",
-            Self::Acceleration => "rad/s^2",
+            Self::Acceleration | Self::Deceleration => "rad/s^2",
             Self::Jerk => "rad/s^3",
             Self::Torque | Self::Moment => "N m",
         }
@@ -48,6 +55,7 @@ impl Quantity {
             Self::Rate => limits.rate,
             Self::Turn => Some(1.0 / tick),
             Self::Acceleration => limits.acceleration,
+            Self::Deceleration => limits.deceleration,
             Self::Jerk => limits.jerk,
             Self::Torque => limits.torque,
             Self::Moment => limits.moment,
@@ -60,6 +68,7 @@ impl Quantity {
             Self::Rate => limits.rate.as_mut(),
             Self::Turn => None,
             Self::Acceleration => limits.acceleration.as_mut(),
+            Self::Deceleration => limits.deceleration.as_mut(),
             Self::Jerk => limits.jerk.as_mut(),
             Self::Torque => limits.torque.as_mut(),
             Self::Moment => limits.moment.as_mut(),
@@ -72,7 +81,7 @@ impl Quantity {
     pub fn stretch(self, ratio: f64) -> f64 {
         match self {
             Self::Rate | Self::Turn => ratio,
-            Self::Acceleration | Self::Torque | Self::Moment => ratio.sqrt(),
+            Self::Acceleration | Self::Deceleration | Self::Torque | Self::Moment => ratio.sqrt(),
             Self::Jerk => ratio.cbrt(),
         }
     }

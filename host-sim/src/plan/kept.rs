@@ -251,12 +251,10 @@ impl Search<'_> {
         let windows = case.windows(&trajectory);
         let Some((window, earlier)) = windows.split_last() else { return Ok(Vec::new()) };
         let kinematic = kinematic::peaks(&trajectory, window.begin, window.end);
-        let mut peaks = vec![
-            (Quantity::Rate, kinematic.rate),
-            (Quantity::Turn, kinematic.rate),
-            (Quantity::Acceleration, kinematic.acceleration),
-            (Quantity::Jerk, kinematic.jerk),
-        ];
+        let mut peaks = Vec::new();
+        for quantity in Quantity::KINEMATIC {
+            peaks.extend(kinematic.of(quantity, limits).map(|peak| (quantity, peak)));
+        }
         if load::limited(limits) {
             let state = match self.state.get() {
                 Some(state) => state,

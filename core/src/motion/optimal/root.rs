@@ -13,7 +13,7 @@ pub(super) fn root(
     guess: f64,
     mut f: impl FnMut(f64) -> (f64, f64),
 ) -> f64 {
-    let mut x = guess.clamp(low, high);
+    let mut x = guess.max(low).min(high);
     let mut step_before = high - low;
     for _ in 0..EVALUATIONS {
         let (value, slope) = f(x);

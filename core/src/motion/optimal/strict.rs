@@ -70,7 +70,7 @@ impl<'a> Strict<'a> {
         let (from, to) = (self.problem.from[1], self.problem.to[1]);
         let closing = if from > 0.0 { self.problem.closing().max(0.0) } else { 0.0 };
         let last = libm::sqrt(closing).min(to);
-        let lowest = self.lowest().clamp(last, to);
+        let lowest = self.lowest().max(last).min(to);
         // The unknown grows with the time.
         let at = |fallen: f64| self.at(to - fallen);
         let reaches = |fallen: f64| at(fallen).distance >= distance;

@@ -1,0 +1,100 @@
+//! The shortest duration of a move under every limit of a scene.
+
+use stillbeam::motion::Plan;
+use stillbeam::{HubState, Limits, Move, Remedy};
+
+use super::{Case, Refusal, Way, kinematic, load, remedy};
+use crate::error::Error;
+use crate::trajectory::Trajectory;
+
+/// Number of durations that are tried in turn: one from the core's formulas, one behind the shaper,
+/// one with the loads, and one to confirm it.
+const TRIALS: u32 = 4;
+
+/// Returns the shortest duration in whole ticks, s, of the case's last move, in which it keeps
+/// every limit of rate, acceleration, deceleration, jerk, torque and clamp moment. The duration
+/// that the move comes with does not matter; those of the moves before it do.
+///
+/// Without a shaper and without limits of loads it is the core's [`Plan::shortest`]. Behind a
+/// shaper, and for the loads, it is searched from below: a vibration that an earlier move has left
+/// may let a longer move exceed a limit that a shorter one keeps, and the shortest is then the
+/// first that is met.
+///
+/// # Errors
+/// No limit at all, one that no duration keeps, or one that an earlier move exceeds.
+pub fn shortest(case: &Case<'_>, limits: &Limits, progress: &dyn Fn(f64)) -> Result<f64, Error> {
+    let Some((last, earlier)) = case.steps.split_last() else {
+        return Err(Error::new("moves: none; must be one at least"));
+    };
+    let start = start(&case.with(earlier))?;
+    let mut duration = first(case, &last.motion, start, limits)?;
+    let mut steps = case.steps.to_vec();
+    for _ in 0..TRIALS {
+        if let Some(step) = steps.last_mut() {
+            step.motion = step.motion.lasting(duration);
+        }
+        let case = case.with(&steps);
+        match refusal(&case, limits, progress)? {
+            None => return Ok(duration),
+            Some(refusal) => duration = named(refusal, earlier.len())?,
+        }
+    }
+    Ok(duration)
+}
+
+/// Returns the hub at the end of a motion, without the rest that shows its vibration.
+fn start(earlier: &Case<'_>) -> Result<HubState<f64>, Error> {
+    let motions: Vec<Move> = earlier.steps.iter().flat_map(|step| step.motions()).collect();
+    let trajectory = Trajectory::plan(earlier.from, &motions, &Limits::default(), earlier.tick)?;
+    match trajectory.plans().last() {
+        Some(plan) => Ok(plan.summary.end),
+        None => Ok(HubState::resting_at(earlier.from)?),
+    }
+}
+
+/// Returns a duration, s, below which none will do.
+fn first(
+    case: &Case<'_>,
+    motion: &Move,
+    start: HubState<f64>,
+    limits: &Limits,
+) -> Result<f64, Error> {
+    let kinematic = limits.kinematic();
+    if *limits == Limits::default() {
+        return Err(Error::new(
+            "move.duration: missing; must be a number in s, or [limits] must hold a limit",
+        ));
+    }
+    if kinematic != Limits::default() && case.shaper.is_none() {
+        return Ok(Plan::shortest(motion, start, &kinematic, case.tick)?.duration());
+    }
+    // A shaper lowers the peaks, so that the formulas say nothing: from a radian a tick on.
+    match Plan::remedy(motion, start, &Limits::default(), case.tick) {
+        Remedy::Duration(duration) => Ok(duration),
+        _ => Ok(motion.duration()),
+    }
+}
+
+/// Returns the first limit that a motion exceeds.
+fn refusal(
+    case: &Case<'_>,
+    limits: &Limits,
+    progress: &dyn Fn(f64),
+) -> Result<Option<Refusal>, Error> {
+    let trajectory = case.trajectory()?;
+    if let Some(excess) = kinematic::excess(case, &trajectory, limits) {
+        return Ok(Some(remedy::of_motion(case, &trajectory, limits, excess)));
+    }
+    match load::excess(case, &trajectory, limits, progress)? {
+        Some(found) => remedy::of_loads(case, &trajectory, limits, &found, &|_| true).map(Some),
+        None => Ok(None),
+    }
+}
+
+/// Returns the duration that a refusal of the move at `index` names, s.
+fn named(refusal: Refusal, index: usize) -> Result<f64, Error> {
+    match refusal.way {
+        Way::Remedy(Remedy::Duration(duration)) if refusal.excess.index == index => Ok(duration),
+        _ => Err(refusal.into()),
+    }
+}
