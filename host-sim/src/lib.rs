@@ -28,6 +28,7 @@ pub mod reference;
 pub mod report;
 pub mod residual;
 pub mod run;
+pub mod samples;
 pub mod scene_file;
 pub mod scenes;
 pub mod solver;
