@@ -39,3 +39,4 @@ pub mod table;
 pub mod talk;
 pub mod trajectory;
 pub mod truth;
+pub mod waypoints;

@@ -1,9 +1,11 @@
 //! Scene files: TOML in SI units, read as a validated arm and its moves.
 
+mod angle_unit;
 mod moves;
 mod notes;
 mod shaper;
 mod units;
+mod waypoints;
 
 use std::fmt::Display;
 use std::path::Path;
@@ -13,14 +15,15 @@ use stillbeam::material::{MATERIALS, Material, Strip};
 use stillbeam::motion::Shaper;
 use stillbeam::{Damping, Hub, Limits, Link, Move, Payload, Scene};
 
-use self::moves::{MoveTable, Planning};
+use self::angle_unit::AngleUnit;
+use self::moves::{Here, MoveTable, Planning};
 use self::shaper::ShaperTable;
 pub use self::units::angle as angle_remark;
 use crate::document::Document;
 use crate::error::Error;
 use crate::limits::{self, Case, remedy};
 use crate::solver::SolverKeys;
-use crate::step::Step;
+use crate::step::{Motion, Step};
 use crate::trajectory::Trajectory;
 
 /// A scene as read: the arm, its moves, and the file's solver keys.
@@ -40,6 +43,8 @@ pub struct SceneFile {
     pub limits: Limits,
     /// The `[solver]` table.
     pub solver: SolverKeys,
+    /// Indices of the moves whose duration is the shortest within the limits.
+    pub shortest: Vec<usize>,
     /// Remarks on values that are probably in another unit, one line each.
     pub remarks: Vec<String>,
 }
@@ -47,6 +52,7 @@ pub struct SceneFile {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    unit: Option<AngleUnit>,
     link: LinkTable,
     #[serde(default)]
     hub: HubTable,
@@ -144,6 +150,8 @@ impl SceneFile {
             gravity,
         }
         .validate()?;
+        let unit = file.unit.unwrap_or_default();
+        unit.convert_limits(&mut file.limits);
         let limits = Limits {
             rate: file.limits.rate,
             acceleration: file.limits.acceleration,
@@ -153,21 +161,22 @@ impl SceneFile {
             moment: file.limits.moment,
         }
         .validate()?;
-        let (tables, many) = match (file.motion.take(), file.moves.take()) {
+        let (mut tables, many) = match (file.motion.take(), file.moves.take()) {
             (Some(one), None) => (vec![one], false),
             (None, Some(many)) if !many.is_empty() => (many, true),
             _ => {
                 return Err(Error::new("move: must be either [move] or one or more [[moves]]"));
             }
         };
+        tables.iter_mut().for_each(|table| unit.convert_move(table));
         let remarks = units::remarks(&file, &arm, &tables);
         // A move that is refused may have been meant in another unit.
         let remarked = |error: Error| match remarks.first() {
             Some(remark) => Error::new(format_args!("{error}; {remark}")),
-            None => error,
+            None => unit.remarked(error),
         };
-        let from = tables[0].from.unwrap_or(0.0);
-        let mut at = Some(from);
+        let from = tables[0].begin();
+        let mut here = Here { angle: Some(from), rate: 0.0 };
         let tick = file.solver.resolve()?.tick;
         let shaper = file.shaper.as_ref().map(|table| table.build(&arm)).transpose()?;
         let mut moves: Vec<Step> = Vec::new();
@@ -175,10 +184,10 @@ impl SceneFile {
             let (steps, shaper) = (&moves[..], shaper.as_ref());
             let before = Case { arm: &arm, from, steps, shaper, tick };
             let planning = Planning { before, limits: &limits, count: tables.len() };
-            let step = table.build(index, &mut at, &planning).map_err(|error| {
+            let step = table.build(index, &mut here, &planning).map_err(|error| {
                 let place = place_of(index);
                 // A limit's refusal says itself which move it is.
-                if !many || error.to_string().contains(&place) {
+                if !many || error.to_string().contains("moves[") {
                     error
                 } else {
                     error.within(place)
@@ -187,7 +196,10 @@ impl SceneFile {
             moves.push(step.map_err(remarked)?);
         }
         let (name, solver) = (name.to_owned(), file.solver);
-        let scene = Self { name, arm, from, moves, shaper, limits, solver, remarks: Vec::new() };
+        let lasts = |table: &MoveTable| table.duration.is_some() || table.waypoints.is_some();
+        let shortest = (0..tables.len()).filter(|&index| !lasts(&tables[index])).collect();
+        let scene =
+            Self { name, arm, from, moves, shaper, limits, solver, shortest, remarks: Vec::new() };
         scene.trajectory(tick).map_err(remarked)?;
         Ok(Self { remarks, ..scene })
     }
@@ -205,14 +217,23 @@ impl SceneFile {
         let case = self.case(tick);
         let trajectory = case.trajectory()?;
         match limits::kinematic::excess(&case, &trajectory, &self.limits) {
-            Some(excess) => Err(remedy::of_motion(&case, &trajectory, &self.limits, excess).into()),
+            Some(excess) => {
+                let refusal = remedy::of_motion(&case, &trajectory, &self.limits, excess);
+                Err(case.placed(&trajectory, refusal))
+            }
             None => Ok(trajectory),
         }
     }
 
-    /// Returns the moves with their dwells, as the generator's queue takes them.
-    pub fn motions(&self) -> Vec<Move> {
+    /// Returns the motions with their dwells, in order.
+    pub fn motions(&self) -> Vec<Motion> {
         self.moves.iter().flat_map(Step::motions).collect()
+    }
+
+    /// Returns the moves with their dwells, as a generator's queue takes them, or `None` if a path
+    /// through waypoints is among them.
+    pub fn queue(&self) -> Option<Vec<Move>> {
+        self.motions().iter().map(Motion::as_move).collect()
     }
 }
 
