@@ -19,6 +19,7 @@ pub mod document;
 pub mod error;
 mod flight;
 pub mod limits;
+pub mod motion_file;
 pub mod number;
 pub mod output;
 pub mod plan;

@@ -4,6 +4,7 @@
 mod bad_input;
 mod commands;
 mod interruption;
+mod motions;
 mod notes;
 mod syntax;
 mod untouched;

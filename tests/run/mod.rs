@@ -7,6 +7,7 @@ mod energy;
 mod exact;
 mod limits;
 mod methods;
+mod motions;
 mod residual;
 mod scene_files;
 mod shaped;

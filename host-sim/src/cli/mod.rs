@@ -1,6 +1,7 @@
 //! The command line: parses the words, calls the library and prints lines. One command a file.
 
 mod compare;
+mod motion;
 mod plan;
 mod reference;
 mod run;
