@@ -49,6 +49,8 @@ pub enum Command {
 }
 
 /// A report from the firmware.
+// A report is made, written and dropped; there is no heap to box the description on.
+#[allow(clippy::large_enum_variant)]
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Report<'a> {
     /// The request is carried out, between two ticks. A move begins with this tick, or behind the

@@ -10,6 +10,9 @@ use crate::instructions::{Bench, Count, Minimal};
 /// Method of the rows that count plans.
 const PLAN: &str = "plan";
 
+/// Method of the rows that count changes of the motion.
+const CHANGE: &str = "change";
+
 /// Columns of the large table: heading, and the words that are skipped.
 const COLUMNS: [(&str, &[&str]); 8] = [
     ("all terms", &[]),
@@ -37,6 +40,7 @@ pub fn tables(bench: &Bench, soft: &Bench, minimal: &BTreeMap<String, Minimal>) 
         methods(bench, minimal),
         motions(bench),
         plans(bench, minimal),
+        changes(bench),
         functions(bench),
         without_fpu(soft),
     ];
@@ -57,7 +61,7 @@ fn methods(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
     for count in &bench.counts {
         let [method, size, quality, _] = &count.key;
         let own: &[&str] = if skips(count).contains(&"no-spin") { &["no-spin"] } else { &[] };
-        if seen.contains(&(&count.id, quality)) || motion(count) || method == PLAN {
+        if seen.contains(&(&count.id, quality)) || motion(count) || is_beside_tick(method) {
             continue;
         }
         seen.push((&count.id, quality));
@@ -115,6 +119,22 @@ fn plans(bench: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
     text
 }
 
+/// Returns the cost of changes of the motion, with a rigid arm.
+fn changes(bench: &Bench) -> String {
+    let mut text = "### A change of the motion, a rigid arm\n\n\
+                    | change | instructions |\n|---|---|\n"
+        .to_owned();
+    for count in bench.counts.iter().filter(|count| count.key[0] == CHANGE) {
+        writeln!(text, "| {} | {} |", count.key[2], count.worst).expect("a string");
+    }
+    text
+}
+
+/// True if a row counts no tick of a method.
+fn is_beside_tick(method: &str) -> bool {
+    method == PLAN || method == CHANGE
+}
+
 fn functions(bench: &Bench) -> String {
     let mut text = "### Sine and cosine of one angle, call included\n\n\
                     | whose | least | worst | largest error |\n|---|---|---|---|\n"
@@ -139,7 +159,7 @@ pub fn without_fpu(soft: &Bench) -> String {
             "no-damping no-gravity" => "neither",
             _ => continue,
         };
-        if method == PLAN || motion(count) {
+        if is_beside_tick(method) || motion(count) {
             continue;
         }
         let Count { least, worst, .. } = count;

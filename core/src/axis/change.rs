@@ -22,6 +22,15 @@ pub enum Change<T> {
         /// Time from the latest setpoint until they meet, s; rounded to the nearest whole tick.
         duration: f64,
     },
+    /// Reaches an angle in the shortest time that the policy's limits of rate, acceleration,
+    /// deceleration and jerk allow. All moves are dropped. It is planned in f64, and takes up to
+    /// ten segments: a queue of nine has room for any.
+    Reach {
+        /// Angle to reach.
+        angle: Angle<T>,
+        /// Rate with which the hub turns on from there, rad/s.
+        rate: T,
+    },
     /// The move under way ends as it would have, this time after the latest setpoint, s. It becomes
     /// a quintic from the hub's present state. Moves behind it follow as planned.
     Duration(f64),
@@ -48,6 +57,12 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         }
         match *change {
             Change::Target { angle, rate, duration } => self.meet(angle, rate, duration),
+            Change::Reach { angle, rate } => {
+                let end = HubState::turning(angle.precise(), rate.to_f64());
+                let summary = self.generator.reach(&end)?;
+                self.under_way_to(summary.end, summary.ticks);
+                Ok(())
+            }
             Change::Duration(duration) => self.lasting(duration),
             Change::Hold => {
                 self.generator.brake(&self.braking, self.arrival());
@@ -70,13 +85,17 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         let turns = S::Scalar::from_f64(duration / core::f64::consts::TAU);
         let met = angle.plus(rate * turns);
         let ticks = self.generator.retarget(met, rate, duration)?;
+        self.under_way_to(HubState::turning(met.precise(), rate.to_f64()), ticks);
+        Ok(())
+    }
+
+    /// Takes note of the one move that is left: it began with the latest setpoint.
+    fn under_way_to(&mut self, end: HubState<f64>, ticks: u32) {
         let begin = self.clock.wrapping_sub(1);
         let arrival = begin.wrapping_add(ticks);
-        let end = HubState::turning(met.precise(), rate.to_f64());
         self.moves.clear();
         // There is room: none is left.
         let _ = self.moves.push_back(Accepted { begin, arrival, end });
-        Ok(())
     }
 
     fn lasting(&mut self, duration: f64) -> Result<(), Error> {

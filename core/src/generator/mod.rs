@@ -4,6 +4,7 @@ mod change;
 mod current;
 mod follow;
 mod handover;
+mod reach;
 mod redirect;
 mod stop;
 mod stream;

@@ -45,14 +45,20 @@ impl Move {
             Self::To { profile, duration, to } | Self::Pass { profile, duration, to, .. } => {
                 Some(Self::Pass { profile, duration, to, rate })
             }
-            Self::SpinUp { .. } | Self::Still { .. } | Self::Dwell { .. } => None,
+            Self::SpinUp { .. }
+            | Self::Still { .. }
+            | Self::Dwell { .. }
+            | Self::Reach { .. }
+            | Self::Ramp { .. } => None,
         }
     }
 
     fn to(&self) -> Option<f64> {
         match *self {
-            Self::To { to, .. } | Self::Pass { to, .. } => Some(to),
-            Self::SpinUp { .. } | Self::Still { .. } | Self::Dwell { .. } => None,
+            Self::To { to, .. } | Self::Pass { to, .. } | Self::Reach { to, .. } => Some(to),
+            Self::SpinUp { .. } | Self::Still { .. } | Self::Dwell { .. } | Self::Ramp { .. } => {
+                None
+            }
         }
     }
 }

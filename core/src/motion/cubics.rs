@@ -60,7 +60,7 @@ pub(super) fn lay_cubics<T: Scalar>(
 
 /// `∫ (½ − x) θ̈ dx` over the part `a..b` of a tick `0..1`, in which θ̈ goes straight from `from`
 /// to `to`.
-pub(super) fn moment<T: Scalar>(a: T, b: T, from: T, to: T) -> T {
+fn moment<T: Scalar>(a: T, b: T, from: T, to: T) -> T {
     let n = T::from_f64;
     let length = b - a;
     length * (n(0.25) * (T::ONE - a - b) * (from + to) - n(1.0 / 12.0) * length * (to - from))

@@ -7,6 +7,7 @@ use heapless::Vec;
 
 use super::cubics::lay_cubics;
 use super::demand::{Demand, admit};
+use super::optimal::{Bounds, TimeOptimal};
 use super::pass::Pass;
 use super::segment::Shape;
 use super::shapes::{Shapes, quintic, rest_to_rest, spin_up};
@@ -16,8 +17,11 @@ use crate::error::MAX_TICKS;
 use crate::hub::{Angle, HubState, MAX_ANGLE};
 use crate::math::Scalar;
 
-/// Segments of the longest plan, an S-curve.
-pub const MAX_SEGMENTS: usize = 7;
+/// Segments of the longest plan: seven of constant jerk, and one up to the next tick.
+pub const MAX_SEGMENTS: usize = 8;
+
+/// Durations that are tried grow by one part in so many: time in which the peaks change little.
+const STEP: u32 = 32;
 
 /// Duration, end and peaks of a planned move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,6 +79,8 @@ impl Plan {
             // A still move is planned for its duration; in another it is another curve.
             // The peaks of a motion that ends turning need not fall with the duration.
             Move::Still { .. } | Move::Pass { .. } => return Remedy::Longer,
+            // One that takes the shortest time has no other within its bounds.
+            Move::Reach { .. } | Move::Ramp { .. } => return Remedy::Longer,
         };
         demand.remedy(limits, tick)
     }
@@ -95,6 +101,8 @@ impl Plan {
         limits.any_of_motion()?;
         let shortest = match *motion {
             Move::Still { .. } | Move::Dwell { .. } => *motion,
+            Move::Reach { .. } | Move::Ramp { .. } => *motion,
+            Move::Pass { .. } => Self::shortest_pass(motion, start, limits, tick)?,
             _ => motion.lasting(match Self::remedy(motion, start, limits, tick) {
                 Remedy::Duration(duration) => duration,
                 // Refused below.
@@ -102,6 +110,46 @@ impl Plan {
             }),
         };
         plan_segments::<f64>(&shortest, start, limits, tick, &mut |_| ()).map(|_| shortest)
+    }
+
+    /// Returns a move from any state in the first duration that keeps the limits, from the shortest
+    /// upwards that any motion with them has. Its peaks need not fall with the duration: a hub that
+    /// is turning may have to turn back if it is given longer.
+    fn shortest_pass(
+        motion: &Move,
+        start: HubState<f64>,
+        limits: &Limits,
+        tick: f64,
+    ) -> Result<Move, Error> {
+        let Move::Pass { to, rate, .. } = *motion else { return Ok(*motion) };
+        let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+        let end = HubState::turning(Angle::from_radians(to), rate);
+        // Without a limit of acceleration or jerk no time is the shortest.
+        let least = Bounds::new(limits, tick)
+            .and_then(|bounds| TimeOptimal::reach(&start, &end, &bounds))
+            .map_or(0.0, |shortest| shortest.duration());
+        let lasting = |ticks: u32| motion.lasting(f64::from(ticks) * tick);
+        let fits = |ticks: u32| {
+            plan_segments::<f64>(&lasting(ticks), start, limits, tick, &mut |_| ()).is_ok()
+        };
+        let mut fails = (least / tick - 1e-6).clamp(0.0, f64::from(MAX_TICKS - 1)) as u32;
+        let mut reach = fails + 1;
+        while !fits(reach) {
+            if reach == MAX_TICKS {
+                return Ok(lasting(MAX_TICKS));
+            }
+            fails = reach;
+            reach = (reach + reach / STEP + 1).min(MAX_TICKS);
+        }
+        while reach - fails > 1 {
+            let middle = fails + (reach - fails) / 2;
+            if fits(middle) {
+                reach = middle;
+            } else {
+                fails = middle;
+            }
+        }
+        Ok(lasting(reach))
     }
 }
 
@@ -113,10 +161,32 @@ pub(crate) fn plan_segments<T: Scalar>(
     tick: f64,
     sink: &mut dyn FnMut(&Segment<T>),
 ) -> Result<MoveSummary, Error> {
+    let limits = limits.of_motion()?;
+    let shortest = |motion: TimeOptimal| motion.admitted(&limits, tick);
+    match *motion {
+        Move::Reach { to, rate, bounds } => {
+            let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+            let end = HubState::turning(Angle::from_radians(to), rate);
+            shortest(TimeOptimal::reach(&start, &end, &bounds)?)?.lay(tick, sink)
+        }
+        Move::Ramp { rate, bounds } => {
+            shortest(TimeOptimal::ramp(&start, rate, &bounds)?)?.lay(tick, sink)
+        }
+        _ => plan_lasting(motion, start, &limits, tick, sink),
+    }
+}
+
+/// Plans a move that has a duration.
+fn plan_lasting<T: Scalar>(
+    motion: &Move,
+    start: HubState<f64>,
+    limits: &Limits,
+    tick: f64,
+    sink: &mut dyn FnMut(&Segment<T>),
+) -> Result<MoveSummary, Error> {
     let ticks = motion.ticks(tick)?;
     let duration = f64::from(ticks) * tick;
     let turned = |rate: f64| rate * duration / TAU;
-    let limits = limits.of_motion()?;
     let rounded_by = duration - motion.duration();
     let (shapes, end, demand) = match *motion {
         Move::Pass { profile, to, rate, .. } => {
@@ -124,7 +194,7 @@ pub(crate) fn plan_segments<T: Scalar>(
             let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
             let end = HubState::turning(Angle::from_radians(to), rate);
             let pass = Pass::new(profile, start, end, duration, tick);
-            admit(&limits, &pass.peaks, tick)?;
+            admit(limits, &pass.peaks, tick)?;
             pass.emit(start, sink);
             return Ok(MoveSummary { end, ticks, peaks: pass.peaks, rounded_by });
         }
@@ -158,12 +228,13 @@ pub(crate) fn plan_segments<T: Scalar>(
             let demand = Demand::Curve(curve_peaks(&c, &d, duration));
             (Shapes::One(Shape::Bulged { c, d }), end, demand)
         }
-        Move::Dwell { .. } => {
+        // The shortest motions never come here.
+        Move::Dwell { .. } | Move::Reach { .. } | Move::Ramp { .. } => {
             let angle = start.angle.plus(turned(start.rate));
             (Shapes::Hold, HubState::turning(angle, start.rate), Demand::Hold(start.rate))
         }
     };
-    let peaks = demand.admit(&limits, ticks, tick)?;
+    let peaks = demand.admit(limits, ticks, tick)?;
     emit(shapes, &start, ticks, tick, sink);
     Ok(MoveSummary { end, ticks, peaks, rounded_by })
 }

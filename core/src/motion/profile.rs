@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 use core::fmt;
 
+use super::optimal::Bounds;
 use super::{BULGE, Peaks};
 use crate::Error;
 use crate::error::MAX_TICKS;
@@ -125,10 +126,28 @@ pub enum Move {
         /// Rate at the end, rad/s; 0 comes to rest there.
         rate: f64,
     },
+    /// As [`Self::Pass`], in the shortest time that the bounds allow: see
+    /// [`TimeOptimal::reach`](super::optimal::TimeOptimal::reach). The hub begins within them.
+    Reach {
+        /// Angle at the end, rad, counted from the same zero as the hub's.
+        to: f64,
+        /// Rate at the end, rad/s; 0 comes to rest there.
+        rate: f64,
+        /// Bounds of the motion, by which it is made.
+        bounds: Bounds,
+    },
+    /// The fastest change of the rate that the bounds allow: see
+    /// [`TimeOptimal::ramp`](super::optimal::TimeOptimal::ramp). The hub begins within them.
+    Ramp {
+        /// Rate at the end, rad/s; 0 brings a turning hub to rest.
+        rate: f64,
+        /// Bounds of the motion, by which it is made.
+        bounds: Bounds,
+    },
 }
 
 impl Move {
-    /// Returns T, s, as asked for.
+    /// Returns T, s, as asked for; 0 if the move takes the shortest time within its bounds.
     pub fn duration(&self) -> f64 {
         match *self {
             Self::To { duration, .. }
@@ -136,11 +155,12 @@ impl Move {
             | Self::Still { duration, .. }
             | Self::Dwell { duration }
             | Self::Pass { duration, .. } => duration,
+            Self::Reach { .. } | Self::Ramp { .. } => 0.0,
         }
     }
 
     /// Returns the move with another duration, s. A still move no longer arrives still: its bulge
-    /// belongs to the duration that it was planned for.
+    /// belongs to the duration that it was planned for. A move in the shortest time stays as it is.
     #[must_use]
     pub fn lasting(self, duration: f64) -> Self {
         match self {
@@ -149,13 +169,14 @@ impl Move {
             Self::Still { to, bulge, .. } => Self::Still { duration, to, bulge },
             Self::Dwell { .. } => Self::Dwell { duration },
             Self::Pass { profile, to, rate, .. } => Self::Pass { profile, duration, to, rate },
+            Self::Reach { .. } | Self::Ramp { .. } => self,
         }
     }
 
     /// Returns the whole number of ticks nearest to the duration, at least one.
     ///
     /// # Errors
-    /// The duration is under half a tick or over 2²⁴ ticks.
+    /// The duration is under half a tick or over 2²⁴ ticks, or none is asked for.
     pub fn ticks(&self, tick: f64) -> Result<u32, Error> {
         let duration = Error::check(
             "move.duration",
@@ -180,6 +201,10 @@ impl fmt::Display for Move {
             Self::Pass { profile, duration, to, rate } => {
                 write!(f, "{profile} to {to} rad at {rate} rad/s in {duration} s")
             }
+            Self::Reach { to, rate, .. } => {
+                write!(f, "reach {to} rad at {rate} rad/s in the shortest time")
+            }
+            Self::Ramp { rate, .. } => write!(f, "ramp to {rate} rad/s in the shortest time"),
         }
     }
 }

@@ -242,3 +242,42 @@ fn a_path_on_an_axis_ends_at_rest() {
     assert!(axis.rests() && axis.mode() == Mode::Enabled);
     assert!(last.angle.radians() > 0.5 && last.angle.radians() < 0.7, "{last:?}");
 }
+
+/// The shortest way to an angle from the middle of a move, and to another one behind it: within
+/// the limits, without a jump of angle or rate.
+#[test]
+fn an_axis_reaches_an_angle_in_the_shortest_time() {
+    let mut axis = axis();
+    take(&mut axis, 2.0, 0.8);
+    run(&mut axis, 30);
+    let turning = axis.generator().setpoint();
+    assert!(turning.rate > 3.0, "{turning:?}");
+    let change = Change::Reach { angle: radians(-0.5), rate: 0.0 };
+    axis.change(&change).expect("within reach");
+    // It brakes in v/A, and then goes back by d in d/V + V/A, by hand; up to three
+    // ticks are the end of the last one, one behind it, and the one that holds.
+    let (v, a, most) = (f64::from(turning.rate), 60.0, 6.0);
+    let back = turning.angle.radians() + 0.5 * v * v / a + 0.5;
+    let by_hand = v / a + back / most + most / a;
+    let mut ticks = 0;
+    while !axis.generator().is_holding() {
+        run(&mut axis, 1);
+        ticks += 1;
+    }
+    assert!((f64::from(ticks) * TICK - by_hand).abs() < 3.0 * TICK, "{ticks} ticks, {by_hand} s");
+    assert!((axis.generator().setpoint().angle.radians() + 0.5).abs() < 1e-6);
+    // Behind a queue, by the generator itself; to pass an angle at a rate.
+    let mut arm = axis.generator().clone();
+    let first = arm.push_shortest(&HubState::at_rest(Angle::from_radians(0.3))).expect("room");
+    let passed = HubState::turning(Angle::from_radians(1.0), 2.0);
+    let second = arm.push_shortest(&passed).expect("room");
+    let mut before = arm.setpoint();
+    for _ in 0..first.ticks + second.ticks + 1 {
+        let now = arm.tick();
+        goes_on(&before, &now);
+        before = now;
+    }
+    let after = before.angle.radians() - 1.0;
+    // It passes the angle inside a tick, and is at most two behind it.
+    assert!(before.rate == 2.0 && after > -1e-6 && after < 2.0 * 2.0 * TICK + 1e-6, "{before:?}");
+}

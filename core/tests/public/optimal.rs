@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use proptest::prelude::*;
 use stillbeam::hub::HubState;
 use stillbeam::motion::optimal::{Bounds, TimeOptimal};
-use stillbeam::motion::{MoveSummary, Segment};
-use stillbeam::{Angle, Error, Limits};
+use stillbeam::motion::{MoveSummary, Plan, Segment};
+use stillbeam::{Angle, Error, Limits, Move, Profile};
 
 use crate::assert_near;
 
@@ -75,8 +75,12 @@ fn a_hub_overshoots_where_it_must() {
     assert!(lowest < -0.1 && highest <= 2.0, "{lowest} {highest}");
     let furthest = (0..1000).map(|k| motion.at(motion.duration() * f64::from(k) / 1000.0));
     let furthest = furthest.map(|hub| hub.angle.radians()).fold(0.0, f64::max);
+    // It turns back while it still brakes: 2 · 0.125 − 40 · 0.125³/6 until the brake is full, and
+    // 1.6875²/10 from there.
+    let exact = 0.25 - 40.0 * 0.125f64.powi(3) / 6.0 + 1.6875 * 1.6875 / 10.0;
+    assert_near("furthest", furthest, exact, 1e-5);
     let stop = TimeOptimal::ramp(&hub(0.0, 2.0, 0.0), 0.0, &BOUNDS).expect("stop");
-    assert_near("stopping distance", furthest, stop.end().angle.radians(), 1e-5);
+    assert_near("stop", stop.end().angle.radians(), 0.525, 1e-12);
 }
 
 /// Beyond a limit the hub first comes back within it.
@@ -213,11 +217,84 @@ proptest! {
         let motion = reach(&rest(0.0), &rest(to), &BOUNDS);
         let (segments, summary) = lay(&motion, tick);
         prop_assert!(segments.len() <= 7);
-        prop_assert!((-1e-5 * tick..tick).contains(&summary.rounded_by), "{}", summary.rounded_by);
+        // No turn at all takes a tick.
+        let least = if to == 0.0 { tick } else { -1e-5 * tick };
+        prop_assert!((least..=tick).contains(&summary.rounded_by), "{}", summary.rounded_by);
         prop_assert_eq!(summary.end, rest(to));
         prop_assert!(summary.peaks.rate <= 2.0 + 1e-9);
         prop_assert!(summary.peaks.acceleration <= 5.0 + 1e-9 && summary.peaks.jerk <= 40.001);
         let last = segments.last().expect("a segment");
         prop_assert!(last.hub_at(f64::from(last.count())).angle.since(summary.end.angle).abs() < 1e-12);
+    }
+}
+
+fn planned(motion: Move, start: HubState<f64>, limits: &Limits) -> Result<Plan, Error> {
+    Plan::new(&motion, start, limits, 0.01)
+}
+
+/// A move in the shortest time keeps the limits that it is held against: its own bounds and the
+/// generator's, deceleration apart from acceleration.
+#[test]
+fn a_reach_is_a_move() {
+    let bounds = Bounds { deceleration: 8.0, ..BOUNDS };
+    let limits = Limits {
+        rate: Some(2.0),
+        acceleration: Some(5.0),
+        deceleration: Some(8.0),
+        jerk: Some(40.0),
+        ..Limits::default()
+    };
+    assert_eq!(Bounds::new(&limits, 0.01), Ok(bounds));
+    let motion = Move::Reach { to: 5.0, rate: 0.0, bounds };
+    let plan = planned(motion, rest(0.0), &limits).expect("reach");
+    assert_eq!(plan.summary.end, rest(5.0));
+    // v/a + a/j and v/d + d/j of ramps, the mean of which is also turned at the full rate.
+    let (up, down) = (2.0 / 5.0 + 5.0 / 40.0, 2.0 / 8.0 + 8.0 / 40.0);
+    let exact: f64 = up + down + (5.0 - up - down) / 2.0;
+    assert_eq!(f64::from(plan.summary.ticks), (exact / 0.01).ceil());
+    let gentle = Limits { deceleration: Some(7.0), ..limits };
+    let error = planned(motion, rest(0.0), &gentle).unwrap_err();
+    let Error::LimitExceeded { parameter: "limits.deceleration", needed, .. } = error else {
+        panic!("{error}");
+    };
+    assert_near("deceleration", needed, 8.0, 1e-9);
+    // From where another ramp has brought it, and back to rest.
+    let ramp = Move::Ramp { rate: -1.5, bounds };
+    let turning = planned(ramp, rest(0.0), &limits).expect("ramp").summary;
+    assert!(turning.end.rate == -1.5 && turning.end.angle.radians() < 0.0);
+    let stop = Move::Ramp { rate: 0.0, bounds };
+    let stop = planned(stop, turning.end, &limits).expect("stop").summary;
+    assert!(stop.ticks < turning.ticks, "it brakes harder than it speeds up");
+    let fast = HubState { rate: 2.5, ..rest(0.0) };
+    let error = planned(motion, fast, &limits).unwrap_err();
+    assert!(matches!(error, Error::LimitExceeded { parameter: "limits.rate", .. }), "{error}");
+    let none = Bounds { acceleration: 0.0, ..bounds };
+    let error = planned(Move::Ramp { rate: 1.0, bounds: none }, rest(0.0), &limits).unwrap_err();
+    assert!(error.to_string().starts_with("bounds.acceleration = 0: must be"), "{error}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Every profile from any state has a shortest duration: a tick less does not keep the limits,
+    /// and the time-optimal motion is shorter still.
+    #[test]
+    fn a_pass_has_a_shortest_duration(
+        profile in proptest::sample::select(Profile::ALL.to_vec()),
+        v0 in -1.0..1.0_f64, v1 in -1.0..1.0_f64, to in -3.0..3.0_f64,
+    ) {
+        let limits = Limits { rate: Some(2.0), acceleration: Some(5.0), ..Limits::default() };
+        let start = HubState::turning(Angle::default(), v0);
+        let pass = Move::Pass { profile, duration: 0.0, to, rate: v1 };
+        let shortest = Plan::shortest(&pass, start, &limits, 0.01);
+        // A turn that is too short for its rates may take a detour that the profile cannot make.
+        prop_assume!(shortest.is_ok());
+        let shortest = shortest.expect("a duration");
+        let less = shortest.lasting(shortest.duration() - 0.01);
+        prop_assert!(planned(shortest, start, &limits).is_ok());
+        prop_assert!(planned(less, start, &limits).is_err());
+        let bounds = Bounds::new(&limits, 0.01).expect("bounds");
+        let optimal = reach(&start, &HubState::turning(Angle::from_radians(to), v1), &bounds);
+        prop_assert!(optimal.duration() <= shortest.duration() + 1e-9);
     }
 }

@@ -11,6 +11,8 @@ use semihosting::process::ExitCode;
 use stillbeam_firmware::counter::{Chosen, Counter, Stopwatch};
 use stillbeam_firmware::output::Output;
 
+#[path = "../bench/changes.rs"]
+mod changes;
 #[path = "../bench/functions.rs"]
 mod functions;
 #[path = "../bench/plans.rs"]
@@ -28,6 +30,7 @@ fn main() -> ! {
     writeln!(output, "unit,{}", Chosen::UNIT).expect("the host takes the lines");
     ticks::print(&watch, &mut output);
     plans::print(&watch, &mut output);
+    changes::print(&watch, &mut output);
     functions::print(&watch, &mut output);
     output.flush().expect("the host takes the lines");
     ExitCode::SUCCESS.exit_process()

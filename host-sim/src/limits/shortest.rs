@@ -3,13 +3,14 @@
 use stillbeam::motion::Plan;
 use stillbeam::{HubState, Limits, Move, Remedy};
 
+use super::refusal::seconds;
 use super::{Case, Excess, Refusal, Way, kinematic, load, remedy};
 use crate::error::Error;
 use crate::step::{Motion, Step};
 use crate::trajectory::Trajectory;
 
-/// Number of durations that are tried in turn: one from the core's formulas, one behind the shaper,
-/// one with the loads, and one to confirm it.
+/// Number of searches that may follow each other: one behind the shaper, one for each load, and one
+/// more for what they do to each other.
 const TRIALS: u32 = 4;
 
 /// Number of growing durations that are tried for a motion without a formula.
@@ -32,18 +33,37 @@ pub fn shortest(case: &Case<'_>, limits: &Limits, progress: &dyn Fn(f64)) -> Res
     };
     let start = start(&case.with(earlier))?;
     let mut duration = first(case, &last.motion, start, limits)?;
-    let mut steps = case.steps.to_vec();
-    for _ in 0..TRIALS {
-        if let Some(step) = steps.last_mut() {
-            step.motion = step.motion.lasting(duration);
+    let mut trials = 0;
+    while let Some(refusal) = refused_in(duration, case, limits, progress)? {
+        trials += 1;
+        if trials > TRIALS {
+            return Err(refusal.into());
         }
-        let case = case.with(&steps);
-        match refusal(&case, limits, progress)? {
-            None => return Ok(duration),
-            Some(refusal) => duration = named(refusal, earlier.len())?,
+        duration = named(refusal, earlier.len())?;
+    }
+    // The search flies with a small error, which may have cost it a tick.
+    while trials > 0 && duration > 1.5 * case.tick {
+        let less = seconds(duration - case.tick);
+        if refused_in(less, case, limits, progress)?.is_some() {
+            break;
         }
+        duration = less;
     }
     Ok(duration)
+}
+
+/// Returns the first limit that a motion exceeds whose last move takes `duration` s.
+fn refused_in(
+    duration: f64,
+    case: &Case<'_>,
+    limits: &Limits,
+    progress: &dyn Fn(f64),
+) -> Result<Option<Refusal>, Error> {
+    let mut steps = case.steps.to_vec();
+    if let Some(step) = steps.last_mut() {
+        step.motion = step.motion.lasting(duration);
+    }
+    refusal(&case.with(&steps), limits, progress)
 }
 
 /// Returns the hub at the end of a motion, without the rest that shows its vibration.

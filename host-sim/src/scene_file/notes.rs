@@ -19,8 +19,9 @@ impl SceneFile {
             let key = if step.motion.as_move().is_some() { "duration" } else { "waypoints" };
             for (key, asked) in [(key, step.motion.duration())].into_iter().chain(settle) {
                 let Some(plan) = plans.next() else { break };
-                // Not worth a word: what a decimal fraction of a second lacks in binary.
-                if plan.summary.rounded_by.abs() > 1e-9 * asked {
+                // Not worth a word: what a decimal fraction of a second lacks in binary, and a move
+                // that has asked for no duration.
+                if asked > 0.0 && plan.summary.rounded_by.abs() > 1e-9 * asked {
                     let whole = f64::from(plan.summary.ticks) * tick;
                     let whole = (whole * 1e9).round() / 1e9;
                     rounded.add(

@@ -5,6 +5,7 @@ use crate::motion::Limits;
 
 /// Limits of a time-optimal motion, each a magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bounds {
     /// |θ̇|, rad/s; finite.
     pub rate: f64,
@@ -37,5 +38,22 @@ impl Bounds {
             deceleration: limits.deceleration.unwrap_or(acceleration),
             jerk,
         })
+    }
+
+    /// Refuses bounds that are no positive numbers, or that leave the rate free to jump.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let check = |parameter, value: f64, unit| {
+            Error::check(parameter, value, 1e-9, 1e12, unit).map(drop)
+        };
+        check("bounds.rate", self.rate, "rad/s")?;
+        let jumps = self.jerk == f64::INFINITY;
+        for (parameter, value) in
+            [("bounds.acceleration", self.acceleration), ("bounds.deceleration", self.deceleration)]
+        {
+            if jumps || value != f64::INFINITY {
+                check(parameter, value, "rad/s^2")?;
+            }
+        }
+        if jumps { Ok(()) } else { check("bounds.jerk", self.jerk, "rad/s^3") }
     }
 }

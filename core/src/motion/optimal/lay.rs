@@ -5,14 +5,13 @@ use core::f64::consts::TAU;
 use super::{Piece, TimeOptimal};
 use crate::Error;
 use crate::error::MAX_TICKS;
-use crate::hub::{Angle, HubState};
+use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::motion::cubics::moment;
+use crate::motion::joiner::{Curve, Joiner};
 use crate::motion::segment::Shape;
 use crate::motion::{MoveSummary, Segment};
 
-/// Part of a tick that is rounding. Borders that lie as close to a tick are moved to it, and pieces
-/// as short are left out.
+/// Part of a tick that is rounding: a motion that ends as close to a tick ends at it.
 const ROUNDING: f64 = 1e-6;
 
 impl TimeOptimal {
@@ -32,25 +31,30 @@ impl TimeOptimal {
         let longest = tick * f64::from(MAX_TICKS);
         Error::check("move.duration", self.duration(), 0.0, longest, "s")?;
         let motion = if self.rests() { self.ending_at_tick(tick) } else { self.clone() };
-        let mut laying = Laying { start: self.start().angle, tick, ..Laying::NEW };
-        let mut end = 0.0;
-        for piece in motion.pieces() {
-            end += piece.duration / tick;
-            laying.add(piece, whole(end), sink);
+        let mut joiner = Joiner::new(*self.start(), tick);
+        let mut time = 0.0;
+        for (i, piece) in motion.pieces().iter().enumerate() {
+            time += piece.duration;
+            let last = i + 1 == motion.pieces().len();
+            let until = if last { whole(time / tick) } else { time / tick };
+            let end = if last { *self.end() } else { motion.state_after(piece) };
+            let begin_acceleration = piece.acceleration;
+            let curve = Curve { shape: piece.shape(), until, end, begin_acceleration };
+            if let Some(segment) = joiner.append(&curve) {
+                sink(&segment.cast());
+            }
         }
-        let after = f64::from(laying.first) - laying.border;
-        let mut last = *self.end();
-        last.angle = last.angle.plus(last.rate * tick * after / TAU);
-        let mut ticks = laying.first;
-        if after > 0.0 || ticks == 0 {
-            let mut segment = Segment::cruise(last.angle, last.rate, 1, tick);
-            segment.set_kink_moment(laying.kink_moment);
-            sink(&segment);
-            ticks += 1;
-            last.angle = last.angle.plus(last.rate * tick / TAU);
+        if joiner.ticks() as f64 > joiner.border() || joiner.ticks() == 0 {
+            let until = joiner.ticks() as f64 + 1.0;
+            let length = until - joiner.border();
+            let curve = onward(joiner.here(), length, until, tick);
+            if let Some(segment) = joiner.append(&curve) {
+                sink(&segment.cast());
+            }
         }
+        let end = HubState::turning(joiner.here().angle, joiner.here().rate);
+        let ticks = joiner.ticks() as u32;
         let rounded_by = f64::from(ticks) * tick - self.duration();
-        let end = HubState::turning(last.angle, last.rate);
         Ok(MoveSummary { end, ticks, peaks: motion.peaks(), rounded_by })
     }
 
@@ -71,82 +75,35 @@ impl TimeOptimal {
         }
         slower
     }
+
+    /// The hub at the end of a piece, with the acceleration from within.
+    fn state_after(&self, piece: &Piece) -> HubState<f64> {
+        let [turned, rate, acceleration] = piece.after(piece.duration);
+        let angle = self.start().angle.plus(turned / TAU);
+        HubState { acceleration, ..HubState::turning(angle, rate) }
+    }
+}
+
+/// The hub's way on from `here` at constant rate, `length` ticks long.
+fn onward(here: &HubState<f64>, length: f64, until: f64, tick: f64) -> Curve {
+    let turned = here.rate * length * tick / TAU;
+    let end = HubState::turning(here.angle.plus(turned), here.rate);
+    Curve { shape: Shape::Cubic([0.5 * turned, 0.0, 0.0]), until, end, begin_acceleration: 0.0 }
+}
+
+impl Piece {
+    /// Its cubic `c₁s + c₂s² + c₃s³`, about `s = ½`.
+    fn shape(&self) -> Shape<f64> {
+        let t = self.duration;
+        let c1 = self.rate * t / TAU;
+        let c2 = self.acceleration * t * t / (2.0 * TAU);
+        let c3 = self.jerk * t * t * t / (6.0 * TAU);
+        Shape::Cubic([(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0])
+    }
 }
 
 /// Returns a number of ticks, rounded if it is as good as whole.
 fn whole(ticks: f64) -> f64 {
     let nearest = libm::round(ticks);
     if libm::fabs(ticks - nearest) <= ROUNDING { nearest } else { ticks }
-}
-
-/// Segments under construction.
-struct Laying<T> {
-    /// Angle at the beginning.
-    start: Angle<f64>,
-    /// h, s.
-    tick: f64,
-    /// First tick of the next segment.
-    first: u32,
-    /// End of what is laid, ticks.
-    border: f64,
-    /// What the tick before `first` has felt of the borders in it: see [`Segment::kink_moment`].
-    kink_moment: T,
-}
-
-impl<T: Scalar> Laying<T> {
-    const NEW: Self = Self {
-        start: Angle { turns: 0, part: 0.0 },
-        tick: 0.0,
-        first: 0,
-        border: 0.0,
-        kink_moment: T::ZERO,
-    };
-
-    /// Adds a piece that goes on to `end`, ticks. One that contains no tick leaves but its part of
-    /// the kink.
-    fn add(&mut self, piece: &Piece, end: f64, sink: &mut dyn FnMut(&Segment<T>)) {
-        let n = T::from_f64;
-        let next = libm::ceil(end) as u32;
-        let length = end - self.border;
-        let before = f64::from(self.first) - self.border;
-        let after = f64::from(next) - end;
-        if length <= ROUNDING {
-            self.border = end;
-            return;
-        }
-        let [_, _, end_acceleration] = piece.after(piece.duration);
-        let [begin, end_acceleration] = [n(piece.acceleration), n(end_acceleration)];
-        let [from, to] = [n(1.0 - before), n(1.0 - after)];
-        if next == self.first {
-            self.kink_moment += moment(from, to, begin, end_acceleration);
-        } else {
-            let mut segment = self.segment(piece, length, before, next).ending(end_acceleration);
-            if before == 0.0 {
-                segment = segment.beginning(n(piece.rate), begin);
-                self.kink_moment = T::ZERO;
-            }
-            let [at_first, at_last] = segment.accelerations();
-            self.kink_moment += moment(from, T::ONE, begin, at_first);
-            segment.set_kink_moment(self.kink_moment);
-            sink(&segment);
-            // The tick's parabola goes up to the left-hand value at the border.
-            let parabola = n(1.0 / 12.0) * (at_last - end_acceleration);
-            self.kink_moment = moment(T::ZERO, to, at_last, end_acceleration) - parabola;
-        }
-        (self.first, self.border) = (next, end);
-    }
-
-    /// A piece of `length` ticks that begins `before` ticks before its first tick.
-    fn segment(&self, piece: &Piece, length: f64, before: f64, next: u32) -> Segment<T> {
-        let t = length * self.tick;
-        let c1 = piece.rate * t / TAU;
-        let c2 = piece.acceleration * t * t / (2.0 * TAU);
-        let c3 = piece.jerk * t * t * t / (6.0 * TAU);
-        // c₁s + c₂s² + c₃s³ about s = ½.
-        let cubic = [(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0];
-        let n = T::from_f64;
-        let start = self.start.plus(piece.turned / TAU);
-        let shape = Shape::Cubic(cubic.map(n));
-        Segment::new(start, shape, n(length), n(before), next - self.first, self.tick)
-    }
 }

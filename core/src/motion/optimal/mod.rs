@@ -22,6 +22,7 @@
 //! any time without a detour through acceleration zero, so the interval closes, and opens again at
 //! the detour.
 
+mod admit;
 mod bounds;
 mod brake;
 mod lay;
@@ -30,6 +31,7 @@ mod passage;
 mod phases;
 mod problem;
 mod root;
+mod shortest;
 mod solve;
 mod strict;
 mod trajectory;

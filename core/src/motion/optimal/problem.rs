@@ -69,11 +69,13 @@ impl Problem {
     }
 
     /// True if the fastest change of the rate is by jerk + −, false if it is by − +. Between the
-    /// two lies the change that one sign of the jerk makes.
+    /// two lies the change that one sign of the jerk makes: both would do for it, but a peak is not
+    /// negative and a trough is not positive.
     pub fn rises(&self) -> bool {
         let [from, to] = [self.from[1], self.to[1]];
         let squares = (to * to - from * from) / (2.0 * self.jerk);
-        self.change() >= if to >= from { squares } else { -squares }
+        let direct = if to >= from { squares } else { -squares };
+        self.change() > direct || self.change() == direct && from.max(to) >= 0.0
     }
 
     /// The fastest change of the rate.

@@ -1,0 +1,87 @@
+//! Time-optimal motions through the queue.
+
+use heapless::Vec;
+
+use super::{Generator, Part, hold};
+use crate::Error;
+use crate::hub::HubState;
+use crate::motion::optimal::{Bounds, MAX_PIECES, TimeOptimal};
+use crate::motion::{MoveSummary, Segment};
+use crate::stepper::Stepper;
+
+/// The segments of a motion, and its summary.
+type Laid<T> = (Vec<Segment<T>, MOST>, MoveSummary);
+
+/// Segments of the longest motion: its pieces and the tick that they end in.
+const MOST: usize = MAX_PIECES + 1;
+
+impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
+    /// Puts the shortest motion to `end` behind the queue: time-optimal within the generator's
+    /// limits of rate, acceleration, deceleration and jerk.
+    ///
+    /// # Errors
+    /// Those of [`TimeOptimal::reach`], [`Error::QueueFull`], or what the stepper was not set up
+    /// for. Nothing has changed then.
+    pub fn push_shortest(&mut self, end: &HubState<f64>) -> Result<MoveSummary, Error> {
+        let free = QUEUE - self.queue.len();
+        let (segments, summary) = self.shortest_to(&self.next_start(), end, free)?;
+        let mut moment = self.border_moment();
+        for segment in &segments {
+            // There is room: just counted.
+            let _ = self.queue.push_back(segment.behind(&mut moment));
+        }
+        self.current.end_hold();
+        self.finish_at(&summary);
+        Ok(summary)
+    }
+
+    /// Replaces all that follows by the shortest motion from the hub's present state to `end`, as
+    /// [`Self::retarget`] does by a quintic. Plans in f64.
+    ///
+    /// # Errors
+    /// Those of [`Self::push_shortest`].
+    pub fn reach(&mut self, end: &HubState<f64>) -> Result<MoveSummary, Error> {
+        // The first segment is under way at once and needs no place.
+        let (segments, summary) = self.shortest_to(&self.hub.precise(), end, QUEUE + 1)?;
+        let Some((first, others)) = segments.split_first() else { return Ok(summary) };
+        self.end_acceleration = self.acceleration_before();
+        self.queue.clear();
+        let k = if self.current.is_unstarted() { u32::MAX } else { 0 };
+        self.current.take_up(first, Part::Move, k, &self.stepper);
+        // The right-hand value, where the acceleration jumps.
+        self.hub.acceleration = first.hub(0).acceleration;
+        for segment in others {
+            // There is room: just counted.
+            let _ = self.queue.push_back(*segment);
+        }
+        self.finish_at(&summary);
+        Ok(summary)
+    }
+
+    fn shortest_to(
+        &self,
+        start: &HubState<f64>,
+        end: &HubState<f64>,
+        free: usize,
+    ) -> Result<Laid<S::Scalar>, Error> {
+        let tick = self.stepper.tick();
+        let motion = TimeOptimal::reach(start, end, &Bounds::new(&self.limits, tick)?)?;
+        let mut segments = Vec::new();
+        let summary = motion.lay(tick, &mut |segment| {
+            // No motion has more.
+            let _ = segments.push(*segment);
+        })?;
+        let needed = segments.len();
+        if needed > free {
+            return Err(Error::QueueFull { needed, free });
+        }
+        self.stepper.admit(&summary.peaks, summary.end.rate)?;
+        Ok((segments, summary))
+    }
+
+    fn finish_at(&mut self, summary: &MoveSummary) {
+        self.revision = self.revision.wrapping_add(1);
+        self.end = summary.end;
+        self.tail = hold(self.end, self.stepper.tick());
+    }
+}
