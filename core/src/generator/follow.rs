@@ -73,8 +73,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         self.queue.clear();
         self.revision = self.revision.wrapping_add(1);
-        let tick = S::Scalar::from_f64(self.stepper.tick());
-        self.current.follow(&Segment::carried_on(&self.hub, tick));
+        self.current.follow(&Segment::carried_on(&self.hub, self.tick));
         self.setpoint()
     }
 }

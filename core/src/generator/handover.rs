@@ -129,6 +129,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
 
     /// Replaces the arm on the same hub, from the angle where the hub rests.
     pub fn replace(&mut self, stepper: S) {
+        self.tick = S::Scalar::from_f64(stepper.tick());
         self.stepper = stepper;
         self.restart(self.hub.angle);
     }

@@ -81,6 +81,8 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
     queue: Deque<Segment<S::Scalar>, QUEUE>,
     /// Counts the changes of the queue, but for those that a tick makes.
     revision: u32,
+    /// h in the precision of the tick, s.
+    tick: S::Scalar,
 }
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
@@ -95,6 +97,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         let state = stepper.equilibrium(&hub);
         Ok(Self {
+            tick: S::Scalar::from_f64(stepper.tick()),
             stepper,
             state,
             hub,

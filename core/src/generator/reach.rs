@@ -1,4 +1,4 @@
-//! Time-optimal motions through the queue.
+//! A time-optimal motion in place of the one under way.
 
 use heapless::Vec;
 
@@ -16,33 +16,16 @@ type Laid<T> = (Vec<Segment<T>, MOST>, MoveSummary);
 const MOST: usize = MAX_PIECES + 1;
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
-    /// Puts the shortest motion to `end` behind the queue: time-optimal within the generator's
-    /// limits of rate, acceleration, deceleration and jerk.
+    /// Replaces all that follows by the shortest motion from the hub's present state to `end`,
+    /// within the generator's limits of rate, acceleration, deceleration and jerk, as
+    /// [`Self::retarget`] does by a quintic. Plans in f64. Behind a queue it is a
+    /// [`Move::Reach`](crate::Move::Reach).
     ///
     /// # Errors
     /// Those of [`TimeOptimal::reach`], [`Error::QueueFull`], or what the stepper was not set up
     /// for. Nothing has changed then.
-    pub fn push_shortest(&mut self, end: &HubState<f64>) -> Result<MoveSummary, Error> {
-        let free = QUEUE - self.queue.len();
-        let (segments, summary) = self.shortest_to(&self.next_start(), end, free)?;
-        let mut moment = self.border_moment();
-        for segment in &segments {
-            // There is room: just counted.
-            let _ = self.queue.push_back(segment.behind(&mut moment));
-        }
-        self.current.end_hold();
-        self.finish_at(&summary);
-        Ok(summary)
-    }
-
-    /// Replaces all that follows by the shortest motion from the hub's present state to `end`, as
-    /// [`Self::retarget`] does by a quintic. Plans in f64.
-    ///
-    /// # Errors
-    /// Those of [`Self::push_shortest`].
     pub fn reach(&mut self, end: &HubState<f64>) -> Result<MoveSummary, Error> {
-        // The first segment is under way at once and needs no place.
-        let (segments, summary) = self.shortest_to(&self.hub.precise(), end, QUEUE + 1)?;
+        let (segments, summary) = self.shortest_to(end)?;
         let Some((first, others)) = segments.split_first() else { return Ok(summary) };
         self.end_acceleration = self.acceleration_before();
         self.queue.clear();
@@ -54,34 +37,27 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             // There is room: just counted.
             let _ = self.queue.push_back(*segment);
         }
-        self.finish_at(&summary);
+        self.revision = self.revision.wrapping_add(1);
+        self.end = summary.end;
+        self.tail = hold(self.end, self.stepper.tick());
         Ok(summary)
     }
 
-    fn shortest_to(
-        &self,
-        start: &HubState<f64>,
-        end: &HubState<f64>,
-        free: usize,
-    ) -> Result<Laid<S::Scalar>, Error> {
+    fn shortest_to(&self, end: &HubState<f64>) -> Result<Laid<S::Scalar>, Error> {
         let tick = self.stepper.tick();
-        let motion = TimeOptimal::reach(start, end, &Bounds::new(&self.limits, tick)?)?;
+        let bounds = Bounds::new(&self.limits, tick)?;
+        let motion = TimeOptimal::reach(&self.hub.precise(), end, &bounds)?;
         let mut segments = Vec::new();
         let summary = motion.lay(tick, &mut |segment| {
             // No motion has more.
             let _ = segments.push(*segment);
         })?;
-        let needed = segments.len();
+        // The first is under way at once and needs no place.
+        let (needed, free) = (segments.len(), QUEUE + 1);
         if needed > free {
             return Err(Error::QueueFull { needed, free });
         }
         self.stepper.admit(&summary.peaks, summary.end.rate)?;
         Ok((segments, summary))
-    }
-
-    fn finish_at(&mut self, summary: &MoveSummary) {
-        self.revision = self.revision.wrapping_add(1);
-        self.end = summary.end;
-        self.tail = hold(self.end, self.stepper.tick());
     }
 }

@@ -6,7 +6,7 @@ use crate::hub::{Angle, HubState};
 use crate::motion::{Peaks, Segment, admit};
 use crate::stepper::Stepper;
 
-/// A curve that leaves the motion at a coming tick and ends at rest.
+/// A curve that leaves the motion at a coming tick and ends without acceleration.
 pub(crate) struct Branch {
     /// The hub where the curve begins.
     pub from: HubState<f64>,
@@ -16,6 +16,8 @@ pub(crate) struct Branch {
     pub peaks: Peaks,
     /// Angle of the hub at the end, rad.
     pub to: f64,
+    /// Rate of the hub at the end, rad/s.
+    pub rate: f64,
 }
 
 /// A coming tick: which segment it falls into, and where.
@@ -33,7 +35,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub(crate) fn branch(&mut self, lead: u32, branch: &Branch) -> Result<(), Error> {
         let tick = self.stepper.tick();
         admit(&self.limits, &branch.peaks, tick)?;
-        self.stepper.admit(&branch.peaks, 0.0)?;
+        self.stepper.admit(&branch.peaks, branch.rate)?;
         let place = self.place(lead);
         let here = self.hub_of(&place).precise();
         if here != branch.from {
@@ -67,7 +69,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         let _ = self.queue.push_back(branch.segment.cast());
         self.revision = self.revision.wrapping_add(1);
-        let end = HubState::at_rest(Angle::from_radians(branch.to));
+        let end = HubState::turning(Angle::from_radians(branch.to), branch.rate);
         self.end = end;
         self.tail = hold(end, tick);
         Ok(())

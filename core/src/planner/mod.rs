@@ -132,6 +132,9 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
         if let Some(most) = request.deflection {
             Error::check("request.deflection", most, 1e-3, Prediction::MAX_DEFLECTION, "")?;
         }
+        if request.target == Target::Stop {
+            Error::check("request.rate", request.rate, 0.0, 0.0, "rad/s")?;
+        }
         let request = &Request { limits, ..*request };
         let ticks = match request.duration {
             Some(duration) => Some(Move::Dwell { duration }.ticks(self.tick)?),

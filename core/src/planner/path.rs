@@ -6,22 +6,25 @@ use crate::hub::HubState;
 use crate::motion::segment::Shape;
 use crate::motion::{BULGE, Segment};
 
-/// A quintic from any state of the hub to rest at `to`, continuous in angle, rate and acceleration
-/// at both ends.
+/// A quintic from any state of the hub to `to`, where it turns at `rate` without acceleration;
+/// continuous in angle, rate and acceleration at both ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Path {
     pub from: HubState<f64>,
     /// rad.
     pub to: f64,
+    /// rad/s.
+    pub rate: f64,
     pub ticks: u32,
     /// s.
     pub tick: f64,
 }
 
 /// Sixteenths of `u … u⁵` of the quintics that turn by 1; that begin with a rate of 1 and end where
-/// they began; that begin with an acceleration of 1 likewise. Per `u`.
+/// they began; that end with a rate of 1 likewise; that begin with an acceleration of 1. Per `u`.
 const TURN: [f64; 5] = [15.0, 0.0, -10.0, 0.0, 3.0];
 const RATE: [f64; 5] = [-7.0, -6.0, 10.0, 1.0, -3.0];
+const END_RATE: [f64; 5] = [-7.0, 6.0, 10.0, -1.0, -3.0];
 const ACCELERATION: [f64; 5] = [-1.0, -2.0, 2.0, 1.0, -1.0];
 
 impl Path {
@@ -40,9 +43,11 @@ impl Path {
         let half = 0.5 * self.duration();
         let turn = self.turn();
         let rate = self.from.rate * half / TAU;
+        let end_rate = self.rate * half / TAU;
         let acceleration = self.from.acceleration * half * half / TAU;
         core::array::from_fn(|k| {
-            (TURN[k] * turn + RATE[k] * rate + ACCELERATION[k] * acceleration) / 16.0
+            let begin = RATE[k] * rate + ACCELERATION[k] * acceleration;
+            (TURN[k] * turn + begin + END_RATE[k] * end_rate) / 16.0
         })
     }
 

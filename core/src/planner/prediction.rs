@@ -3,6 +3,7 @@
 use super::simulate::Resolution;
 use super::{ArmState, Planner, StillMove};
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::Scalar;
 use crate::motion::Limits;
 
@@ -132,11 +133,17 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
         };
         let end =
             arm.simulate(&self.points, resolution.per_step, &curve, path.ticks, &begin, watch);
+        let rest = if plan.rate == 0.0 {
+            arm.equilibrium(&self.points, &last)
+        } else {
+            let end = HubState::turning(last.angle, T::from_f64(plan.rate));
+            arm.steady(&self.points, &end)
+        };
         Prediction {
             torque: torque.most.to_f64(),
             moment: moment.most.to_f64(),
             deflection: bend.most.to_f64(),
-            residual: arm.ringing(&self.points, &end, &arm.equilibrium(&self.points, &last)),
+            residual: arm.ringing(&self.points, &end, &rest),
         }
     }
 }

@@ -8,6 +8,7 @@ use super::linear::{Linear, MAX_AMPLITUDES};
 use super::simulate::{Arm, Resolution};
 use super::{ArmState, MAX_ARMS, Objective, Path, Planner, Request, StillMove, second_mode, solve};
 use crate::Error;
+use crate::hub::HubState;
 use crate::math::{Scalar, cast, dot, sqrt};
 use crate::motion::{BULGE, Segment, curve_peaks};
 
@@ -98,6 +99,7 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
         let arms = planner.arms(resolution);
         let steps = path.ticks * resolution.steps;
         let curve = resolution.refine(path).segment(&[0.0; BULGE]).cast::<T>();
+        let turning = path.rate != 0.0;
         let rest = |at: u32| -> [ArmState<T, K>; MAX_ARMS] {
             let mut rest = [ArmState::STRAIGHT; MAX_ARMS];
             if planner.scene.gravity != 0.0 {
@@ -107,7 +109,16 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
             }
             rest
         };
-        let half = request.begins_at_rest() && steps.is_multiple_of(2) && planner.is_reversible();
+        let steady = || {
+            let end = HubState::turning(curve.hub(steps).angle, T::from_f64(path.rate));
+            let mut steady = [ArmState::STRAIGHT; MAX_ARMS];
+            for (n, arm) in arms.iter().enumerate() {
+                steady[n] = arm.steady(&planner.points, &end);
+            }
+            steady
+        };
+        let odd = request.begins_at_rest() && !turning;
+        let half = odd && steps.is_multiple_of(2) && planner.is_reversible();
         let begin_rest = rest(0);
         Ok(Self {
             planner,
@@ -123,7 +134,11 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
             half,
             begin: request.arm.map_or(begin_rest, |arm| [arm; MAX_ARMS]),
             begin_rest,
-            goal: if half { [ArmState::STRAIGHT; MAX_ARMS] } else { rest(steps) },
+            goal: match (half, turning) {
+                (true, _) => [ArmState::STRAIGHT; MAX_ARMS],
+                (false, true) => steady(),
+                (false, false) => rest(steps),
+            },
             curve,
         })
     }
@@ -269,10 +284,11 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
     }
 
     fn still_move(&self, solution: &Solution<T>) -> StillMove {
-        let Path { from, to, ticks, tick } = self.path;
+        let Path { from, to, rate, ticks, tick } = self.path;
         StillMove {
             from,
             to,
+            rate,
             ticks,
             tick,
             bulge: solution.bulge.map(|x| TAU * x.to_f64()),

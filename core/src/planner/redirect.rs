@@ -47,8 +47,10 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let tick = self.stepper().tick();
         Error::check("plan.tick", plan.tick, tick, tick, "s")?;
         Error::check("plan.to", plan.to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+        Error::check("plan.rate", plan.rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
         // Of the curve itself: what a plan states of it may be anything.
         let peaks = plan.curve_peaks::<S::Scalar>();
-        self.branch(lead, &Branch { from: plan.from, segment: plan.segment(), peaks, to: plan.to })
+        let StillMove { from, to, rate, .. } = *plan;
+        self.branch(lead, &Branch { from, segment: plan.segment(), peaks, to, rate })
     }
 }

@@ -5,7 +5,8 @@ use crate::hub::{Angle, HubState};
 use crate::motion::Limits;
 use crate::stepper::ArmState;
 
-/// A move to be planned, from any state of hub and arm to rest.
+/// A move to be planned, from any state of hub and arm to rest, or to a rate at which the arm is at
+/// rest relative to the hub.
 ///
 /// ```
 /// use stillbeam::planner::{Planner, Request};
@@ -29,6 +30,9 @@ pub struct Request<T, const K: usize> {
     pub arm: Option<ArmState<T, K>>,
     /// End of the move.
     pub target: Target,
+    /// Rate with which the hub turns on from the end, rad/s; the arm is at rest relative to it. 0 by
+    /// default. Under gravity it must be 0, as a turning arm never rests then.
+    pub rate: f64,
     /// Duration in s, rounded to whole ticks. `None`: the shortest that the planner finds.
     pub duration: Option<f64>,
     /// Limits of the hub's motion, of torque and of clamp moment. None by default.
@@ -73,6 +77,7 @@ impl<T, const K: usize> Request<T, K> {
             from,
             arm: None,
             target,
+            rate: 0.0,
             duration: None,
             limits: Limits::default(),
             deflection: Some(Prediction::MAX_DEFLECTION),
@@ -89,6 +94,11 @@ impl<T, const K: usize> Request<T, K> {
     /// Ends somewhere else.
     pub fn target(self, target: Target) -> Self {
         Self { target, ..self }
+    }
+
+    /// Ends turning at `rate` rad/s: the hub passes the target.
+    pub fn passing(self, rate: f64) -> Self {
+        Self { rate, ..self }
     }
 
     /// Takes `duration` s, rounded to whole ticks.

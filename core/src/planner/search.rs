@@ -17,7 +17,9 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
     pub(super) fn path(&self, request: &Request<T, K>, to: f64, ticks: u32) -> Result<Path, Error> {
         let to = Error::check("move.to", to, -1e6, 1e6, "rad")?;
         let ticks = Move::Dwell { duration: f64::from(ticks) * self.tick }.ticks(self.tick)?;
-        Ok(Path { from: request.from, to, ticks, tick: self.tick })
+        let most = if self.scene.gravity == 0.0 { 1e6 } else { 0.0 };
+        let rate = Error::check("request.rate", request.rate, 0.0 - most, most, "rad/s")?;
+        Ok(Path { from: request.from, to, rate, ticks, tick: self.tick })
     }
 
     /// Plans the path with both modes brought to rest, or if that exceeds a limit, the first only.

@@ -14,6 +14,8 @@ pub struct StillMove {
     pub from: HubState<f64>,
     /// Hub angle where the move ends, rad.
     pub to: f64,
+    /// Hub rate where the move ends, rad/s; 0 for a move that ends at rest.
+    pub rate: f64,
     /// Duration in whole ticks.
     pub ticks: u32,
     /// Control period h, s.
@@ -39,9 +41,13 @@ impl StillMove {
 
     /// Returns the move for a generator's queue, where it follows moves that end at rest at
     /// `self.from`. From any other state: [`Generator::redirect`](crate::Generator::redirect).
+    ///
+    /// A move that ends turning is for `redirect` only. It comes back with a bulge that is no
+    /// number, which every queue refuses.
     #[must_use]
     pub fn motion(&self) -> Move {
-        Move::Still { duration: self.duration(), to: self.to, bulge: self.bulge }
+        let bulge = if self.rate == 0.0 { self.bulge } else { [f64::NAN; BULGE] };
+        Move::Still { duration: self.duration(), to: self.to, bulge }
     }
 
     /// Returns the curve of the hub.
@@ -62,6 +68,7 @@ impl StillMove {
     }
 
     pub(super) fn path(&self) -> Path {
-        Path { from: self.from, to: self.to, ticks: self.ticks, tick: self.tick }
+        let Self { from, to, rate, ticks, tick, .. } = *self;
+        Path { from, to, rate, ticks, tick }
     }
 }

@@ -64,7 +64,7 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
         if request.target == Target::Stop {
             return Err(error);
         }
-        let stop = Request { target: Target::Stop, duration: None, ..*request };
+        let stop = Request { target: Target::Stop, rate: 0.0, duration: None, ..*request };
         let Ok(first) = self.plan(&stop) else { return Err(error) };
         let from = HubState::at_rest(Angle::from_radians(first.to));
         let behind = Request { from, arm: None, duration: None, ..*request };

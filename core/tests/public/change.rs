@@ -1,6 +1,7 @@
 use stillbeam::axis::{Axis, Cause, Change, Mode, Policy};
 use stillbeam::hub::HubState;
 use stillbeam::model::EightElements;
+use stillbeam::motion::optimal::Bounds;
 use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::stepper::Modal;
 use stillbeam::{Angle, Error, Limits, Link, Move, Profile, Scene, Setpoint};
@@ -268,9 +269,9 @@ fn an_axis_reaches_an_angle_in_the_shortest_time() {
     assert!((axis.generator().setpoint().angle.radians() + 0.5).abs() < 1e-6);
     // Behind a queue, by the generator itself; to pass an angle at a rate.
     let mut arm = axis.generator().clone();
-    let first = arm.push_shortest(&HubState::at_rest(Angle::from_radians(0.3))).expect("room");
-    let passed = HubState::turning(Angle::from_radians(1.0), 2.0);
-    let second = arm.push_shortest(&passed).expect("room");
+    let bounds = Bounds::new(&limits(), TICK).expect("bounds");
+    let first = arm.push(&Move::Reach { to: 0.3, rate: 0.0, bounds }).expect("room");
+    let second = arm.push(&Move::Reach { to: 1.0, rate: 2.0, bounds }).expect("room");
     let mut before = arm.setpoint();
     for _ in 0..first.ticks + second.ticks + 1 {
         let now = arm.tick();

@@ -14,6 +14,7 @@ mod remedy;
 mod sequence;
 mod shapers;
 mod statics;
+mod turning;
 
 /// Asserts `|value − expected| ≤ tolerance` and says by how much it fails.
 #[track_caller]

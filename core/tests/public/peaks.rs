@@ -109,7 +109,17 @@ fn moving() -> impl Strategy<Value = StillMove> {
             let from =
                 HubState { acceleration, ..HubState::turning(Angle::from_radians(0.4), rate) };
             let peaks = Peaks { rate: 0.0, acceleration: 0.0, jerk: 0.0 };
-            StillMove { from, to, ticks, tick: 0.01, bulge, peaks, residual: 0.0, simulations: 0 }
+            StillMove {
+                from,
+                to,
+                rate: 0.0,
+                ticks,
+                tick: 0.01,
+                bulge,
+                peaks,
+                residual: 0.0,
+                simulations: 0,
+            }
         },
     )
 }

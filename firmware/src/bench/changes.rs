@@ -40,7 +40,7 @@ const CHANGES: [(&str, fn(&mut Arm) -> Result<(), Error>); 4] = [
 /// Prints a line a change, in the form of a tick's.
 pub fn print<C: Counter>(watch: &Stopwatch<C>, output: &mut impl Write) {
     let mut line = |name: &str, count: u32| {
-        writeln!(output, "tick,Rigid,change,0,{name},,{count},{count},0")
+        writeln!(output, "tick,RigidArm,change,0,{name},,{count},{count},0")
             .expect("the host takes the lines");
     };
     for (name, change) in CHANGES {

@@ -1,6 +1,6 @@
-//! An axis' tick, with the stop that may come out of it, and nothing else: links only if no panic
-//! is reachable from them. As `no_panic_tick`, not for running; built with the environment variable
-//! `STILLBEAM_FAULT`, it has a panic and must not link.
+//! An axis' tick, also of a hub that it follows, with the stop that may come out of it, and nothing
+//! else: links only if no panic is reachable from them. As `no_panic_tick`, not for running; built
+//! with the environment variable `STILLBEAM_FAULT`, it has a panic and must not link.
 //!
 //! With the cheapest and the smallest bending stepper: `no_panic_tick` proves the others.
 #![no_std]
@@ -25,6 +25,8 @@ fn axis<M: Method>(memory: *mut u8) {
     let mut pace = Pace::new(black_box(250_000));
     black_box(axis.tick_if_due(&pace.arrive(black_box(0))));
     black_box(axis.tick());
+    let hub = *axis.generator().hub();
+    black_box(axis.follow(black_box(Some(&hub))));
     axis.stop(black_box(Cause::Requested));
     axis.heard();
 }

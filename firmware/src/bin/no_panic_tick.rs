@@ -26,6 +26,8 @@ impl Visitor for Ticks {
         black_box(arm.tick());
         black_box(arm.setpoint());
         black_box(arm.setpoint_before());
+        let hub = *arm.hub();
+        black_box(arm.follow(&hub));
     }
 }
 

@@ -1,0 +1,126 @@
+//! The next piece of a path: its polynomial, its peaks, and the stop behind it.
+
+use super::slopes::first_slope;
+use super::{Path, RowError, Spline, Waypoint};
+use crate::Error;
+use crate::hub::{Angle, HubState};
+use crate::motion::joiner::{Curve, Joiner};
+use crate::motion::piece::{Ends, Piece};
+use crate::motion::{Braking, Limits, Peaks, Segment, admit};
+
+/// Jump of the acceleration at a row, of the greatest so far, that counts as none: what is left of
+/// rows beyond the window.
+const JUMP: f64 = 1e-5;
+
+/// The next piece of a path, planned and not yet taken.
+pub(crate) struct NextPiece {
+    /// Its segment, if a tick lies within.
+    pub segment: Option<Segment<f64>>,
+    /// Greatest magnitudes on it.
+    pub peaks: Peaks,
+    /// The hub's way from its end, if no other row comes.
+    pub rest: Rest,
+    pub(super) joiner: Joiner,
+}
+
+/// What the hub does behind a row as long as no other is known.
+pub(crate) struct Rest {
+    /// Stop from the row on. None if the hub rests at the row, or if it is the last.
+    pub stop: Option<Segment<f64>>,
+    /// State of the hub behind it, at a tick; it keeps its rate.
+    pub end: HubState<f64>,
+    /// Moment of the last border within the tick before, see [`Segment::kink_moment`].
+    pub kink_moment: f64,
+}
+
+impl Path {
+    /// Plans the piece up to the first row that waits, if that and its rate are known.
+    pub(crate) fn next_piece(&self) -> Result<Option<NextPiece>, RowError> {
+        let Some(row) = self.rows.front().filter(|row| self.is_determined(row)) else {
+            return Ok(None);
+        };
+        let refused = |error| RowError { row: self.row, error };
+        let (curve, piece) = self.curve(row);
+        let duration = (curve.until - self.joiner.border()) * self.tick;
+        let peaks = self.joined_peaks(&curve, piece.peaks(duration));
+        admit(&self.limits, &peaks, self.tick).map_err(refused)?;
+        let mut joiner = self.joiner;
+        let segment = joiner.append(&curve);
+        let rest = self.rest_behind(joiner, &peaks).map_err(refused)?;
+        Ok(Some(NextPiece { segment, peaks, rest, joiner }))
+    }
+
+    /// True if all is known on which the way to the first row depends.
+    fn is_determined(&self, row: &Waypoint) -> bool {
+        if self.closed || self.rows.is_full() {
+            return true;
+        }
+        let known = |row: &Waypoint| row.rate.is_some();
+        match self.spline {
+            Spline::Cubic => known(row),
+            Spline::Quintic if row.acceleration.is_some() => known(row),
+            // Its acceleration depends on the rate of the row behind.
+            Spline::Quintic => known(row) && self.rows.iter().nth(1).is_some_and(known),
+        }
+    }
+
+    /// The polynomial from the border to a row.
+    fn curve(&self, row: &Waypoint) -> (Curve, Piece<f64>) {
+        let here = self.joiner.here();
+        let (border, until) = (self.joiner.border(), row.time / self.tick);
+        let slope = first_slope(here, border * self.tick, &self.rows, self.closed);
+        let angle = Angle::from_radians(row.angle);
+        let duration = (until - border) * self.tick;
+        let bend = row.acceleration.or(slope.acceleration).unwrap_or(0.0);
+        let turn = angle.since(here.angle);
+        let ends = Ends::new(turn, [here.rate, slope.rate], [here.acceleration, bend], duration);
+        let piece = match self.spline {
+            Spline::Cubic => ends.cubic(),
+            Spline::Quintic => ends.quintic(),
+        };
+        let [begin_acceleration, end] = match self.spline {
+            Spline::Cubic => piece.accelerations(duration),
+            Spline::Quintic => [here.acceleration, bend],
+        };
+        let end = HubState { acceleration: end, ..HubState::turning(angle, slope.rate) };
+        (Curve { shape: piece.shape(), until, end, begin_acceleration }, piece)
+    }
+
+    /// The peaks of a piece, with an infinite jerk if the acceleration jumps where it begins, or
+    /// where the path ends.
+    fn joined_peaks(&self, curve: &Curve, peaks: Peaks) -> Peaks {
+        let most = JUMP * peaks.acceleration.max(self.peaks.acceleration);
+        let jumps = |jump: f64| jump.abs() > most;
+        let ends = self.closed && self.rows.len() == 1;
+        let begin = curve.begin_acceleration - self.joiner.here().acceleration;
+        if jumps(begin) || (ends && jumps(curve.end.acceleration)) {
+            return Peaks { jerk: f64::INFINITY, ..peaks };
+        }
+        peaks
+    }
+
+    /// The hub's way from the row at the end of `joiner`: on at its rate if the path ends there,
+    /// else a stop.
+    fn rest_behind(&self, mut joiner: Joiner, peaks: &Peaks) -> Result<Rest, Error> {
+        let ends = self.closed && self.rows.len() == 1;
+        let here = *joiner.here();
+        let stop = if ends || here.rate == 0.0 {
+            None
+        } else {
+            let curve = self.braking(&here, peaks)?.curve(&joiner);
+            joiner.append(&curve)
+        };
+        let (end, kink_moment) = joiner.finish();
+        Ok(Rest { stop, end, kink_moment })
+    }
+
+    /// Limits of the stop behind a row. Where the acceleration is not limited it brakes as hard as
+    /// the path has accelerated, and within a turn.
+    fn braking(&self, here: &HubState<f64>, peaks: &Peaks) -> Result<Braking<f64>, Error> {
+        let most = peaks.acceleration.max(self.peaks.acceleration);
+        let within_a_turn = here.rate * here.rate / core::f64::consts::TAU;
+        let acceleration = self.limits.acceleration.unwrap_or(most.max(within_a_turn).max(1e-9));
+        let limits = Limits { acceleration: Some(acceleration), ..self.limits };
+        Braking::new(&limits, self.tick)
+    }
+}
