@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use stillbeam::model::{Model, Modes, Rod};
-use stillbeam::motion::{Commanded, Moves};
+use stillbeam::motion::{Commanded, Moves, Pulse, Shaper};
 use stillbeam::select::{Assessment, Auto, Choice, NoChoice, Rung, Tolerance};
 use stillbeam::stepper::{Elastica, Modal, Newmark, OnCarrier, Rigid, Stepper};
 use stillbeam::{Scalar as Real, Scene, select, stepper};
@@ -259,7 +259,8 @@ impl StepperVisitor for Assess<'_> {
     }
 }
 
-/// Hands over the motion that a scene commands: its moves, or the shaped motion.
+/// Hands over the motion that a scene commands: its moves, or the motion behind a shaper or through
+/// waypoints.
 fn along<R>(
     scene: &SceneFile,
     tick: f64,
@@ -267,11 +268,15 @@ fn along<R>(
 ) -> Result<R, Error> {
     // The limits are refused first.
     let trajectory = scene.trajectory(tick)?;
-    if let Some(shaper) = &scene.shaper {
-        return with(&Flight::new(&trajectory, shaper, scene.from));
+    match (&scene.shaper, scene.queue()) {
+        (None, Some(moves)) => with(&Moves::new(scene.from, &moves, tick)?),
+        (Some(shaper), _) => with(&Flight::new(&trajectory, shaper, scene.from)),
+        (None, None) => {
+            // The shaper of a motion that stays as it is.
+            let none = Shaper::custom(&[Pulse { amplitude: 1.0, delay: 0.0 }])?;
+            with(&Flight::new(&trajectory, &none, scene.from))
+        }
     }
-    let moves = scene.motions();
-    with(&Moves::new(scene.from, &moves, tick)?)
 }
 
 /// Builds elastica, fitted for the bend to expect from the scene's own accelerations.

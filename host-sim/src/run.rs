@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use stillbeam::hub::HubState;
-use stillbeam::motion::{Segment, Shaped, Shaper};
+use stillbeam::motion::{Path, Segment, Shaped, Shaper, Waypoint};
 use stillbeam::select::Choice;
 use stillbeam::stepper::{AnyMotion, Response, Stepper};
 use stillbeam::{AxisKind, Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
@@ -14,7 +14,7 @@ use crate::limits::load::Progress;
 use crate::limits::{self, Excess, Peak, Quantity, Refusal, Way, remedy};
 use crate::scene_file::SceneFile;
 use crate::solver::Solver;
-use crate::step::Step;
+use crate::step::{Motion, Step};
 use crate::table::Row;
 
 /// Capacity of the desktop's generator queue, segments: two of the longest moves.
@@ -79,7 +79,9 @@ pub fn admit_loads(
     let checked = |done| progress(Progress::Checked(done));
     match limits::load::excess(&case, &trajectory, limits, &checked)? {
         Some(found) => {
-            Err(remedy::of_loads(&case, &trajectory, limits, &found, commanded, progress)?.into())
+            let refusal =
+                remedy::of_loads(&case, &trajectory, limits, &found, commanded, progress)?;
+            Err(case.placed(&trajectory, refusal))
         }
         None => Ok(()),
     }
@@ -121,7 +123,7 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     let mut motions = scene.motions();
     let planned = scene.trajectory(tick)?;
     if let Some(rest) = planned.plans().get(motions.len()) {
-        motions.push(Move::Dwell { duration: f64::from(rest.summary.ticks) * tick });
+        motions.push(Move::Dwell { duration: f64::from(rest.summary.ticks) * tick }.into());
     }
     let mut rows = Vec::new();
     each_tick_of(stepper, scene.from, &motions, |generator, k, ends| {
@@ -186,33 +188,68 @@ pub fn each_tick<S: Stepper>(
 fn each_tick_of<S: Stepper>(
     stepper: S,
     from: f64,
-    motions: &[Move],
+    motions: &[Motion],
     mut each: impl FnMut(&mut Generator<S, QUEUE>, u64, bool),
 ) -> Result<(), Error> {
     let mut generator = Generator::<S, QUEUE>::new(stepper, from)?;
     let mut waiting = motions.iter().peekable();
+    let mut feeding = None;
     let mut ends = Vec::new();
     let mut total = 0;
     for k in 0.. {
-        while let Some(&&motion) = waiting.peek() {
-            match generator.push(&motion) {
-                Ok(plan) => {
-                    total += u64::from(plan.ticks);
-                    if !matches!(motion, Move::Dwell { .. }) {
-                        ends.push(total);
-                    }
-                    waiting.next();
-                }
-                Err(CoreError::QueueFull { .. }) => break,
-                Err(error) => return Err(error.into()),
+        while let Some(motion) = waiting.peek() {
+            let Some(ticks) = take(&mut generator, motion, &mut feeding)? else { break };
+            total += ticks;
+            if !motion.is_dwell() {
+                ends.push(total);
             }
+            waiting.next();
         }
         each(&mut generator, k, ends.contains(&k));
-        if k == total {
+        if waiting.peek().is_none() && k == total {
             break;
         }
     }
     Ok(())
+}
+
+/// A path of which the generator has not yet taken all rows.
+struct Feeding {
+    path: Path,
+    rows: std::vec::IntoIter<Waypoint>,
+}
+
+/// Gives as much of a motion to a generator as its queue has room for. Returns the motion's ticks
+/// once it is taken as a whole.
+fn take<S: Stepper>(
+    generator: &mut Generator<S, QUEUE>,
+    motion: &Motion,
+    feeding: &mut Option<Feeding>,
+) -> Result<Option<u64>, Error> {
+    match motion {
+        Motion::Move(motion) => match generator.push(motion) {
+            Ok(plan) => Ok(Some(u64::from(plan.ticks))),
+            Err(CoreError::QueueFull { .. }) => Ok(None),
+            Err(error) => Err(error.into()),
+        },
+        Motion::Path(waypoints) => {
+            let mut fed = match feeding.take() {
+                Some(fed) => fed,
+                None => Feeding {
+                    path: generator.path(waypoints.spline())?,
+                    rows: waypoints.rows(generator.stepper().tick()).into_iter(),
+                },
+            };
+            let done = generator.feed(&mut fed.path, &mut fed.rows).map_err(|error| {
+                Error::new(error.error).within(waypoints.place(error.row as usize))
+            })?;
+            if done {
+                return Ok(Some(fed.path.ticks()));
+            }
+            *feeding = Some(fed);
+            Ok(None)
+        }
+    }
 }
 
 /// Returns the payload's centre in the global frame, m, if it is not the tip.

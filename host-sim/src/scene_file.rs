@@ -1,5 +1,6 @@
 //! Scene files: TOML in SI units, read as a validated arm and its moves.
 
+mod angle_unit;
 mod arm;
 mod damping;
 mod deduced;
@@ -14,6 +15,7 @@ mod shaper;
 mod sizes;
 mod units;
 mod values;
+mod waypoints;
 
 use std::path::Path;
 
@@ -21,18 +23,19 @@ use serde::Deserialize;
 use stillbeam::motion::Shaper;
 use stillbeam::{Limits, Move, Scene};
 
+use self::angle_unit::AngleUnit;
 use self::arm::{CarrierTable, GravityTable, HubTable, PayloadTable};
 use self::damping::DampingTable;
 pub use self::deduced::Deduced;
 use self::link::LinkTable;
-use self::moves::{MoveTable, Planning};
+use self::moves::{Here, MoveTable, Planning};
 use self::shaper::ShaperTable;
 pub use self::units::angle as angle_remark;
 use crate::document::Document;
 use crate::error::Error;
 use crate::limits::{self, Case, remedy};
 use crate::solver::SolverKeys;
-use crate::step::Step;
+use crate::step::{Motion, Step};
 use crate::trajectory::Trajectory;
 
 /// A scene as read: the arm, its moves, and the file's solver keys.
@@ -54,6 +57,8 @@ pub struct SceneFile {
     pub solver: SolverKeys,
     /// Values of the arm that the file's measurements give.
     pub deduced: Deduced,
+    /// Indices of the moves whose duration is the shortest within the limits.
+    pub shortest: Vec<usize>,
     /// Remarks on values that are probably in another unit, one line each.
     pub remarks: Vec<String>,
 }
@@ -61,6 +66,7 @@ pub struct SceneFile {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    unit: Option<AngleUnit>,
     link: LinkTable,
     axis: Option<String>,
     #[serde(default)]
@@ -132,23 +138,27 @@ impl SceneFile {
 
     /// Adds the moves and their limits to a validated arm.
     fn with_moves(name: &str, mut file: File, arm: Scene, deduced: Deduced) -> Result<Self, Error> {
+        let unit = unit_of(&file, &arm)?;
+        unit.convert_limits(&mut file.limits);
         let limits = file.limits.build()?;
-        let (tables, many) = match (file.motion.take(), file.moves.take()) {
+        let (mut tables, many) = match (file.motion.take(), file.moves.take()) {
             (Some(one), None) => (vec![one], false),
             (None, Some(many)) if !many.is_empty() => (many, true),
             (None, None) => (Vec::new(), false),
             _ => return Err(Error::new(MOVES)),
         };
+        tables.iter_mut().for_each(|table| unit.convert_move(table));
         let remarks = units::remarks(&file, &arm, &tables);
         let mut scene = Self {
             name: name.to_owned(),
             shaper: file.shaper.as_ref().map(|table| table.build(&arm)).transpose()?,
             arm,
-            from: tables.first().and_then(|table| table.from).unwrap_or(0.0),
+            from: tables.first().map_or(0.0, MoveTable::begin),
             moves: Vec::new(),
             limits,
             solver: file.solver,
             deduced,
+            shortest: MoveTable::without_duration(&tables),
             remarks: Vec::new(),
         };
         let tick = scene.solver.resolve()?.tick;
@@ -159,20 +169,20 @@ impl SceneFile {
             (Ok(()), _) => Ok(Self { remarks, ..scene }),
             // A move that is refused may have been meant in another unit.
             (Err(error), Some(remark)) => Err(Error::new(format_args!("{error}; {remark}"))),
-            (Err(error), None) => Err(error),
+            (Err(error), None) => Err(unit.remarked(error)),
         }
     }
 
     /// Builds the moves, each from where the one before it ends.
     fn add_moves(&mut self, tables: &[MoveTable], many: bool, tick: f64) -> Result<(), Error> {
-        let mut at = Some(self.from);
+        let mut here = Here { angle: Some(self.from), rate: 0.0 };
         for (index, table) in tables.iter().enumerate() {
             let planning =
                 Planning { before: self.case(tick), limits: &self.limits, count: tables.len() };
-            let step = table.build(index, &mut at, &planning).map_err(|error| {
+            let step = table.build(index, &mut here, &planning).map_err(|error| {
                 let place = place_of(index);
                 // A limit's refusal says itself which move it is.
-                if !many || error.to_string().contains(&place) {
+                if !many || error.to_string().contains("moves[") {
                     error
                 } else {
                     error.within(place)
@@ -196,14 +206,23 @@ impl SceneFile {
         let case = self.case(tick);
         let trajectory = case.trajectory()?;
         match limits::kinematic::excess(&case, &trajectory, &self.limits) {
-            Some(excess) => Err(remedy::of_motion(&case, &trajectory, &self.limits, excess).into()),
+            Some(excess) => {
+                let refusal = remedy::of_motion(&case, &trajectory, &self.limits, excess);
+                Err(case.placed(&trajectory, refusal))
+            }
             None => Ok(trajectory),
         }
     }
 
-    /// Returns the moves with their dwells, as the generator's queue takes them.
-    pub fn motions(&self) -> Vec<Move> {
+    /// Returns the motions with their dwells, in order.
+    pub fn motions(&self) -> Vec<Motion> {
         self.moves.iter().flat_map(Step::motions).collect()
+    }
+
+    /// Returns the moves with their dwells, as a generator's queue takes them, or `None` if a path
+    /// through waypoints is among them.
+    pub fn queue(&self) -> Option<Vec<Move>> {
+        self.motions().iter().map(Motion::as_move).collect()
     }
 }
 
@@ -211,6 +230,17 @@ impl LimitsTable {
     fn build(&self) -> Result<Limits, Error> {
         let &Self { rate, acceleration, deceleration, jerk, torque, moment } = self;
         Ok(Limits { rate, acceleration, deceleration, jerk, torque, moment }.validate()?)
+    }
+}
+
+/// Returns the unit of the angles, which a linear axis has none of.
+fn unit_of(file: &File, arm: &Scene) -> Result<AngleUnit, Error> {
+    match file.unit {
+        Some(unit) if arm.mount.is_linear() => Err(Error::new(format_args!(
+            "unit = \"{}\": must be absent with axis = \"linear\", whose moves and limits are in m",
+            unit.name()
+        ))),
+        unit => Ok(unit.unwrap_or_default()),
     }
 }
 

@@ -2,8 +2,12 @@
 //! solvers that choose their own steps.
 
 use stillbeam::hub::{Angle, HubState};
-use stillbeam::motion::{Limits, Plan, Segment, Shaper};
-use stillbeam::{Error, Move};
+use stillbeam::motion::{Limits, MoveSummary, Path, Plan, RowError, Segment, Shaper, Waypoint};
+use stillbeam::{Error as CoreError, Move};
+
+use crate::error::Error;
+use crate::step::Motion;
+use crate::waypoints::Waypoints;
 
 /// Side from which a jump of the commanded acceleration is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,12 +18,14 @@ pub enum Side {
     Right,
 }
 
-/// Moves end to end, from rest.
+/// Motions end to end, from rest.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     pieces: Vec<Piece>,
-    plans: Vec<Plan>,
-    /// Ticks at which moves other than dwells end.
+    plans: Vec<Planned>,
+    /// The hub at the end.
+    end: HubState<f64>,
+    /// Ticks at which motions other than dwells end.
     arrivals: Vec<u64>,
     tick: f64,
     ticks: u64,
@@ -34,42 +40,116 @@ struct Piece {
     end: f64,
     /// Time of the segment's first whole tick.
     first: f64,
+    /// Tick of the segment, s: the trajectory's, or a part of it.
+    tick: f64,
     segment: Segment<f64>,
+}
+
+/// A planned motion: a move or a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// Its segments, first to last.
+    pub segments: Vec<Segment<f64>>,
+    /// Duration, end and peaks.
+    pub summary: MoveSummary,
 }
 
 impl Trajectory {
     /// Plans the moves from rest at `from` rad. Needs at least one move.
-    pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, Error> {
-        let mut start = HubState::resting_at(from)?;
-        let mut trajectory = Self {
+    pub fn plan(from: f64, moves: &[Move], limits: &Limits, tick: f64) -> Result<Self, CoreError> {
+        let mut trajectory = Self::resting(from, tick)?;
+        for motion in moves {
+            trajectory.append_move(motion, limits)?;
+        }
+        Ok(trajectory)
+    }
+
+    /// Creates a trajectory without a motion, at rest at `from` rad. It is one from the first
+    /// motion on that is appended.
+    pub fn resting(from: f64, tick: f64) -> Result<Self, CoreError> {
+        Ok(Self {
             pieces: Vec::new(),
             plans: Vec::new(),
+            end: HubState::resting_at(from)?,
             arrivals: Vec::new(),
             tick,
             ticks: 0,
             shaper: None,
-        };
-        for motion in moves {
-            let plan = Plan::new(motion, start, limits, tick)?;
-            let mut k = trajectory.ticks;
-            for segment in &plan.segments {
-                let first = k as f64 * tick;
-                let begin = first - segment.ticks_before() * tick;
-                if let Some(last) = trajectory.pieces.last_mut() {
-                    last.end = begin;
-                }
-                k += u64::from(segment.count());
-                let end = k as f64 * tick;
-                trajectory.pieces.push(Piece { begin, end, first, segment: *segment });
-            }
-            trajectory.ticks = k;
-            if !matches!(motion, Move::Dwell { .. }) {
-                trajectory.arrivals.push(k);
-            }
-            start = plan.summary.end;
-            trajectory.plans.push(plan);
+        })
+    }
+
+    /// Appends a motion, held against no limit.
+    ///
+    /// # Errors
+    /// What the core refuses; of a path with the place of the row.
+    pub fn append(&mut self, motion: &Motion) -> Result<(), Error> {
+        match motion {
+            Motion::Move(motion) => Ok(self.append_move(motion, &Limits::default())?),
+            Motion::Path(path) => self.append_path(path),
         }
-        Ok(trajectory)
+    }
+
+    fn append_move(&mut self, motion: &Move, limits: &Limits) -> Result<(), CoreError> {
+        let Plan { segments, summary } = Plan::new(motion, self.end, limits, self.tick)?;
+        self.lay(&segments, self.tick);
+        let arrives = !matches!(motion, Move::Dwell { .. });
+        self.take(Planned { segments: segments.iter().copied().collect(), summary }, arrives);
+        Ok(())
+    }
+
+    fn append_path(&mut self, path: &Waypoints) -> Result<(), Error> {
+        let rows = path.rows(self.tick);
+        let refused =
+            |error: RowError| Error::new(error.error).within(path.place(error.row as usize));
+        let path_with = |tick: f64| Path::new(path.spline(), self.end, &Limits::default(), tick);
+        let segments = |tick: f64| -> Result<Vec<_>, Error> {
+            let all = path_with(tick)?.segments(rows.iter().copied());
+            all.map(|segment| segment.map_err(refused)).collect()
+        };
+        let planned = segments(self.tick)?;
+        let surveyed = path_with(self.tick)?.survey(rows.iter().copied()).map_err(refused)?;
+        let end = rows.last().map_or(self.end, |row| {
+            HubState::turning(Angle::from_radians(row.angle), row.rate.unwrap_or(0.0))
+        });
+        let ticks = path.ticks(self.tick);
+        let rounded_by = f64::from(ticks) * self.tick - path.duration();
+        let summary = MoveSummary { end, ticks, peaks: *surveyed.peaks(), rounded_by };
+        if planned.len() == rows.len() {
+            self.lay(&planned, self.tick);
+        } else {
+            // Rows within one tick have no segment of their own. They do in a part of a tick.
+            let fine = self.tick / parts(&rows, self.tick);
+            self.lay(&segments(fine)?, fine);
+        }
+        self.take(Planned { segments: planned, summary }, true);
+        Ok(())
+    }
+
+    /// Puts pieces behind the others. The segments are those of a motion with setpoints every
+    /// `tick` s.
+    fn lay(&mut self, segments: &[Segment<f64>], tick: f64) {
+        let begin = self.ticks as f64 * self.tick;
+        let mut k = 0;
+        for segment in segments {
+            let first = begin + f64::from(k) * tick;
+            let begin = first - segment.ticks_before() * tick;
+            if let Some(last) = self.pieces.last_mut() {
+                last.end = begin;
+            }
+            k += segment.count();
+            let end = first + f64::from(segment.count()) * tick;
+            self.pieces.push(Piece { begin, end, first, tick, segment: *segment });
+        }
+    }
+
+    /// Goes on behind a motion whose pieces are laid.
+    fn take(&mut self, planned: Planned, arrives: bool) {
+        self.ticks += u64::from(planned.summary.ticks);
+        if arrives {
+            self.arrivals.push(self.ticks);
+        }
+        self.end = planned.summary.end;
+        self.plans.push(planned);
     }
 
     /// Returns the same motion through a shaper, from rest to rest. The motion gets longer by the
@@ -115,7 +195,7 @@ impl Trajectory {
         };
         let piece = &self.pieces[after.saturating_sub(1)];
         let t = t.clamp(piece.begin, piece.end);
-        piece.segment.hub_at((t - piece.first) / self.tick)
+        piece.segment.hub_at((t - piece.first) / piece.tick)
     }
 
     /// Returns the times strictly inside the run at which the motion's formula changes. Its
@@ -156,8 +236,19 @@ impl Trajectory {
         self.ticks as f64 * self.tick
     }
 
-    /// Returns the plans of the moves, in order.
-    pub fn plans(&self) -> &[Plan] {
+    /// Returns the planned motions, in order.
+    pub fn plans(&self) -> &[Planned] {
         &self.plans
     }
+}
+
+/// Returns the number of parts of a tick in each of which no more than one row lies.
+fn parts(rows: &[Waypoint], tick: f64) -> f64 {
+    let mut before = 0.0;
+    let mut least = tick;
+    for row in rows {
+        least = least.min(row.time - before);
+        before = row.time;
+    }
+    (tick / least).log2().ceil().exp2()
 }

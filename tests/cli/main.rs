@@ -5,6 +5,7 @@ mod arm;
 mod bad_input;
 mod commands;
 mod interruption;
+mod motions;
 mod notes;
 mod syntax;
 mod untouched;

@@ -20,7 +20,8 @@ fn along<S: Stepper<Scalar = f64>>(
     let mut arm = Generator::<_, 8>::new(stepper, scene.from).expect("generator");
     let mut stretches: Vec<Vec<Balance>> = vec![Vec::new()];
     let ends: Vec<u32> = scene
-        .motions()
+        .queue()
+        .expect("moves alone")
         .iter()
         .scan(0, |total, motion| {
             *total += arm.push(motion).expect("move").ticks;

@@ -10,6 +10,7 @@ mod limits;
 mod links;
 mod measured;
 mod methods;
+mod motions;
 mod residual;
 mod scene_files;
 mod shaped;

@@ -47,7 +47,7 @@ fn stiffness_comes_three_ways() {
 #[test]
 fn a_queue_of_moves_is_read_in_order() {
     let scene = scenes::open("pick-and-place").expect("embedded scene");
-    let motions = scene.motions();
+    let motions = scene.queue().expect("moves alone");
     assert_eq!(motions.len(), 6);
     assert!(matches!(motions[1], Move::Dwell { .. }));
     assert!(matches!(motions[2], Move::To { to: 0.7, .. }));

@@ -15,7 +15,7 @@ fn scene(shaper: &str) -> SceneFile {
 }
 
 fn turn(profile: Profile) -> Step {
-    Step { motion: Move::To { profile, duration: 1e3, to: 1.2 }, settle: 0.0 }
+    Step { motion: Move::To { profile, duration: 1e3, to: 1.2 }.into(), settle: 0.0 }
 }
 
 /// True if the last of the moves keeps the limits in that duration.
@@ -59,7 +59,7 @@ fn torque_and_clamp_moment_are_kept() {
     let scene = scene("");
     let before = Step { motion: turn(Profile::Quintic).motion.lasting(0.5), settle: 0.0 };
     let back = Step {
-        motion: Move::To { profile: Profile::Quintic, duration: 1.0, to: 0.0 },
+        motion: Move::To { profile: Profile::Quintic, duration: 1.0, to: 0.0 }.into(),
         settle: 0.0,
     };
     let torque = Limits { torque: Some(0.12), ..Limits::default() };
@@ -94,7 +94,7 @@ fn what_no_duration_keeps_is_refused() {
     let error = refused(turn(Profile::Cubic), jerk);
     assert!(error.contains("limits.jerk"), "{error}");
     let rate = Limits { rate: Some(1.0), acceleration: Some(5.0), ..Limits::default() };
-    let spin = Step { motion: Move::SpinUp { duration: 1.0, rate: 2.0 }, settle: 0.0 };
+    let spin = Step { motion: Move::SpinUp { duration: 1.0, rate: 2.0 }.into(), settle: 0.0 };
     let error = refused(spin, rate);
     assert!(error.contains("limits.rate"), "{error}");
 }

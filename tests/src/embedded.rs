@@ -28,7 +28,7 @@ pub fn constants() -> Result<String, String> {
             "Run {{ name: {name:?}, scene: {:?}, from: {:?}, moves: &{:?}, tick: {:?} }},",
             arm,
             file.from,
-            file.motions(),
+            file.queue().ok_or_else(|| format!("{name} has waypoints"))?,
             solver.tick
         )
         .expect("a string");

@@ -8,6 +8,8 @@ use stillbeam_sim::compare::{Comparison, Residual, compare};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::{axis_units, println, table};
 
+use super::motion::MotionArgs;
+
 #[derive(clap::Args)]
 pub struct CompareArgs {
     /// The run to judge
@@ -17,6 +19,8 @@ pub struct CompareArgs {
     /// Scene file, or the name of an embedded scene, of both
     #[arg(long)]
     scene: String,
+    #[command(flatten)]
+    motion: MotionArgs,
     /// Exit with 1 where the largest tip error is above this fraction of L
     #[arg(long, value_name = "FRACTION", allow_negative_numbers = true)]
     tolerance: Option<f64>,
@@ -32,6 +36,8 @@ impl CompareArgs {
             )));
         }
         let scene = super::open(&self.scene)?;
+        let tick = scene.solver.resolve()?.tick;
+        let (scene, _) = self.motion.command(scene, tick)?;
         let (a, b) = (table::read(&self.a)?, table::read(&self.b)?);
         let result = compare(&a, &b, &scene)?;
         print(scene.arm.mount.axis, &result);

@@ -2,6 +2,7 @@
 
 mod arm;
 mod compare;
+mod motion;
 mod plan;
 mod reference;
 mod run;

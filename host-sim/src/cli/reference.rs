@@ -8,6 +8,8 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::truth::{self, Reference};
 use stillbeam_sim::{axis_units, println, progress, run, table};
 
+use super::motion::MotionArgs;
+
 #[derive(clap::Args)]
 pub struct ReferenceArgs {
     /// Scene file, or the name of an embedded scene
@@ -18,6 +20,8 @@ pub struct ReferenceArgs {
     /// File for the rows
     #[arg(long, value_name = "OUT.csv")]
     csv: PathBuf,
+    #[command(flatten)]
+    motion: MotionArgs,
     /// Interval of the rows in s [default: the scene's tick]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     every: Option<f64>,
@@ -27,7 +31,8 @@ impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let scene = super::open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
-        let mut notes = scene.deduced.lines();
+        let (scene, mut notes) = self.motion.command(scene, tick)?;
+        notes.extend(scene.deduced.lines());
         notes.extend(scene.roundings(tick)?);
         let trajectory = scene.trajectory(tick)?;
         let every = self.every.unwrap_or(tick);

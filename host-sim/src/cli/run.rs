@@ -11,6 +11,8 @@ use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
 use stillbeam_sim::{axis_units, dispatch, println, run, table};
 
+use super::motion::MotionArgs;
+
 #[derive(clap::Args)]
 pub struct RunArgs {
     /// Scene file, or the name of an embedded scene
@@ -18,6 +20,8 @@ pub struct RunArgs {
     /// File for the setpoints
     #[arg(long, value_name = "OUT.csv")]
     csv: PathBuf,
+    #[command(flatten)]
+    motion: MotionArgs,
     #[command(flatten)]
     solver: SolverKeys,
     /// Leave out centrifugal stiffening and softening
@@ -36,7 +40,7 @@ impl RunArgs {
             return Err(Error::new(line));
         }
         // Printed once the run is accepted: a refusal is one line.
-        let mut notes = Vec::new();
+        let (scene, mut notes) = self.motion.command(scene, solver.tick)?;
         if typed.method.is_none() {
             notes.extend(scene.solver.unread(solver.method));
         }

@@ -1,11 +1,12 @@
 //! A commanded motion, and the time windows of its moves.
 
 use stillbeam::motion::Shaper;
-use stillbeam::{Limits, Move, Scene};
+use stillbeam::{Move, Scene};
 
+use super::{Excess, Refusal};
 use crate::error::Error;
 use crate::residual;
-use crate::step::Step;
+use crate::step::{Motion, Step};
 use crate::trajectory::Trajectory;
 
 /// Moves of an arm with their shaper, to be held against limits.
@@ -47,13 +48,12 @@ impl<'a> Case<'a> {
     /// Returns the commanded motion, held against no limit. If it ends at rest, it goes on for at
     /// least a first period after the last arrival, so that a run shows its residual vibration.
     pub fn trajectory(&self) -> Result<Trajectory, Error> {
-        let mut motions: Vec<Move> = self.steps.iter().flat_map(Step::motions).collect();
-        let mut trajectory = self.plan(&motions)?;
+        let mut trajectory = self.plan()?;
         let end = trajectory.plans().last().map_or(0.0, |plan| plan.summary.end.rate);
         let rest = self.missing_rest(&trajectory)?;
         if rest > 0 {
-            motions.push(Move::Dwell { duration: rest as f64 * self.tick });
-            trajectory = self.plan(&motions)?;
+            let dwell = Move::Dwell { duration: rest as f64 * self.tick };
+            trajectory.append(&dwell.into()).map_err(|error| self.named(error, None))?;
         }
         let Some(shaper) = self.shaper else { return Ok(trajectory) };
         if end != 0.0 {
@@ -75,25 +75,43 @@ impl<'a> Case<'a> {
         Ok(needs.saturating_sub(has))
     }
 
-    /// Plans the moves end to end. An error names the move that is refused.
-    fn plan(&self, motions: &[Move]) -> Result<Trajectory, Error> {
-        Trajectory::plan(self.from, motions, &Limits::default(), self.tick).map_err(|error| {
-            let refused = (1..motions.len()).find(|&count| {
-                Trajectory::plan(self.from, &motions[..count], &Limits::default(), self.tick)
-                    .is_err()
-            });
-            let motion = refused.unwrap_or(motions.len()) - 1;
-            let mut owners = self
-                .steps
-                .iter()
-                .enumerate()
-                .flat_map(|(index, step)| step.motions().map(move |_| index));
-            // What is added behind the moves belongs to the last.
-            let index = owners.nth(motion).unwrap_or(self.steps.len().saturating_sub(1));
-            let error = Error::from(error);
-            let count = self.steps.len();
-            if count == 1 { error } else { error.within(place(index, count)) }
-        })
+    /// Plans the motions end to end. An error names the move that is refused.
+    fn plan(&self) -> Result<Trajectory, Error> {
+        let mut trajectory = Trajectory::resting(self.from, self.tick)?;
+        for (index, step) in self.steps.iter().enumerate() {
+            for motion in step.motions() {
+                trajectory.append(&motion).map_err(|error| self.named(error, Some(index)))?;
+            }
+        }
+        Ok(trajectory)
+    }
+
+    /// Adds the move to an error, if there are several. What is added behind the moves belongs to
+    /// the last.
+    fn named(&self, error: Error, index: Option<usize>) -> Error {
+        let count = self.steps.len();
+        let index = index.unwrap_or(count.saturating_sub(1));
+        if count == 1 { error } else { error.within(place(index, count)) }
+    }
+
+    /// Adds to a refusal the place of the row to which the hub was on its way, if the move is a
+    /// path. Behind a shaper several rows are under way.
+    pub fn placed(&self, trajectory: &Trajectory, refusal: Refusal) -> Error {
+        let Excess { peak, index, .. } = refusal.excess;
+        let error = Error::from(refusal);
+        let path = self.steps.get(index).and_then(|step| match &step.motion {
+            Motion::Path(path) if self.shaper.is_none() => Some(path),
+            _ => None,
+        });
+        let windows = self.windows(trajectory);
+        let window = windows.iter().find(|window| window.index == index);
+        let (Some(path), Some(window)) = (path, window) else { return error };
+        let row = path.place_at(peak.at - window.begin);
+        let own = row.strip_prefix("move.").filter(|_| self.steps.len() > 1);
+        match own {
+            Some(row) => error.within(format_args!("{}.{row}", place(index, self.steps.len()))),
+            None => error.within(row),
+        }
     }
 
     /// Returns the moves' windows, in order. They cover the whole run.
@@ -104,8 +122,7 @@ impl<'a> Case<'a> {
         for (index, step) in self.steps.iter().enumerate() {
             // A dwell commands nothing: what still happens during it is the work of the move
             // before.
-            let dwells = matches!(step.motion, Move::Dwell { .. });
-            if windows.is_empty() || !dwells {
+            if windows.is_empty() || !step.motion.is_dwell() {
                 let begin = ticks as f64 * self.tick;
                 if let Some(last) = windows.last_mut() {
                     last.end = begin;

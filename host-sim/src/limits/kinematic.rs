@@ -79,7 +79,7 @@ pub fn excess_in(window: &Window, trajectory: &Trajectory, limits: &Limits) -> O
 
 /// Returns the greatest magnitudes from `begin` to `end`, s.
 pub fn peaks(trajectory: &Trajectory, begin: f64, end: f64) -> Peaks {
-    Stretches::of(trajectory).peaks(begin, end)
+    Stretches::of(trajectory).peaks(begin, end, true)
 }
 
 fn excess_within(
@@ -88,7 +88,7 @@ fn excess_within(
     limits: &Limits,
     tick: f64,
 ) -> Option<Excess> {
-    let peaks = stretches.peaks(window.begin, window.end);
+    let peaks = stretches.peaks(window.begin, window.end, limits.deceleration.is_some());
     Quantity::KINEMATIC.into_iter().find_map(|quantity| {
         let limit = quantity.limit(limits, tick)?;
         Excess::of(quantity, peaks.of(quantity, limits)?, limit, window.index)
@@ -110,7 +110,8 @@ impl<'a> Stretches<'a> {
         Self { trajectory, borders }
     }
 
-    fn peaks(&self, begin: f64, end: f64) -> Peaks {
+    /// `kinds` asks for the peaks of both kinds of acceleration, too.
+    fn peaks(&self, begin: f64, end: f64, kinds: bool) -> Peaks {
         let eps = 1e-9 * self.trajectory.tick();
         let inside = |t: f64| t > begin + eps && t < end - eps;
         let first = self.borders.partition_point(|&t| t <= begin + eps);
@@ -123,7 +124,9 @@ impl<'a> Stretches<'a> {
             let stretch = Stretch { trajectory: self.trajectory, begin: pair[0], end: pair[1] };
             stretch.raise(&mut peaks.rate, &|t| stretch.hub(t).0);
             stretch.raise(&mut peaks.acceleration, &|t| stretch.hub(t).1);
-            stretch.raise_kinds(&mut peaks.kinds);
+            if kinds {
+                stretch.raise_kinds(&mut peaks.kinds);
+            }
             stretch.raise(&mut peaks.jerk, &|t| stretch.jerk(t));
         }
         // The window's own end is the next one's beginning; that of the run is nobody's.

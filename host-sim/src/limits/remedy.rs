@@ -8,7 +8,7 @@ use super::refusal::seconds;
 use super::{Case, Excess, Quantity, Refusal, Way, holding, kinematic, load};
 use crate::error::Error;
 use crate::reference::rod::{self, Options, Resume};
-use crate::step::Step;
+use crate::step::{Motion, Step};
 use crate::trajectory::{Side, Trajectory};
 
 /// Longest duration that is tried, ticks.
@@ -152,8 +152,13 @@ fn plain_way(
     limits: &Limits,
     excess: &Excess,
 ) -> Option<Way> {
-    let motion = case.steps.get(excess.index)?.motion;
-    match (motion, excess.quantity) {
+    let Motion::Move(motion) = &case.steps.get(excess.index)?.motion else {
+        // A path's acceleration jumps where it begins or ends with one, or at a row with a rate.
+        let jumps = excess.quantity == Quantity::Jerk && excess.peak.value.is_infinite();
+        let smoother = jumps.then_some(Way::Remedy(Remedy::Smoother));
+        return smoother.or_else(|| stretched(case, trajectory, limits, excess));
+    };
+    match (*motion, excess.quantity) {
         (Move::SpinUp { .. }, Quantity::Rate | Quantity::Turn) => {
             let limit = excess.quantity.limit(limits, case.tick)?;
             let windows = case.windows(trajectory);
@@ -165,7 +170,8 @@ fn plain_way(
             Some(Way::Remedy(Remedy::Slower(rate)))
         }
         (_, Quantity::Jerk) if excess.peak.value.is_infinite() => Some(match motion {
-            Move::To { profile: Profile::Cubic | Profile::Trapezoid, .. } => {
+            Move::To { profile: Profile::Cubic | Profile::Trapezoid, .. }
+            | Move::Pass { profile: Profile::Cubic | Profile::Trapezoid, .. } => {
                 Way::Remedy(Remedy::Smoother)
             }
             _ => Way::Pulses(case.shaper.map_or(0.0, |shaper| shaper.delay())),
@@ -176,6 +182,32 @@ fn plain_way(
         }
         _ => None,
     }
+}
+
+/// Returns the duration of a path from rest that keeps the limits of the hub's motion. In a longer
+/// time it passes the same angles, so that every peak follows from the factor.
+fn stretched(
+    case: &Case<'_>,
+    trajectory: &Trajectory,
+    limits: &Limits,
+    excess: &Excess,
+) -> Option<Way> {
+    let windows = case.windows(trajectory);
+    let window = windows.iter().find(|window| window.index == excess.index)?;
+    let rests = trajectory.at(window.begin, Side::Left).rate == 0.0;
+    if !rests || case.shaper.is_some() || !Quantity::KINEMATIC.contains(&excess.quantity) {
+        return None;
+    }
+    let peaks = kinematic::peaks(trajectory, window.begin, window.end);
+    let factors = Quantity::KINEMATIC.into_iter().filter_map(|quantity| {
+        let limit = quantity.limit(limits, case.tick)?;
+        Some(quantity.stretch(peaks.of(quantity, limits)?.value / limit))
+    });
+    let factor = factors.fold(1.0, f64::max);
+    let duration = case.steps.get(excess.index)?.motion.duration() * factor;
+    let ticks = (duration / case.tick - 1e-6).ceil();
+    let fits = factor.is_finite() && ticks <= f64::from(MOST_TICKS);
+    fits.then(|| Way::Remedy(Remedy::Duration(seconds(ticks * case.tick))))
 }
 
 /// Returns the factor by which the move must be longer to keep its kinematic limits. Returns `None`

@@ -4,13 +4,17 @@ use stillbeam::motion::Plan;
 use stillbeam::{HubState, Limits, Move, Remedy};
 
 use super::refusal::seconds;
-use super::{Case, Refusal, Way, kinematic, load, remedy};
+use super::{Case, Excess, Refusal, Way, kinematic, load, remedy};
 use crate::error::Error;
+use crate::step::{Motion, Step};
 use crate::trajectory::Trajectory;
 
 /// Number of searches that may follow each other: one behind the shaper, one for each load, and one
 /// more for what they do to each other.
 const TRIALS: u32 = 4;
+
+/// Number of growing durations that are tried for a motion without a formula.
+const DURATIONS: u32 = 200;
 
 /// Returns the shortest duration in whole ticks, s, of the case's last move, in which it keeps
 /// every limit of rate, acceleration, deceleration, jerk, torque and clamp moment. The duration
@@ -64,8 +68,10 @@ fn refused_in(
 
 /// Returns the hub at the end of a motion, without the rest that shows its vibration.
 fn start(earlier: &Case<'_>) -> Result<HubState<f64>, Error> {
-    let motions: Vec<Move> = earlier.steps.iter().flat_map(|step| step.motions()).collect();
-    let trajectory = Trajectory::plan(earlier.from, &motions, &Limits::default(), earlier.tick)?;
+    let mut trajectory = Trajectory::resting(earlier.from, earlier.tick)?;
+    for motion in earlier.steps.iter().flat_map(Step::motions) {
+        trajectory.append(&motion)?;
+    }
     match trajectory.plans().last() {
         Some(plan) => Ok(plan.summary.end),
         None => Ok(HubState::resting_at(earlier.from)?),
@@ -75,7 +81,7 @@ fn start(earlier: &Case<'_>) -> Result<HubState<f64>, Error> {
 /// Returns a duration, s, below which none will do.
 fn first(
     case: &Case<'_>,
-    motion: &Move,
+    motion: &Motion,
     start: HubState<f64>,
     limits: &Limits,
 ) -> Result<f64, Error> {
@@ -85,6 +91,11 @@ fn first(
             "move.duration: missing; must be a number in s, or [limits] must hold a limit",
         ));
     }
+    // Neither a path nor a move that ends turning has a formula.
+    let motion = match motion {
+        Motion::Path(_) | Motion::Move(Move::Pass { .. }) => return found(case, &kinematic),
+        Motion::Move(motion) => motion,
+    };
     if kinematic != Limits::default() && case.shaper.is_none() {
         return Ok(Plan::shortest(motion, start, &kinematic, case.tick)?.duration());
     }
@@ -93,6 +104,38 @@ fn first(
         Remedy::Duration(duration) => Ok(duration),
         _ => Ok(motion.duration()),
     }
+}
+
+/// Searches the shortest duration, s, in which the last motion keeps the limits of the hub's motion
+/// and a radian a tick.
+fn found(case: &Case<'_>, limits: &Limits) -> Result<f64, Error> {
+    let found = remedy::shortest(0, 1.0, DURATIONS, 1, |ticks| {
+        Ok(match excess_in(case, limits, ticks) {
+            Ok(excess) => excess.map(|excess| excess.quantity.stretch(excess.ratio())),
+            // It would turn by more than a radian in a tick.
+            Err(_) => Some(1.5),
+        })
+    })?;
+    let most = match found {
+        Ok(ticks) => return Ok(f64::from(ticks) * case.tick),
+        Err(most) => most,
+    };
+    let way = Way::None(f64::from(most) * case.tick);
+    match excess_in(case, limits, most)? {
+        Some(excess) => Err(Refusal { excess, count: case.steps.len(), way }.into()),
+        None => Ok(f64::from(most) * case.tick),
+    }
+}
+
+/// Returns the first limit of the hub's motion that is exceeded if the last motion takes that many
+/// ticks.
+fn excess_in(case: &Case<'_>, limits: &Limits, ticks: u32) -> Result<Option<Excess>, Error> {
+    let mut steps = case.steps.to_vec();
+    if let Some(step) = steps.last_mut() {
+        step.motion = step.motion.lasting(f64::from(ticks) * case.tick);
+    }
+    let case = case.with(&steps);
+    Ok(kinematic::excess(&case, &case.trajectory()?, limits))
 }
 
 /// Returns the first limit that a motion exceeds.
@@ -107,7 +150,7 @@ fn refusal(
     }
     match load::excess(case, &trajectory, limits, progress)? {
         Some(found) => {
-            remedy::of_loads(case, &trajectory, limits, &found, &|_| true, &|_| {}).map(Some)
+            remedy::of_loads(case, &trajectory, limits, &found, &|_| true, &|_| ()).map(Some)
         }
         None => Ok(None),
     }

@@ -16,7 +16,7 @@ use crate::step::Step;
 
 /// Fraction of the torque limit for which a shortest move is planned. A method's own setpoints,
 /// good to a hundredth of the peak, then keep the limit too.
-const GOAL: f64 = 0.985;
+pub const GOAL: f64 = 0.985;
 
 /// Number of times that limits are tightened.
 const ROUNDS: u32 = 8;
@@ -245,7 +245,7 @@ impl Search<'_> {
     fn over(&self, plan: &StillMove, limits: &Limits) -> Result<Vec<Excess>, Error> {
         let Asked { before, settle, .. } = self.asked;
         let mut steps = before.steps.to_vec();
-        steps.push(Step { motion: plan.motion(), settle: *settle });
+        steps.push(Step { motion: plan.motion().into(), settle: *settle });
         let case = before.with(&steps);
         let trajectory = case.trajectory()?;
         let windows = case.windows(&trajectory);

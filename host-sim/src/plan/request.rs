@@ -63,7 +63,7 @@ impl Request {
 
     /// Returns the rod's peak loads along a plan.
     fn loads(&self, plan: &StillMove) -> Result<load::Peaks, Error> {
-        let steps = [Step { motion: plan.motion(), settle: 0.0 }];
+        let steps = [Step { motion: plan.motion().into(), settle: 0.0 }];
         let (arm, from, tick) = (&self.arm, self.from, self.tick);
         let case = Case { arm, from, steps: &steps, shaper: None, tick };
         let trajectory = case.trajectory()?;

@@ -4,46 +4,72 @@ use serde::Deserialize;
 use stillbeam::{Limits, Move, Profile};
 
 use super::Step;
+use super::waypoints::Rows;
 use crate::error::Error;
-use crate::limits::Case;
-use crate::plan::kept::Asked;
+use crate::limits::{self, Case};
+use crate::plan::kept::{Asked, GOAL};
+use crate::step::Motion;
 
 /// A `[move]` table.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MoveTable {
-    pub(super) profile: String,
+    pub(super) profile: Option<String>,
     pub(super) duration: Option<f64>,
     pub(super) from: Option<f64>,
     pub(super) to: Option<f64>,
-    rate: Option<f64>,
+    pub(super) rate: Option<f64>,
+    /// Rows of time, angle, rate and acceleration.
+    pub(super) waypoints: Option<Vec<Vec<f64>>>,
+    repeat: Option<u32>,
     robust: Option<f64>,
     #[serde(default)]
-    settle: f64,
+    pub(super) settle: f64,
 }
 
-/// Context in which a still move is planned.
+/// Context in which a move is planned.
 pub(super) struct Planning<'a> {
-    /// The moves before the still move.
+    /// The moves before it.
     pub before: Case<'a>,
     pub limits: &'a Limits,
     /// Number of moves in the scene.
     pub count: usize,
 }
 
+/// The hub where a move begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Here {
+    /// Angle, rad; `None` behind a change of the rate.
+    pub angle: Option<f64>,
+    /// Rate, rad/s.
+    pub rate: f64,
+}
+
 impl MoveTable {
-    /// Builds the move. `at` is the angle where the move before it ends, `None` behind a turning
-    /// hub.
+    /// Angle at the beginning of a scene whose first move this is, rad.
+    pub(super) fn begin(&self) -> f64 {
+        let row = self.waypoints.as_ref().and_then(|rows| rows.first());
+        let first = row.filter(|row| row.first() == Some(&0.0)).and_then(|row| row.get(1));
+        self.from.or(first.copied()).unwrap_or(0.0)
+    }
+
+    /// Returns the indices of the moves whose duration is to be found.
+    pub(super) fn without_duration(tables: &[Self]) -> Vec<usize> {
+        let lasts = |table: &Self| table.duration.is_some() || table.waypoints.is_some();
+        (0..tables.len()).filter(|&index| !lasts(&tables[index])).collect()
+    }
+
+    /// Builds the move that begins where the hub is `here`, and moves `here` to its end.
     pub(super) fn build(
         &self,
         index: usize,
-        at: &mut Option<f64>,
+        here: &mut Here,
         planning: &Planning<'_>,
     ) -> Result<Step, Error> {
         if let (Some(from), true) = (self.from, index > 0)
-            && *at != Some(from)
+            && here.angle != Some(from)
         {
-            let wanted = at.map_or("absent behind a turning hub".to_owned(), |angle| {
+            let wanted = here.angle.map_or("absent behind a turning hub".to_owned(), |angle| {
                 format!("{angle}, where the move before it ends, or absent")
             });
             return Err(Error::new(format_args!("from = {from}: must be {wanted}")));
@@ -54,64 +80,131 @@ impl MoveTable {
                 self.settle
             )));
         }
-        let refuse = |key: &str, value: Option<f64>| match value {
-            Some(value) => Err(Error::new(format_args!(
-                "move.{key} = {value}: must be absent with profile \"{}\"",
-                self.profile
-            ))),
-            None => Ok(()),
-        };
-        let need = |key: &str, unit: &str, value: Option<f64>| {
-            value.ok_or_else(|| {
-                Error::new(format_args!(
-                    "move.{key}: missing; must be a number in {unit} with profile \"{}\"",
-                    self.profile
-                ))
-            })
-        };
-        if self.profile == "still" {
-            refuse("rate", self.rate)?;
-            let to = need("to", "rad", self.to)?;
-            let from = at.replace(to);
-            let from = from.ok_or_else(|| {
-                Error::new(
-                    "move.profile = \"still\": the hub must be at rest before it; put a spin-up to \
-                     rate = 0 and a move to an angle before it",
-                )
-            })?;
-            let Planning { before, limits, count } = *planning;
-            let Self { duration, robust, settle, .. } = *self;
-            let asked = Asked { before, limits, from, to, duration, robust, settle, count };
-            let motion = asked.plan()?.plan.motion();
-            return Ok(Step { motion, settle: self.settle });
-        }
-        refuse("robust", self.robust)?;
-        let duration = need("duration", "s", self.duration)?;
-        let motion = match self.profile.as_str() {
-            "spin-up" => {
-                refuse("to", self.to)?;
-                let rate = need("rate", "rad/s", self.rate)?;
-                *at = None;
-                Move::SpinUp { duration, rate }
-            }
-            "dwell" => {
-                refuse("to", self.to)?;
-                refuse("rate", self.rate)?;
-                Move::Dwell { duration }
-            }
-            name => {
-                let profile = Profile::named(name).ok_or_else(|| {
-                    let known = Profile::ALL.map(Profile::name).join(", ");
-                    Error::new(format_args!(
-                        "move.profile = \"{name}\": must be {known}, still, spin-up or dwell"
-                    ))
-                })?;
-                refuse("rate", self.rate)?;
-                let to = need("to", "rad", self.to)?;
-                *at = Some(to);
-                Move::To { profile, duration, to }
-            }
+        let motion = match (&self.waypoints, self.profile.as_deref()) {
+            (Some(rows), _) => self.path(rows, here)?,
+            (None, Some("still")) => self.still(here, planning)?,
+            (None, _) => self.plain(here, planning)?,
         };
         Ok(Step { motion, settle: self.settle })
     }
+
+    fn path(&self, rows: &[Vec<f64>], here: &mut Here) -> Result<Motion, Error> {
+        for (key, value) in [
+            ("duration", self.duration),
+            ("to", self.to),
+            ("rate", self.rate),
+            ("robust", self.robust),
+        ] {
+            if let Some(value) = value {
+                return Err(Error::new(format_args!(
+                    "move.{key} = {value}: must be absent beside move.waypoints, whose rows say it"
+                )));
+            }
+        }
+        let at = here.angle.filter(|_| here.rate == 0.0);
+        let profile = self.profile.as_deref();
+        let path = Rows { rows, profile, repeat: self.repeat, at }.build()?;
+        *here = Here { angle: Some(path.end_angle()), rate: path.end_rate() };
+        Ok(Motion::Path(path))
+    }
+
+    fn still(&self, here: &mut Here, planning: &Planning<'_>) -> Result<Motion, Error> {
+        self.refuse("rate", self.rate)?;
+        self.refuse("repeat", self.repeat)?;
+        let to = self.need("to", "rad", self.to)?;
+        let from = here.angle.filter(|_| here.rate == 0.0).ok_or_else(|| {
+            Error::new(
+                "move.profile = \"still\": the hub must be at rest before it; put a spin-up to \
+                 rate = 0 and a move to an angle before it",
+            )
+        })?;
+        *here = Here { angle: Some(to), rate: 0.0 };
+        let Planning { before, limits, count } = *planning;
+        let Self { duration, robust, settle, .. } = *self;
+        let asked = Asked { before, limits, from, to, duration, robust, settle, count };
+        Ok(asked.plan()?.plan.motion().into())
+    }
+
+    fn plain(&self, here: &mut Here, planning: &Planning<'_>) -> Result<Motion, Error> {
+        self.refuse("robust", self.robust)?;
+        self.refuse("repeat", self.repeat)?;
+        let duration = self.duration.unwrap_or(1.0);
+        let motion = match self.name()? {
+            "spin-up" => {
+                self.refuse("to", self.to)?;
+                let rate = self.need("rate", "rad/s", self.rate)?;
+                *here = Here { angle: None, rate };
+                Move::SpinUp { duration, rate }
+            }
+            "dwell" => {
+                self.refuse("to", self.to)?;
+                self.refuse("rate", self.rate)?;
+                self.need("duration", "s", self.duration)?;
+                Move::Dwell { duration }
+            }
+            name => {
+                let profile = Profile::named(name).ok_or_else(|| unknown(name))?;
+                let to = self.need("to", "rad", self.to)?;
+                let rate = self.rate.unwrap_or(0.0);
+                let from_rest = here.rate == 0.0 && rate == 0.0;
+                *here = Here { angle: Some(to), rate };
+                if from_rest {
+                    Move::To { profile, duration, to }
+                } else {
+                    Move::Pass { profile, duration, to, rate }
+                }
+            }
+        };
+        match self.duration {
+            Some(_) => Ok(motion.into()),
+            None => Ok(motion.lasting(self.shortest(motion, planning)?).into()),
+        }
+    }
+
+    /// Returns the shortest duration of a move that keeps the scene's limits, s.
+    fn shortest(&self, motion: Move, planning: &Planning<'_>) -> Result<f64, Error> {
+        let Planning { before, limits, .. } = planning;
+        if **limits == Limits::default() {
+            self.need("duration", "s, or [limits] must be given,", self.duration)?;
+        }
+        let mut steps = before.steps.to_vec();
+        steps.push(Step { motion: motion.into(), settle: self.settle });
+        // A method's own setpoints, good to a hundredth of the peak, then keep the limit too.
+        let limits = Limits { torque: limits.torque.map(|most| GOAL * most), ..**limits };
+        limits::shortest(&before.with(&steps), &limits, &|_| ())
+    }
+
+    fn name(&self) -> Result<&str, Error> {
+        self.profile.as_deref().ok_or_else(|| {
+            Error::new(format_args!("move.profile: missing; must be {}, or waypoints", profiles()))
+        })
+    }
+
+    fn refuse(&self, key: &str, value: Option<impl std::fmt::Display>) -> Result<(), Error> {
+        match value {
+            Some(value) => Err(Error::new(format_args!(
+                "move.{key} = {value}: must be absent with profile \"{}\"",
+                self.name()?
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    fn need(&self, key: &str, unit: &str, value: Option<f64>) -> Result<f64, Error> {
+        match value {
+            Some(value) => Ok(value),
+            None => Err(Error::new(format_args!(
+                "move.{key}: missing; must be a number in {unit} with profile \"{}\"",
+                self.name()?
+            ))),
+        }
+    }
+}
+
+fn unknown(name: &str) -> Error {
+    Error::new(format_args!("move.profile = \"{name}\": must be {}", profiles()))
+}
+
+fn profiles() -> String {
+    format!("{}, still, spin-up or dwell", Profile::ALL.map(Profile::name).join(", "))
 }

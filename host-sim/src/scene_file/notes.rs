@@ -16,7 +16,8 @@ impl SceneFile {
         let mut rounded = Groups::default();
         for (index, step) in self.moves.iter().enumerate() {
             let settle = (step.settle > 0.0).then_some(("settle", step.settle));
-            for (key, asked) in [("duration", step.motion.duration())].into_iter().chain(settle) {
+            let key = if step.motion.as_move().is_some() { "duration" } else { "waypoints" };
+            for (key, asked) in [(key, step.motion.duration())].into_iter().chain(settle) {
                 let Some(plan) = plans.next() else { break };
                 // Not worth a word: what a decimal fraction of a second lacks in binary, and a move
                 // that has asked for no duration.
@@ -37,7 +38,16 @@ impl SceneFile {
             let (delay, pulses) = (shaper.delay(), shaper.pulses().len());
             format!("the shaper\u{2019}s {pulses} pulses add {delay:.4} s to the motion")
         });
-        let lines = rounded.lines(self.moves.len()).into_iter();
+        let mut found = Groups::default();
+        for &index in &self.shortest {
+            if let Some(step) = self.moves.get(index) {
+                let duration = (step.motion.duration() * 1e9).round() / 1e9;
+                found
+                    .add(index, format!("duration = {duration} s, the shortest within the limits"));
+            }
+        }
+        let found = found.lines(self.moves.len()).into_iter();
+        let lines = found.chain(rounded.lines(self.moves.len()));
         Ok(lines.chain(shaped).chain(self.longer_rest(&trajectory)).collect())
     }
 

@@ -39,8 +39,8 @@ pub(super) fn remarks(file: &File, arm: &Scene, moves: &[MoveTable]) -> Vec<Stri
     if file.gravity.acceleration == 1.0 {
         lines.push("gravity.acceleration = 1: it is in m/s^2 (1 g = 9.81 m/s^2)".to_owned());
     }
-    let turns = !arm.mount.is_linear();
-    if let Some(rate) = file.limits.rate.filter(|rate| turns && *rate > FASTEST) {
+    let radians = file.unit.is_none() && !arm.mount.is_linear();
+    if let Some(rate) = file.limits.rate.filter(|rate| radians && *rate > FASTEST) {
         lines.push(format!(
             "limits.rate = {rate}: {rate} rad/s are {:.0} rpm; rates are in rad/s ({rate} deg/s = \
              {:.4} rad/s)",
@@ -52,7 +52,7 @@ pub(super) fn remarks(file: &File, arm: &Scene, moves: &[MoveTable]) -> Vec<Stri
         let milli = 1e-3 * tick;
         lines.push(format!("solver.tick = {tick}: ticks are in s ({tick} ms = {milli} s)"));
     }
-    lines.extend(motions(moves, turns));
+    lines.extend(motions(moves, radians));
     lines
 }
 
@@ -69,19 +69,25 @@ pub fn angle(value: f64) -> Option<String> {
     })
 }
 
-fn motions(moves: &[MoveTable], turns: bool) -> Vec<String> {
+/// `radians` is true if the angles are in rad because the axis turns and the file names no unit.
+fn motions(moves: &[MoveTable], radians: bool) -> Vec<String> {
     let mut groups = Groups::default();
     for (index, table) in moves.iter().enumerate() {
-        if table.profile == "spin-up" {
+        if table.profile.as_deref() == Some("spin-up") {
             // Whoever turns on and on has angles of many turns.
             break;
         }
-        for (key, value) in [("from", table.from), ("to", table.to)] {
-            if let (Some(value), Some(text)) = (value, value.filter(|_| turns).and_then(angle)) {
+        let rows = table.waypoints.iter().flatten().enumerate();
+        let of_rows = rows.map(|(k, row)| (format!("waypoints[{k}]"), row.get(1).copied()));
+        let keys = [("from".to_owned(), table.from), ("to".to_owned(), table.to)];
+        for (key, value) in keys.into_iter().chain(of_rows).filter(|_| radians) {
+            if let (Some(value), Some(text)) = (value, value.and_then(angle)) {
                 groups.add(index, format!("{key} = {value}: {text}"));
             }
         }
-        if let Some(long) = table.duration.filter(|t| *t > MOVE && table.profile != "dwell") {
+        if let Some(long) =
+            table.duration.filter(|t| *t > MOVE && table.profile.as_deref() != Some("dwell"))
+        {
             let milli = 1e-3 * long;
             groups.add(
                 index,

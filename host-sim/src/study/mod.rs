@@ -130,9 +130,9 @@ fn scene(name: &str, keys: SolverKeys) -> Result<SceneFile, Error> {
 fn reshaped(scene: &SceneFile, profile: stillbeam::Profile, duration: f64) -> SceneFile {
     let mut scene = scene.clone();
     if let Some(step) = scene.moves.first_mut()
-        && let Move::To { to, .. } = step.motion
+        && let Some(Move::To { to, .. }) = step.motion.as_move()
     {
-        step.motion = Move::To { profile, duration, to };
+        step.motion = Move::To { profile, duration, to }.into();
     }
     scene
 }

@@ -91,11 +91,12 @@ pub fn scene(arm: &Scene, omega: f64, tick: f64, task: Task, after: f64) -> Scen
         Task::Spin(share) => Move::SpinUp { duration: whole(5.0), rate: share * omega },
     };
     SceneFile {
+        shortest: Vec::new(),
         name: "probe".into(),
         arm: *arm,
         from: 0.0,
         shaper: None,
-        moves: vec![Step { motion, settle: after * tick }],
+        moves: vec![Step { motion: motion.into(), settle: after * tick }],
         limits: Limits::default(),
         solver: SolverKeys::default(),
         deduced: Deduced::default(),

@@ -108,6 +108,7 @@ pub fn draw_plain(seed: u64, index: u64) -> Drawn {
     let (from, moves) = moves(rng, omega, tick, bends);
     let solvers = solvers(rng, tick);
     let scene = SceneFile {
+        shortest: Vec::new(),
         shaper: None,
         name: format!("stress {seed}/{index}"),
         arm,
@@ -202,7 +203,7 @@ fn moves(rng: &mut StdRng, omega: f64, tick: f64, bends: f64) -> (f64, Vec<Step>
         }
         let motion = Move::SpinUp { duration, rate: sign(rng) * rate };
         let held = 4.0 * ticks;
-        return (from, vec![Step { motion, settle: held.min(1000.0) * tick }]);
+        return (from, vec![Step { motion: motion.into(), settle: held.min(1000.0) * tick }]);
     }
     let mut angle = decades(rng, -6.0, (100.0 * TAU).log10());
     let mut ticks = ticks;
@@ -217,9 +218,9 @@ fn moves(rng: &mut StdRng, omega: f64, tick: f64, bends: f64) -> (f64, Vec<Step>
     let duration = (ticks + rng.random_range(-0.4..0.4)) * tick;
     let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
     let to = from + sign(rng) * angle;
-    let there = Step { motion: Move::To { profile, duration, to }, settle: settle(ticks) };
+    let there = Step { motion: Move::To { profile, duration, to }.into(), settle: settle(ticks) };
     if rng.random_bool(0.2) {
-        let back = Step { motion: Move::To { profile, duration, to: from }, ..there };
+        let back = Step { motion: Move::To { profile, duration, to: from }.into(), ..there };
         return (from, vec![Step { settle: 0.0, ..there }, back]);
     }
     (from, vec![there])

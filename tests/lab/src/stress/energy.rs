@@ -75,8 +75,8 @@ fn suitable(seed: u64, index: u64) -> Option<Arm> {
     let tick = drawn.solvers.first()?.tick;
     let turn = drawn.omega * tick;
     let arm = Scene { damping: Damping::default(), gravity: 0.0, ..drawn.scene.arm };
-    let Step { motion, .. } = *drawn.scene.moves.first()?;
-    let Move::To { profile, duration, to } = motion else { return None };
+    let Step { motion, .. } = drawn.scene.moves.first()?;
+    let Move::To { profile, duration, to } = motion.as_move()? else { return None };
     let rod = Rod::<3>::new(&arm).ok()?;
     let bend = rod.bend(profile.peaks(to - drawn.scene.from, duration).acceleration);
     let wanted = (1e-4..3.0).contains(&turn) && (0.01..0.5).contains(&bend);

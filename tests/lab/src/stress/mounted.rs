@@ -6,7 +6,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::{AxisKind, Damping, Mount, Move, Scene};
 use stillbeam_sim::solver::{Mass, Method};
-use stillbeam_sim::step::Step;
+use stillbeam_sim::step::Motion;
 
 use super::draw::Drawn;
 
@@ -40,7 +40,9 @@ fn on_carriage(mut drawn: Drawn, plane: Mount) -> Drawn {
     let lever = drawn.scene.arm.reach();
     drawn.scene.from *= lever;
     for step in &mut drawn.scene.moves {
-        *step = Step { motion: stretched(step.motion, lever), ..*step };
+        if let Motion::Move(motion) = &mut step.motion {
+            *motion = stretched(*motion, lever);
+        }
     }
     with(drawn, Mount { axis: AxisKind::Linear, ..plane })
 }

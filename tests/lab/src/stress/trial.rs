@@ -132,8 +132,8 @@ fn both(drawn: &Drawn, solver: &Solver) -> Result<Run, Error> {
         })
     };
     let (peak, torque) = (most(&|s| s.deflection), most(&|s| s.torque));
-    let target = scene.moves.last().and_then(|step| match step.motion {
-        Move::To { to, .. } => Some(to),
+    let target = scene.moves.last().and_then(|step| match step.motion.as_move() {
+        Some(Move::To { to, .. }) => Some(to),
         _ => None,
     });
     let scale = peak.max(FLOOR * length);
