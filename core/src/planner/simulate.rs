@@ -128,11 +128,12 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     /// Finds the state in which the arm is at rest relative to a hub that keeps its rate: bent by
     /// the drag of the damping, stretched out by the spin. There is none under gravity.
     pub fn steady(&self, points: &RodPoints<T, K>, hub: &HubState<T>) -> ArmState<T, K> {
+        let drive = hub.acceleration + self.alpha * hub.rate;
         let mut flex = ArmState::STRAIGHT;
         for _ in 0..HALVINGS {
             let excess = self.excess(points, &flex, hub);
             for k in 0..K {
-                let next = excess[k] / self.stiffness[k];
+                let next = (excess[k] - self.coupling[k] * drive) / self.stiffness[k];
                 flex.coordinate[k] = T::HALF * (flex.coordinate[k] + next);
             }
         }
