@@ -284,7 +284,7 @@ impl MotionFile {
 
 /// Returns the torque of an arm that does not bend, without gravity, for an acceleration, N m.
 fn torque(arm: &Scene, tick: f64, acceleration: f64) -> Result<f64, Error> {
-    let arm = Scene { gravity: 0.0, ..arm.clone() };
+    let arm = Scene { gravity: 0.0, ..*arm };
     let rigid = Rigid::<f64>::new(&arm, tick)?;
     let hub = HubState { acceleration, ..HubState::at_rest(Angle::default()) };
     Ok(rigid.response::<AnyMotion>(&rigid.equilibrium(&hub), &hub).torque)
