@@ -11,7 +11,7 @@ use super::optimal::{Bounds, TimeOptimal};
 use super::pass::Pass;
 use super::segment::Shape;
 use super::shapes::{Shapes, quintic, rest_to_rest, spin_up};
-use super::{Limits, Move, Peaks, Remedy, Segment, curve_peaks};
+use super::{Limits, Move, Peaks, Profile, Remedy, Segment, curve_peaks};
 use crate::Error;
 use crate::error::MAX_TICKS;
 use crate::hub::{Angle, HubState, MAX_ANGLE};
@@ -162,18 +162,33 @@ pub(crate) fn plan_segments<T: Scalar>(
     sink: &mut dyn FnMut(&Segment<T>),
 ) -> Result<MoveSummary, Error> {
     let limits = limits.of_motion()?;
-    let shortest = |motion: TimeOptimal| motion.admitted(&limits, tick);
     match *motion {
+        Move::Reach { .. } | Move::Ramp { .. } => plan_shortest(motion, start, &limits, tick, sink),
+        _ => plan_lasting(motion, start, &limits, tick, sink),
+    }
+}
+
+/// Plans a move that takes the shortest time.
+// Not inlined: the plan of another move needs no stack for it.
+#[inline(never)]
+fn plan_shortest<T: Scalar>(
+    motion: &Move,
+    start: HubState<f64>,
+    limits: &Limits,
+    tick: f64,
+    sink: &mut dyn FnMut(&Segment<T>),
+) -> Result<MoveSummary, Error> {
+    let shortest = match *motion {
         Move::Reach { to, rate, bounds } => {
             let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
             let end = HubState::turning(Angle::from_radians(to), rate);
-            shortest(TimeOptimal::reach(&start, &end, &bounds)?)?.lay(tick, sink)
+            TimeOptimal::reach(&start, &end, &bounds)?
         }
-        Move::Ramp { rate, bounds } => {
-            shortest(TimeOptimal::ramp(&start, rate, &bounds)?)?.lay(tick, sink)
-        }
-        _ => plan_lasting(motion, start, &limits, tick, sink),
-    }
+        Move::Ramp { rate, bounds } => TimeOptimal::ramp(&start, rate, &bounds)?,
+        // Those that have a duration never come here.
+        _ => return plan_lasting(motion, start, limits, tick, sink),
+    };
+    shortest.admitted(limits, tick)?.lay(tick, sink)
 }
 
 /// Plans a move that has a duration.
@@ -190,13 +205,8 @@ fn plan_lasting<T: Scalar>(
     let rounded_by = duration - motion.duration();
     let (shapes, end, demand) = match *motion {
         Move::Pass { profile, to, rate, .. } => {
-            let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
-            let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
-            let end = HubState::turning(Angle::from_radians(to), rate);
-            let pass = Pass::new(profile, start, end, duration, tick);
-            admit(limits, &pass.peaks, tick)?;
-            pass.emit(start, sink);
-            return Ok(MoveSummary { end, ticks, peaks: pass.peaks, rounded_by });
+            let summary = plan_pass(profile, [to, rate], start, limits, [duration, tick], sink)?;
+            return Ok(MoveSummary { ticks, rounded_by, ..summary });
         }
         Move::To { profile, to, .. } => {
             let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
@@ -237,6 +247,27 @@ fn plan_lasting<T: Scalar>(
     let peaks = demand.admit(limits, ticks, tick)?;
     emit(shapes, &start, ticks, tick, sink);
     Ok(MoveSummary { end, ticks, peaks, rounded_by })
+}
+
+/// Plans a move in `duration` s from any state to the angle `to`, rad, passed at `rate`, rad/s. Its
+/// ticks are left to be told.
+// Not inlined, for the same reason.
+#[inline(never)]
+fn plan_pass<T: Scalar>(
+    profile: Profile,
+    [to, rate]: [f64; 2],
+    start: HubState<f64>,
+    limits: &Limits,
+    [duration, tick]: [f64; 2],
+    sink: &mut dyn FnMut(&Segment<T>),
+) -> Result<MoveSummary, Error> {
+    let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
+    let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
+    let end = HubState::turning(Angle::from_radians(to), rate);
+    let pass = Pass::new(profile, start, end, duration, tick);
+    admit(limits, &pass.peaks, tick)?;
+    pass.emit(start, sink);
+    Ok(MoveSummary { end, ticks: 0, peaks: pass.peaks, rounded_by: 0.0 })
 }
 
 /// Turns from `start` to the angle `to`, rad, and the hub at rest there. The end is exactly that

@@ -53,6 +53,8 @@ pub async fn run() {
 
 /// Plans with the tick running and hands the plan over. Where the axis' motion has changed
 /// meanwhile it is planned once more.
+// Not inlined, as the next: one job needs no stack for another.
+#[inline(never)]
 fn follow(
     axis: usize,
     plan: impl Fn(&PlanContext) -> Result<PlannedMove<f32>, Error>,
@@ -80,6 +82,7 @@ fn follow(
 }
 
 /// Sets the arm with another payload up and puts it in the place of the old one.
+#[inline(never)]
 fn reload(axis: usize, payload: Payload) -> Outcome<u32> {
     let scene = scene(axis)?;
     let changed = UniformScene { payload, ..scene };

@@ -8,7 +8,7 @@ use heapless::Vec;
 use stillbeam::{Error, UniformScene};
 use stillbeam_protocol::Refusal;
 use stillbeam_wiring::Configuration;
-use stillbeam_wiring::axes::{self, AXES, CONFIGURATIONS, Joint};
+use stillbeam_wiring::axes::{self, AXES, CONFIGURATIONS, Joint, Stepper};
 
 /// Result of a request.
 pub type Outcome<T> = Result<T, Refusal<'static>>;
@@ -76,7 +76,14 @@ pub fn set_up() -> Result<(), Error> {
 
 #[inline(never)]
 fn add(configuration: &Configuration) -> Result<(), Error> {
-    let joint = Joint::new(configuration, axes::stepper(&configuration.scene)?)?;
+    place(configuration, axes::stepper(&configuration.scene)?)
+}
+
+/// Builds the axis around its stepper.
+// Apart from the stepper's set-up, whose stack would else lie on top of the axis' own.
+#[inline(never)]
+fn place(configuration: &Configuration, stepper: Stepper) -> Result<(), Error> {
+    let joint = Joint::new(configuration, stepper)?;
     with(|shared| {
         // There is room for as many as there are configurations.
         let _ = shared.joints.push(joint);
