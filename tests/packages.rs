@@ -1,5 +1,5 @@
-//! What cargo's manifests say: what a crate takes along when it is packaged, and what is left out of
-//! the tests.
+//! Checks cargo's manifests: the files that a crate takes along when it is packaged, and the
+//! targets that are left out of the tests.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -68,8 +68,8 @@ fn every_published_crate_holds_the_texts_of_its_licences() {
     }
 }
 
-/// Cargo compiles a target once more for its tests unless its manifest says that it has none. Then a
-/// test written there would never run.
+/// Cargo compiles a target once more for its tests unless its manifest says that it has none. Then
+/// a test written there would never run.
 #[test]
 fn what_is_left_out_of_the_tests_holds_none() {
     let metadata = run(cargo().args(["metadata", "--no-deps", "--format-version", "1"]));

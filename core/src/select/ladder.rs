@@ -165,7 +165,9 @@ impl Outcome {
 
     /// Error of the torque to expect, fraction of its peak: the difference from the exact rod with
     /// the ringing that it has lost, and what that leaves out, more polynomials and rounding.
+    /// With these margins 2 of 6,709 choices over the 10,000 arms of `docs/auto.md` are beyond a
+    /// tolerance, and 0.6 % two rungs too dear. With 1.02 and 1e-4 it would be 1, and 0.8 %.
     pub fn torque(&self) -> f64 {
-        if self.torque == 0.0 { 0.0 } else { 1.02 * self.torque / self.peak + 1e-4 }
+        if self.torque == 0.0 { 0.0 } else { 1.005 * self.torque / self.peak + 3e-5 }
     }
 }

@@ -17,7 +17,7 @@ pub const QUICK: Options = Options { order: 5, tolerance: 1e-5, integrator: None
 /// Fraction of a limit below which the first check suffices, because its error is smaller.
 const CLEARLY: f64 = 0.9;
 
-/// What a check of the load limits is at.
+/// Progress of a check of the load limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress {
     /// Fraction of the check that is done, 0 to 1.

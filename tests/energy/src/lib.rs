@@ -30,8 +30,8 @@ impl Energy {
         self.hub + self.carried + self.bending + self.raised
     }
 
-    /// Returns the energy of a level arm that vibrates on a hub at rest, J: link, payload and strip.
-    /// It is never negative.
+    /// Returns the energy of a level arm that vibrates on a hub at rest, J: link, payload and
+    /// strip. It is never negative.
     pub fn of_vibration(&self) -> f64 {
         self.carried + self.bending
     }
