@@ -207,7 +207,7 @@ fn links_that_cannot_be_are_refused() {
             with("[[link.masses]]\nat = 0.1\nmass = 0.01\ninertia = 1"),
             "link.masses[0].inertia: unknown key",
         ),
-        (with("[payload]\noffset = 5.1"), "payload.offset = 5.1: must be -0.5 to 5 m"),
+        (with("[payload]\noffset = 5.1"), "payload.offset = 5.1: must be 0 to 5 m"),
         (with("[payload]\noffset = nan"), "payload.offset = NaN: must be"),
         (
             sections("length = 0.5", "length = 0.4\ndiameter = 0.01"),
