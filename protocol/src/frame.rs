@@ -4,7 +4,7 @@ use crc::{CRC_32_ISCSI, Crc, NoTable};
 use serde::{Deserialize, Serialize};
 
 /// Longest frame, its closing zero included.
-pub const MAX: usize = 288;
+pub const MAX: usize = 304;
 
 /// Longest message with its checksum: COBS adds one byte in 254 and one more.
 const MAX_BODY: usize = MAX - 3;
