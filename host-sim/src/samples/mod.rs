@@ -2,7 +2,7 @@
 //!
 //! No derivative of a row is taken. A cubic spline with knots at whole ticks is fitted to all rows
 //! at once. It comes as close to them as their noise is large and has the least jerk of all that
-//! do ([`fit`]). Its rate and acceleration are continuous.
+//! do (`fit`). Its rate and acceleration are continuous.
 
 mod band;
 mod fit;

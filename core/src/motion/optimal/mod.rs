@@ -11,11 +11,11 @@
 //! jerk + − + with the acceleration held where it reaches a limit, and the rate where it does. Its
 //! lower end is turned by the mirror image, − + −.
 //!
-//! In the shortest time in which the rate can be changed ([`Problem::ramp`]) the interval is a
+//! In the shortest time in which the rate can be changed (`Problem::ramp`) the interval is a
 //! single angle. It widens from there, and the first T at which it takes the angle asked for in is
 //! the answer: by its upper end if the angle asked for lies above that single angle, else by its
 //! lower. The shape is thereby known before anything is solved, and one equation in one unknown is
-//! left. Its monotone parts are known too ([`passage`], [`strict`]), so each is solved in a
+//! left. Its monotone parts are known too (`passage`, `strict`), so each is solved in a
 //! bracket, and none is missed.
 //!
 //! There is one gap. A hub that begins and ends with accelerations of the same sign cannot waste
