@@ -44,6 +44,26 @@ fn the_page_runs() {
     assert_eq!(commands, 6);
 }
 
+/// An arm that has no moves of its own takes a motion from a file, and a move of `plan`.
+#[test]
+fn an_arm_without_moves_takes_a_motion() {
+    let folder = tempfile::tempdir().expect("folder");
+    let arm = SCENE.split("[move]").next().expect("an arm");
+    fs::write(folder.path().join("arm.toml"), arm).expect("arm");
+    fs::write(folder.path().join("m.csv"), format!("{HEADER}0,0,0\n0.5,0.1,0\n")).expect("motion");
+    let run = |args: &[&str]| run(folder.path(), args);
+    let motion = ["--motion", "m.csv"];
+    for command in ["run", "reference"] {
+        let csv = format!("{command}.csv");
+        let (code, error) = run(&[&[command, "arm.toml", "--csv", &csv], &motion[..]].concat());
+        assert_eq!(code, 0, "{command}: {error}");
+        let (code, error) = run(&[command, "arm.toml", "--csv", "none.csv"]);
+        assert!(code == 2 && error.contains("move"), "{command}: {error}");
+    }
+    let (code, error) = run(&["plan", "arm.toml", "--to", "0.5", "--duration", "1.0"]);
+    assert_eq!(code, 0, "plan: {error}");
+}
+
 /// Runs a motion file that is refused in one line, with nothing written.
 fn refused(file: &str, text: &str, args: &[&str], words: &[&str]) {
     let folder = tempfile::tempdir().expect("folder");

@@ -16,8 +16,11 @@ const TAKEN: u32 = 7;
 
 type Arm = Generator<Rigid<f32>, 8>;
 
+/// What is asked of an arm on its way.
+type Change = fn(&mut Arm) -> Result<(), Error>;
+
 /// Changes to be counted, each of a hub that turns: name, change.
-const CHANGES: [(&str, fn(&mut Arm) -> Result<(), Error>); 4] = [
+const CHANGES: [(&str, Change); 4] = [
     ("new target", |arm| {
         let angle = Angle { turns: 0, part: 0.12 };
         arm.retarget(black_box(angle), black_box(0.5), black_box(0.4)).map(drop)

@@ -35,7 +35,7 @@ impl CompareArgs {
                 "--tolerance = {tolerance}: must be 0 to 10, a fraction of L"
             )));
         }
-        let scene = super::open(&self.scene)?;
+        let scene = self.motion.open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
         let (scene, _) = self.motion.command(scene, tick)?;
         let (a, b) = (table::read(&self.a)?, table::read(&self.b)?);

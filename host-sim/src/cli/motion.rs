@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use stillbeam_sim::console;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::motion_file::{Between, MotionFile, Options, Taking};
 use stillbeam_sim::scene_file::SceneFile;
@@ -28,6 +29,14 @@ pub struct MotionArgs {
 }
 
 impl MotionArgs {
+    /// Opens the scene that the motion is for: with a file of motion, an arm without moves is one.
+    pub fn open(&self, name_or_path: &str) -> Result<SceneFile, Error> {
+        match self.motion {
+            Some(_) => console::open_arm(name_or_path),
+            None => console::open(name_or_path),
+        }
+    }
+
     /// Returns the scene with the file's motion, if there is one, and notes on how it was taken.
     pub fn command(&self, scene: SceneFile, tick: f64) -> Result<(SceneFile, Vec<String>), Error> {
         let Some(path) = &self.motion else { return Ok((scene, Vec::new())) };

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam::Limits;
+use stillbeam_sim::console::open_arm;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::{Planned, Request, page};
 use stillbeam_sim::scene_file::angle_remark;
@@ -48,7 +49,7 @@ pub struct PlanArgs {
 
 impl PlanArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = super::open(&self.scene)?;
+        let scene = open_arm(&self.scene)?;
         for (key, value) in [("--from", self.from), ("--to", Some(self.to))] {
             let turns = !scene.arm.mount.is_linear();
             let value = value.filter(|_| turns);

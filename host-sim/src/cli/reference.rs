@@ -29,7 +29,7 @@ pub struct ReferenceArgs {
 
 impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = super::open(&self.scene)?;
+        let scene = self.motion.open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
         let (scene, mut notes) = self.motion.command(scene, tick)?;
         notes.extend(scene.deduced.lines());

@@ -31,7 +31,7 @@ pub struct RunArgs {
 
 impl RunArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = super::open(&self.scene)?;
+        let scene = self.motion.open(&self.scene)?;
         let typed = SolverKeys { spin: self.no_spin.then_some(false), ..self.solver };
         let solver = typed.or(scene.solver).resolve()?;
         // What is typed is meant. A file may hold keys for another method than the one that is

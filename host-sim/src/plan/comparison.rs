@@ -100,8 +100,7 @@ pub(super) fn motions(
     tick: f64,
 ) -> Result<Vec<(String, Motion)>, Error> {
     let period = rod::first_period(arm)?;
-    let omega = std::f64::consts::TAU / period;
-    let damping = 0.5 * (arm.damping.alpha / omega + arm.damping.beta * omega);
+    let damping = rod::first_damping_ratio(arm)?;
     let mut all = Vec::new();
     let profiles = [Profile::Cubic, Profile::Quintic, Profile::Cycloid, Profile::SCurve];
     for profile in profiles {

@@ -1,7 +1,5 @@
 //! The `[shaper]` table of the commanded motion.
 
-use std::f64::consts::TAU;
-
 use serde::Deserialize;
 use stillbeam::Scene;
 use stillbeam::motion::{Pulse, Shaper, ShaperKind};
@@ -54,8 +52,10 @@ impl ShaperTable {
             Some(frequency) => frequency,
             None => 1.0 / rod::first_period(arm)?,
         };
-        let omega = TAU * frequency;
-        let own = 0.5 * (arm.damping.alpha / omega + arm.damping.beta * omega);
-        Ok(Shaper::new(kind, frequency, self.damping.unwrap_or(own))?)
+        let damping = match self.damping {
+            Some(damping) => damping,
+            None => rod::first_damping_ratio(arm)?,
+        };
+        Ok(Shaper::new(kind, frequency, damping)?)
     }
 }

@@ -168,6 +168,13 @@ pub fn first_period(scene: &Scene) -> Result<f64, ReferenceError> {
     with_rod!(&scene, ORDER, |rod| Ok(std::f64::consts::TAU / rod.frequencies()[0]))
 }
 
+/// Returns the damping ratio of the first mode of the straight arm on a hub that is held, the
+/// joint's own damping included.
+pub fn first_damping_ratio(scene: &Scene) -> Result<f64, ReferenceError> {
+    let scene = scene.validate()?;
+    Ok(stillbeam::model::Rod::<1>::new(&scene)?.damping_ratio()[0])
+}
+
 /// Returns the hub-frame Y of the tip, m, of the arm at rest under its own weight with the hub at
 /// `angle`. A run's residual vibration is measured from it, whatever model made the run. Error
 /// below 1e-9 L.
