@@ -97,7 +97,7 @@ fn error(file: &SceneFile) -> f64 {
     rows.iter().zip(&truth).map(apart).fold(0.0, f64::max) / file.arm.link.length
 }
 
-/// A joint's own damping acts on modes that are not there too: see the bounds.
+/// What a joint's own damping couples of two modes is left out of the ticks of `elastica`.
 #[test]
 fn ticks_follow_every_feature_as_they_do_the_plain_arm() {
     let mut failed = Vec::new();
@@ -112,7 +112,7 @@ fn ticks_follow_every_feature_as_they_do_the_plain_arm() {
             // An arm that is softer bends further. An offset of 0.1 L makes 2.8 times the error,
             // sections 2.3 times; several features at once half the stiffness and less.
             let bound = match feature {
-                _ if arm.damping.joint > 0.0 => 1.5e-3,
+                _ if arm.damping.joint > 0.0 => 3e-3,
                 "all" => 1.2e-3,
                 _ => 3.0 * plain,
             };

@@ -9,8 +9,6 @@ pub(super) struct Terms {
     pub spin: bool,
     pub gravity: bool,
     pub damping: bool,
-    /// The hub turns, so that what holds the arm against gravity depends on its shape.
-    pub turns: bool,
 }
 
 impl Terms {
@@ -20,7 +18,6 @@ impl Terms {
             spin: !scene.mount.is_linear(),
             gravity: scene.in_plane_gravity() != P::ZERO,
             damping: !scene.damping.is_zero(),
-            turns: !scene.mount.is_linear(),
         }
     }
 }

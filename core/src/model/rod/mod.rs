@@ -132,20 +132,14 @@ impl<const K: usize> Rod<K> {
     }
 
     /// `βₖ` of each mode, s: `β`, and the joint's own damping by the mode's share in its strain
-    /// energy. What the joint couples of two modes is [`Self::joint_damping`]'s.
+    /// energy. What the joint's damping couples of two modes is left out.
     pub fn stiffness_damping(&self) -> [f64; K] {
-        let joint = self.joint_damping();
+        let (damping, hub) = (&self.scene.damping, &self.scene.hub);
+        let loss = damping.joint * hub.stiffness.unwrap_or(0.0);
         core::array::from_fn(|k| {
-            let share = joint[k] / self.frequency[k];
-            self.scene.damping.beta + share * share
+            let share = self.root[k] / self.frequency[k];
+            damping.beta + loss * share * share
         })
-    }
-
-    /// `cₖ = √(β_J k) ψₖ(0)`: the joint's own damping puts `cₖ Σⱼ cⱼȧⱼ` on mode `k`, 1/√s.
-    pub fn joint_damping(&self) -> [f64; K] {
-        let Scene { damping, hub, .. } = &self.scene;
-        let loss = libm::sqrt(damping.joint * hub.stiffness.unwrap_or(0.0));
-        self.root.map(|root| loss * root)
     }
 
     /// `½(α/ωₖ + βₖωₖ)`: damping ratios of the modes.

@@ -32,12 +32,8 @@ pub(super) struct Nonlinear<T, const K: usize> {
     /// `α` and `α/ωₖ`.
     alpha: T,
     drag: [T; K],
-    /// `√(β_J k) ψₖ(0)`: what the joint's own damping makes of a modal rate.
-    joint: [T; K],
     gravity: bool,
     damping: bool,
-    /// The joint's own damping couples modes.
-    coupled: bool,
     /// The hub turns, so that what holds the arm against gravity depends on its shape.
     turns: bool,
     /// Keeps the arguments bounded.
@@ -85,7 +81,6 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         let (terms, odd) = (&expansion.even, &expansion.odd);
         let even = |of: &dyn Fn(usize) -> f64| Even::new(&EVEN, omega, of);
         let linear = &expansion.linear;
-        let joint = rod.joint_damping();
         Self {
             c: core::array::from_fn(|k| even(&|n| terms[n].c[k][0])),
             d: core::array::from_fn(|k| even(&|n| terms[n].d[k])),
@@ -113,9 +108,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
             loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
             alpha: f(scene.damping.alpha),
             drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
-            joint: cast(&joint),
             gravity: g != 0.0,
-            coupled: K > 1 && joint[0] != 0.0,
             damping: !scene.damping.is_zero(),
             turns: !scene.mount.is_linear(),
             reach: Reach::new(omega, range),
@@ -158,9 +151,6 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         let forms = self.forms(&shape);
         let flow = self.flow::<TURNS>(&forms, &p, hub.rate);
         let mut gradient = gradient::<T, K, TURNS>(&forms, &flow);
-        if ALL && self.coupled {
-            self.couple(&flow.rate, &mut gradient);
-        }
         let mut weight = T::ZERO;
         if ALL && self.gravity {
             weight = self.weigh(&shape, hub, &mut gradient);
@@ -214,19 +204,6 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         }
         let rate = core::array::from_fn(|k| if k == 1 { v2 } else { p_tilde[k] + u[k] });
         Flow { omega, p, v2, u, rate, lightness }
-    }
-
-    /// Adds what the joint's own damping lets one mode's rate do to another: to each mode
-    /// `cₖ Σ_{j≠k} cⱼȧⱼ`, `c = √(β_J k) ψ(0)`. A mode's own share is in [`Self::loss`].
-    #[inline(always)]
-    fn couple(&self, rate: &[T; K], gradient: &mut [T; K]) {
-        for k in 0..K {
-            let mut others = T::ZERO;
-            for j in (0..K).filter(|&j| j != k) {
-                others += self.joint[j] * rate[j];
-            }
-            gradient[k] += self.joint[k] * others / self.omega[k];
-        }
     }
 
     /// Adds `∂V/∂x` of the weight to the gradient; returns `∂V/∂θ`, which on a carriage is the same

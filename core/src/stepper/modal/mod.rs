@@ -51,10 +51,12 @@ pub struct Modal<T, const K: usize> {
     /// `α(J_r − bᵀb)` and `βbᵢωᵢ`.
     drag: T,
     loss: [T; K],
-    /// `g Πᵢⱼ/ωᵢωⱼ`, half its form, `g fᵢ/ωᵢ` and `g S`.
+    /// `g Πᵢⱼ/ωᵢωⱼ`, half its form, on a carriage 0, `g fᵢ/ωᵢ` and `g S`.
     tension: Band<T, K, K>,
     bent: HalfForm<T, K, K>,
     weight: [T; K],
+    /// Levers of the weight about the hub: `g fᵢ/ωᵢ`, and 0 on a carriage.
+    lever: [T; K],
     moment: T,
     /// Weights of the squares of how far a mode is from rest and of `ωȧ`: their sum is below 1 when
     /// the arm is to sleep.
@@ -139,7 +141,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
 
     #[inline(always)]
     fn is_linear_fast(&self, rate: T) -> bool {
-        let Terms { spin, gravity, damping, .. } = self.terms;
+        let Terms { spin, gravity, damping } = self.terms;
         !gravity && !damping && (!spin || rate <= self.fastest)
     }
 

@@ -28,14 +28,11 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     }
 
     /// `g cosχ S − g sinχ fᵀa − ½ g cosχ aᵀΠa` on a hub that turns; on a carriage, where the weight
-    /// is the same in every shape, `g cosχ S`.
+    /// is the same in every shape, `g cosχ S`: there `bent` and `lever` are zero.
     #[inline(always)]
     pub(super) fn weight_torque(&self, state: &ModalState<T, K>, hub: &HubState<T>) -> T {
-        if !self.terms.turns {
-            return hub.cos * self.moment;
-        }
         let a = &state.coordinate;
-        hub.cos * (self.moment - self.bent.at(a)) - hub.sin * dot(&self.weight, a)
+        hub.cos * (self.moment - self.bent.at(a)) - hub.sin * dot(&self.lever, a)
     }
 
     #[inline(always)]

@@ -36,7 +36,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let support: [f64; K] = core::array::from_fn(|k| coupling[k] * omega[k]);
         let residual = model.rigid_inertia() - dot(&coupling, &coupling);
         let tension = between(&model.tension().scaled(gravity));
-        let spin: Band<T, K, K> = between(model.spin());
+        let tip = shape.map(|shape| shape[model.tip()]);
+        let weight = onto(model.weight()).map(|f| gravity * f);
+        let swings = if scene.mount.is_linear() { 0.0 } else { 1.0 };
         let modal = Self {
             modes: core::array::from_fn(|k| {
                 Oscillator::new(omega[k], alpha, beta[k], support[k], tick)
@@ -44,9 +46,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             }),
             rest: cast(&rest),
             fastest: T::ZERO,
-            spin,
+            spin: between(model.spin()),
             shortening: between(model.shortening()).half_form(),
-            tip: core::array::from_fn(|k| T::from_f64(shape[k][model.tip()])),
+            tip: cast(&tip),
             reach: T::from_f64(scene.reach()),
             support: cast(&support),
             inertia: T::from_f64(scene.hub.inertia + residual),
@@ -60,17 +62,16 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             drag: T::from_f64(alpha * residual),
             loss: core::array::from_fn(|k| T::from_f64(beta[k] * support[k])),
             tension,
-            bent: tension.half_form(),
-            weight: cast(&onto(model.weight()).map(|f| gravity * f)),
+            bent: tension.map(|pull| T::from_f64(swings) * pull).half_form(),
+            weight: cast(&weight),
+            lever: cast(&weight.map(|f| swings * f)),
             moment: T::from_f64(gravity * model.first_moment()),
             awake: core::array::from_fn(|k| {
-                settled_weights(omega[k], sleep_floor(scene.link.length, shape[k][model.tip()]))
+                settled_weights(omega[k], sleep_floor(scene.link.length, tip[k]))
             }),
             tick,
             tip_slope: core::array::from_fn(|k| T::from_f64(dot(&shape[k], model.tip_slope()))),
-            most: T::from_f64(
-                MOST_GRAVITY_CHANGE * scene.link.length / shape[0][model.tip()].abs(),
-            ),
+            most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length / tip[0].abs()),
             gravity: scene.gravity_direction(),
         };
         modal.bounded(&omega, gravity)

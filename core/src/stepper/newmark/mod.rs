@@ -84,11 +84,13 @@ pub struct Newmark<T, const N: usize, const W: usize, const AXES: bool = true> {
     alpha: T,
     /// `αJ_r`.
     rigid_drag: T,
-    /// `g K_P`, and `½ g qᵀK_P q`.
+    /// `g K_P`, and `½ g qᵀK_P q`, on a carriage 0.
     tension: Band<T, N, W>,
     bent: HalfForm<T, N, W>,
     /// `g f_g`.
     weight: [T; N],
+    /// 1 on a hub that turns, 0 on a carriage, where the weight has no lever.
+    swings: T,
     /// `g S`, S the first moment.
     moment: T,
     /// Largest `c`, see [`super::MOST_GRAVITY_CHANGE`].

@@ -24,14 +24,11 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     }
 
     /// `g cosχ S − g sinχ f_gᵀq − ½ g cosχ qᵀK_P q` on a hub that turns; on a carriage, where the
-    /// weight is the same in every shape, `g cosχ S`.
+    /// weight is the same in every shape, `g cosχ S`: there `bent` and `swings` are zero.
     #[inline(never)]
     pub(super) fn weight_torque(&self, state: &NewmarkState<T, N>, hub: &HubState<T>) -> T {
-        if !self.terms.turns {
-            return hub.cos * self.moment;
-        }
         let q = &state.deflection;
-        hub.cos * (self.moment - self.bent.at(q)) - hub.sin * dot(&self.weight, q)
+        hub.cos * (self.moment - self.bent.at(q)) - self.swings * hub.sin * dot(&self.weight, q)
     }
 
     #[inline(always)]

@@ -44,21 +44,18 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             .scaled(per_half * alpha)
             .plus(per_half * beta, &stiffness)
             .plus(per_half, &band(&model.joint_damping()));
-        let margin = if Self::PRINCIPAL { 0.0 } else { MARGIN * N as f64 * T::EPSILON.to_f64() };
-        let stiffer = P::ONE + P::from_f64(margin);
+        let stiffer = P::ONE + P::from_f64(Self::margin());
         let effective = damping.plus(per_half * per_half, &mass).plus(stiffer, &stiffness);
         let inertia = mass.factored();
         Self::check_longest(tick, &inertia, &stiffness)?;
         let tension = band(model.tension()).scaled(gravity);
+        let swings = if scene.mount.is_linear() { P::ZERO } else { P::ONE };
         let coupling = vector(model.coupling());
         let turn = inertia.solve(&coupling);
         let residual = model.rigid_inertia() - dot(&coupling, &turn);
         let scaled = |scale: P| cast(&coupling.map(|f| scale * f));
         let tip: [P; N] = principal.map(|axis| axis[model.tip()]);
-        // The shape that turning bends the arm to.
-        let bent = if Self::PRINCIPAL { coupling } else { stiffness.factored().solve(&coupling) };
-        let stiff = half * half * dot(&bent, &coupling) / dot(&bent, &mass.times(&bent));
-        let awake = Self::awake(scene.link.length, &tip, stiff);
+        let stiff = half * half * Self::slowest(&coupling, &mass, &stiffness);
         Ok(Self {
             turn: cast(&turn.map(|b| half * b)),
             spin: band(model.spin()).map(round),
@@ -74,7 +71,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             terms: Terms::of(scene),
             numerical_damping: T::EPSILON * T::from_f64(numerical_damping::<N>()),
             tip_last: model.tip() + 1 == N,
-            awake,
+            awake: Self::awake(scene.link.length, &tip, stiff),
             tick,
             damping: damping.map(round),
             drag: scaled(alpha),
@@ -82,8 +79,9 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             alpha: round(alpha),
             rigid_drag: round(alpha * model.rigid_inertia()),
             tension: tension.map(round),
-            bent: tension.map(round).half_form(),
+            bent: tension.map(|k| round(swings * k)).half_form(),
             weight: cast(&vector(model.weight()).map(|f| gravity * f)),
+            swings: round(swings),
             moment: round(gravity * model.first_moment()),
             most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length.to_f64()),
             gravity: scene.gravity_direction(),
@@ -120,6 +118,17 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         let lightest = (1..N).map(ratio).fold(ratio(0), |x, y| if y < x { y } else { x });
         let longest = P::TWO * root(lightest / P::from_f64(T::EPSILON.to_f64()));
         Error::check("solver.tick", tick, 1e-6, longest.to_f64(), "s").map(drop)
+    }
+
+    /// By how much more than 1 `K` counts in the effective matrix, see [`MARGIN`].
+    fn margin() -> f64 {
+        if Self::PRINCIPAL { 0.0 } else { MARGIN * N as f64 * T::EPSILON.to_f64() }
+    }
+
+    /// `ω₁²` by Rayleigh's quotient of the shape that turning bends the arm to.
+    fn slowest<P: Scalar>(coupling: &[P; N], mass: &Band<P, N, W>, stiffness: &Band<P, N, W>) -> P {
+        let bent = if Self::PRINCIPAL { *coupling } else { stiffness.factored().solve(coupling) };
+        dot(&bent, coupling) / dot(&bent, &mass.times(&bent))
     }
 
     /// Weights of [`Newmark::awake`] for a link of `length` m, `stiff` being `(½hω₁)²` by
