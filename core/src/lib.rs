@@ -126,6 +126,6 @@ pub use error::Error;
 pub use generator::{Generator, PlanContext, PlannedMove, Setpoint};
 pub use hub::{Angle, HubState};
 pub use math::Scalar;
-pub use motion::{Limits, Move, Profile, Remedy};
+pub use motion::{Limits, Move, PlainMove, Plannable, Profile, Remedy};
 pub use scene::{AxisKind, Damping, Hub, Link, Mount, Payload, Scene, UniformScene};
 pub use stepper::Stepper;
