@@ -31,6 +31,7 @@ impl<T: Scalar> GravityDirection<T> {
     }
 
     /// Gravity on a carriage, turned by δ = `direction` rad from global −Y.
+    #[inline(never)]
     pub(crate) fn on_carriage<P: Scalar>(direction: P) -> Self {
         let turns = T::from_f64(direction.to_f64() / TAU);
         let (sin, cos) = (-turns).sin_cos_turns();

@@ -216,6 +216,7 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
     }
 
     /// Refuses a carrier that turns: of a model that does not know of it.
+    #[inline(never)]
     pub(crate) fn check_no_carrier(&self) -> Result<(), Error> {
         let unit = "rad/s here, which is for a carrier that rests";
         Error::check("carrier.rate", self.mount.carrier, 0.0, 0.0, unit).map(drop)
@@ -255,6 +256,8 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
     }
 
     /// Gravity in the plane of motion, `g cos(tilt)`, m/s².
+    // Not inlined, as the next two: set-up asks several times, and has time.
+    #[inline(never)]
     pub fn in_plane_gravity(&self) -> T {
         let tilt = self.mount.tilt;
         if tilt == T::ZERO {
