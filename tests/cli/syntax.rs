@@ -73,7 +73,11 @@ fn errors_have_a_line_a_column_and_a_key() {
             "3:1: link.mas: unknown key; must be one of length, mass, ",
         ),
         ("mass = 0.0224", "mas = 0.0224", "is it mass?"),
-        ("[payload]", "[paylod]", "6:2: paylod: unknown key; must be one of unit, link, axis, hub, payload, "),
+        (
+            "[payload]",
+            "[paylod]",
+            "6:2: paylod: unknown key; must be one of unit, link, axis, hub, payload, ",
+        ),
         (
             "mass = 0.03",
             "mass = \"0.03\"",

@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::HubState;
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 
 /// Direction of gravity as the hub frame sees it.
 ///
@@ -76,6 +76,10 @@ impl<T: Scalar> GravityDirection<T> {
             (self.sin, self.cos)
         }
     }
+}
+
+words! {
+    [T: Scalar] GravityDirection<T>: follows, turns, sin, cos;
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ pub use varied::{MAX_MASSES, MAX_SECTIONS, PointMass, Varied};
 
 use crate::Error;
 use crate::hub::GravityDirection;
-use crate::math::Scalar;
+use crate::math::{Scalar, Words, words};
 
 /// An arm: a link clamped to a motor hub, with a payload at its tip.
 ///
@@ -313,4 +313,16 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
         };
         link + self.payload.mass * self.payload_reach()
     }
+}
+
+impl Words for Uniform {
+    fn put(&self, _: &mut dyn FnMut(u32)) {}
+
+    fn get(_: &mut dyn FnMut() -> u32) -> Self {
+        Self
+    }
+}
+
+words! {
+    [] Scene<f64, Uniform>: link, shape, hub, payload, damping, gravity, mount;
 }

@@ -1,6 +1,6 @@
 //! Terms of a tick that a scene needs.
 
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 use crate::scene::{LinkShape, Scene};
 
 /// Terms that the scene needs; the others cost nothing but a branch that never changes.
@@ -23,4 +23,8 @@ impl Terms {
             turns: !scene.mount.is_linear(),
         }
     }
+}
+
+words! {
+    [] Terms: spin, gravity, damping, turns;
 }
