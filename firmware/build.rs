@@ -1,8 +1,12 @@
-//! Link arguments. They stand here because a member's own `.cargo/config.toml` is not read when
+//! Link arguments, and the prepared arm of the program `prepared`. The arguments stand here because a member's own `.cargo/config.toml` is not read when
 //! cargo runs in the workspace root, and the image would come out empty.
 
 use std::path::Path;
 use std::{env, fs};
+
+use stillbeam::prepared::Prepare;
+use stillbeam_golden::methods::{Method, Visitor, visit_all};
+use stillbeam_golden::scenes::SCENES;
 
 /// Where the application's boards are, one file each.
 const BOARDS: &str = "src/bin/application/boards";
@@ -27,6 +31,7 @@ fn main() {
     // The one method of the program `fit`.
     println!("cargo:rerun-if-env-changed=STILLBEAM_METHOD");
     let method = env::var("STILLBEAM_METHOD").unwrap_or_else(|_| "Newmark1Nodal".into());
+    fs::write(folder.join("prepared.rs"), prepared(&method)).expect("the build folder is writable");
     let method = format!("pub use stillbeam_golden::methods::{method} as Chosen;\n");
     fs::write(folder.join("method.rs"), method).expect("the build folder is writable");
     if let Some(board) = &chosen {
@@ -44,6 +49,39 @@ fn main() {
         // application may take of them is a test's to say.
         println!("cargo:rustc-link-arg-bin=application=--defsym=_stack_start=0x20010000");
     }
+}
+
+/// The arm of the program `prepared` as constants: what set-up on the target would have computed, to
+/// the bit. Other names than those of methods are for other programs.
+fn prepared(method: &str) -> String {
+    struct Chosen<'a> {
+        method: &'a str,
+        text: Option<String>,
+    }
+    impl Visitor for Chosen<'_> {
+        fn visit<M: Method>(&mut self) {
+            if M::ID != self.method {
+                return;
+            }
+            let run = SCENES.iter().find(|run| run.name == "b-tip30").expect("the paper's arm");
+            let stepper = M::stepper(&run.scene, run.tick).expect("every method takes this arm");
+            let mut words = Vec::new();
+            stepper.prepare(&mut |word| words.push(word));
+            self.text = Some(format!(
+                "use stillbeam_golden::methods::{} as Chosen;\n\
+                 const TICK: f64 = {:?};\n\
+                 static ARM: [u32; {}] = {words:?};\n",
+                M::ID,
+                run.tick,
+                words.len()
+            ));
+        }
+    }
+    let mut chosen = Chosen { method, text: None };
+    visit_all(&mut chosen);
+    chosen.text.unwrap_or_else(|| {
+        format!("compile_error!(\"STILLBEAM_METHOD = {method}: must be a name in methods/src/lib.rs\");\n")
+    })
 }
 
 /// The board whose feature is on, by its file's name.

@@ -41,6 +41,7 @@
 //! 5. [`Generator`]: stepper and motion; [`Generator::tick`] gives the next [`Setpoint`].
 //! 6. [`planner`]: moves after which the arm is at rest; [`select`]: the cheapest stepper that will
 //!    do.
+//!    Both can be set up on the desktop and loaded: [`prepared`].
 //! 7. [`axis`]: a generator under a policy: enable, stop, a late tick, a lost link.
 //! 8. [`motor`]: the setpoint's demand on the motor's shaft, behind gear and friction.
 //! 9. [`drive`]: that demand as the bytes of a drive's protocol.
@@ -118,6 +119,7 @@ pub mod model;
 pub mod motion;
 pub mod motor;
 pub mod planner;
+pub mod prepared;
 pub mod scene;
 pub mod select;
 pub mod stepper;
@@ -126,6 +128,6 @@ pub use error::Error;
 pub use generator::{Generator, PlanContext, PlannedMove, Setpoint};
 pub use hub::{Angle, HubState};
 pub use math::Scalar;
-pub use motion::{Limits, Move, Profile, Remedy};
+pub use motion::{Limits, Move, PlainMove, Plannable, Profile, Remedy};
 pub use scene::{AxisKind, Damping, Hub, Link, Mount, Payload, Scene, UniformScene};
 pub use stepper::Stepper;

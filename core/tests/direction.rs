@@ -5,9 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules, in the order of the data. A module may import those before it.
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 15] = [
     "math",
     "error",
+    "prepared",
     "hub",
     "material",
     "scene",

@@ -4,6 +4,7 @@ use std::marker::PhantomData;
 
 use stillbeam::model::{Model, Modes, Rod};
 use stillbeam::motion::{Commanded, Moves, Pulse, Shaper};
+use stillbeam::prepared::Prepare;
 use stillbeam::select::{Assessment, Auto, Choice, NoChoice, Rung, Tolerance};
 use stillbeam::stepper::{Elastica, Modal, Newmark, OnCarrier, Rigid, Stepper};
 use stillbeam::{Scalar as Real, Scene, select, stepper};
@@ -70,7 +71,7 @@ pub trait StepperVisitor {
     type Output;
 
     /// Receives the stepper.
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Self::Output, Error>;
+    fn visit<S: Stepper + Prepare + Clone>(self, stepper: S) -> Result<Self::Output, Error>;
 }
 
 /// Builds the stepper that `solver` asks for, model included, and hands it to the visitor. A new

@@ -19,6 +19,7 @@ pub mod console;
 pub mod dispatch;
 pub mod document;
 pub mod error;
+pub mod export;
 mod flight;
 pub mod limits;
 pub mod motion_file;

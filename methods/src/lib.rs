@@ -4,6 +4,7 @@
 //! host builds the one that it is told, and the tests run them all.
 
 use stillbeam::model::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
+use stillbeam::prepared::Prepared;
 use stillbeam::scene::LinkShape;
 use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Scene, Stepper};
@@ -24,7 +25,7 @@ pub trait Method: 'static {
     /// whether the payload has rotary inertia, where it matters.
     const PAYLOAD_INERTIA: Option<bool>;
     /// The stepper, in the tick's precision on the target.
-    type Stepper: Stepper<Scalar = f32>;
+    type Stepper: Stepper<Scalar = f32> + Prepared;
 
     /// Builds the stepper. Set-up.
     fn stepper<S: LinkShape>(scene: &Scene<f64, S>, tick: f64) -> Result<Self::Stepper, Error>;

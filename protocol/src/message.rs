@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::motor::{Direction, Joint};
-use stillbeam::{Angle, Move, Payload, UniformScene};
+use stillbeam::{Angle, Payload, PlainMove, UniformScene};
 
 use crate::Refusal;
 
@@ -30,7 +30,7 @@ pub enum Command {
     /// Brake along the path, then hold.
     Stop,
     /// One more move behind the others.
-    Move(Move),
+    Move(PlainMove),
     /// One more move behind the others, after which the arm is at rest; planned on the target.
     Still {
         /// Angle at the end, rad.

@@ -4,6 +4,7 @@
 mod arm;
 mod bad_input;
 mod commands;
+mod export;
 mod interruption;
 mod motions;
 mod notes;

@@ -4,7 +4,7 @@ use stillbeam::axis::Mode;
 use stillbeam::model::OneElement;
 use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::Newmark;
-use stillbeam::{Error, Generator, Move, Payload, Profile, UniformScene};
+use stillbeam::{Error, Generator, Move, Payload, PlainMove, Profile, UniformScene};
 use stillbeam_board::machine::{CONFIGURATIONS, TICK};
 use stillbeam_board::{Board, Drive, PERIOD};
 use stillbeam_protocol::Command;
@@ -104,7 +104,7 @@ fn a_stop_does_not_wait_for_a_move_that_goes_nowhere() {
         board.hear_drive(&drive.report(board.node()));
         board.ask(Command::Home(0.0));
         board.ask(Command::Enable);
-        board.ask(Command::Move(Move::To { profile: Profile::Cubic, duration: 1e5, to }));
+        board.ask(Command::Move(PlainMove::To { profile: Profile::Cubic, duration: 1e5, to }));
         assert!(board.answers.iter().all(Result::is_ok), "{:?}", board.answers);
         for k in 1..40 {
             if k == 20 {

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::motor::{Direction, Joint};
-use stillbeam::{Angle, Hub, Limits, Link, Move, Payload, Profile, Setpoint, UniformScene};
+use stillbeam::{Angle, Hub, Limits, Link, Payload, PlainMove, Profile, Setpoint, UniformScene};
 use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
 use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status};
 
@@ -14,13 +14,13 @@ fn profiles() -> impl Strategy<Value = Profile> {
 fn commands() -> impl Strategy<Value = Command> {
     let any = any::<f64>;
     let moves = prop_oneof![
-        (profiles(), any(), any()).prop_map(|(profile, duration, to)| Move::To {
+        (profiles(), any(), any()).prop_map(|(profile, duration, to)| PlainMove::To {
             profile,
             duration,
             to
         }),
-        (any(), any()).prop_map(|(duration, rate)| Move::SpinUp { duration, rate }),
-        any().prop_map(|duration| Move::Dwell { duration }),
+        (any(), any()).prop_map(|(duration, rate)| PlainMove::SpinUp { duration, rate }),
+        any().prop_map(|duration| PlainMove::Dwell { duration }),
     ];
     prop_oneof![
         Just(Command::Heartbeat),

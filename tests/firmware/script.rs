@@ -1,6 +1,6 @@
 //! What a user may ask of the firmware in words.
 
-use stillbeam::{Move, Payload, Profile};
+use stillbeam::{Payload, PlainMove, Profile};
 use stillbeam_protocol::Command;
 use stillbeam_sim::talk::{DEMONSTRATION, FAULTS, FIRST, STILL, Step};
 
@@ -8,7 +8,7 @@ use stillbeam_sim::talk::{DEMONSTRATION, FAULTS, FIRST, STILL, Step};
 fn words_are_steps() {
     let step = |text: &str| text.parse::<Step>().unwrap();
     let profile = Profile::SCurve;
-    let motion = Move::To { profile, duration: 0.8, to: -1.5 };
+    let motion = PlainMove::To { profile, duration: 0.8, to: -1.5 };
     assert_eq!(step(" move 1  s-curve 0.8 -1.5 "), Step::Ask(1, Command::Move(motion)));
     let payload = Payload { mass: 0.05, inertia: 0.0, offset: 0.0 };
     assert_eq!(step("payload 0 0.05"), Step::Ask(0, Command::Payload(payload)));

@@ -1,6 +1,7 @@
 //! The instruction table: the counts of the bench, as CSV and as the page in `docs/`.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use stillbeam_golden::paths::PATHS;
 
@@ -88,9 +89,21 @@ pub fn count_soft() -> Result<Bench, String> {
 /// # Errors
 /// Errors are those of [`count`].
 pub fn minimal(id: &str) -> Result<Minimal, String> {
-    let image = firmware::build_with("minimal", "STILLBEAM_METHOD", id)?;
-    let footprint = image::footprint(&image)?;
-    let printed = emulator::run(&image, Clock::Host, LIMIT)?;
+    measure(&firmware::build_with("minimal", "STILLBEAM_METHOD", id)?)
+}
+
+/// Builds and runs the image that loads a prepared arm, by its method's name in the list.
+///
+/// # Errors
+/// Errors are those of [`count`].
+pub fn prepared(id: &str) -> Result<Minimal, String> {
+    measure(&firmware::build_with("prepared", "STILLBEAM_METHOD", id)?)
+}
+
+/// Runs an image that prints its deepest stack as four bytes.
+fn measure(image: &Path) -> Result<Minimal, String> {
+    let footprint = image::footprint(image)?;
+    let printed = emulator::run(image, Clock::Host, LIMIT)?;
     let stack = printed.try_into().map_err(|_| format!("{}: four bytes", image.display()))?;
     Ok(Minimal { flash: footprint.flash, ram: footprint.ram, stack: u32::from_le_bytes(stack) })
 }

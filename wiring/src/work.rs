@@ -1,13 +1,13 @@
 //! Requests that need a plan or a set-up, and are answered when it is there.
 
-use stillbeam::{Move, Payload};
+use stillbeam::{Payload, PlainMove};
 use stillbeam_protocol::Command;
 
 /// Work for the planner, below the tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Work {
     /// A move to plan.
-    Move(Move),
+    Move(PlainMove),
     /// A move to `to` rad after which the arm is at rest, in the shortest time if none is given.
     Still {
         /// Hub angle at the end, rad.

@@ -33,6 +33,6 @@ impl PlanContext {
             ..Request::from_hub(HubState::at_rest(start.angle), Target::Angle(to))
         };
         let still = planner.plan(&request)?;
-        self.plan(&still.motion())
+        self.plan(&still.plain())
     }
 }

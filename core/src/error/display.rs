@@ -13,7 +13,8 @@ impl Display for Error {
             | Self::CannotCheck { .. }
             | Self::Tolerance { .. }
             | Self::Buckles { .. }
-            | Self::DegreesOfFreedom { .. } => value(self, f),
+            | Self::DegreesOfFreedom { .. }
+            | Self::NotPrepared { .. } => value(self, f),
             Self::LimitExceeded { .. }
             | Self::TooFast { .. }
             | Self::BendsTooFar { .. }
@@ -66,6 +67,11 @@ fn value(error: &Error, f: &mut Formatter<'_>) -> Result {
             f,
             "elements: the model type has {given} degrees of freedom, must be {needed} for \
              this scene"
+        ),
+        Error::NotPrepared { parameter, found, needed } => write!(
+            f,
+            "{parameter} = {found:#010x}: must be {needed:#010x} in an arm prepared for this \
+             program; export it anew"
         ),
         _ => Ok(()),
     }
@@ -170,7 +176,7 @@ mod tests {
     use crate::error::Mode;
 
     /// One error of every kind. The match is there to fail to compile when a kind is added.
-    fn every_kind() -> [Error; 19] {
+    fn every_kind() -> [Error; 20] {
         let (parameter, unit) = ("link.length", "m");
         let all = [
             Error::OutOfRange { parameter, value: -1.0, min: 1e-3, max: 1e3, unit },
@@ -197,6 +203,7 @@ mod tests {
             Error::Stale,
             Error::Starved,
             Error::NoMove,
+            Error::NotPrepared { parameter: "arm.format", found: 2, needed: 1 },
         ];
         for error in &all {
             match error {
@@ -209,6 +216,7 @@ mod tests {
                 Error::Elsewhere { .. } | Error::Buckles { .. } => {}
                 Error::DegreesOfFreedom { .. } | Error::WrongMode { .. } => {}
                 Error::Moving | Error::Stale | Error::Starved | Error::NoMove => {}
+                Error::NotPrepared { .. } => {}
             }
         }
         all

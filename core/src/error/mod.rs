@@ -138,6 +138,17 @@ pub enum Error {
     Starved,
     /// No move is under way whose duration could be changed.
     NoMove,
+    /// The words that a stepper is loaded from are not those of a prepared stepper of its type and
+    /// version, or have changed: see [`Prepared`](crate::prepared::Prepared).
+    NotPrepared {
+        /// What differs: `arm.magic`, `arm.format`, `arm.method`, `arm.sizes`, `arm.length`,
+        /// `arm.checksum` or `arm.words`.
+        parameter: &'static str,
+        /// Word that was found.
+        found: u32,
+        /// Word that must be there.
+        needed: u32,
+    },
 }
 
 /// Longest move, ticks: counts up to here are exact in an f32.

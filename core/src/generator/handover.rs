@@ -7,7 +7,7 @@ use super::{Generator, Part};
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Limits, MAX_SEGMENTS, Move, MoveSummary, Segment, plan_segments};
+use crate::motion::{Limits, MAX_SEGMENTS, MoveSummary, Plannable, Segment};
 use crate::stepper::Stepper;
 
 /// Start of a generator's next move, with the limits that it must keep.
@@ -39,13 +39,14 @@ impl PlanContext {
     ///
     /// Moves that come over a wire are planned here, so it demands more than [`Generator::push`]: a
     /// move turns by 2⁻¹⁶/ε turns at most, 128 in f32, so that its angle is right to 2⁻¹⁶ turn.
-    pub fn plan<T: Scalar>(&self, motion: &Move) -> Result<PlannedMove<T>, Error> {
+    pub fn plan<T: Scalar>(&self, motion: &impl Plannable) -> Result<PlannedMove<T>, Error> {
         let mut segments = Vec::new();
-        let summary = plan_segments(motion, self.start, &self.limits, self.tick, &mut |segment| {
-            // No move has more.
-            let _ = segments.push(*segment);
-        })?;
-        if !matches!(motion, Move::Dwell { .. }) {
+        let summary =
+            motion.plan_segments(self.start, &self.limits, self.tick, &mut |segment| {
+                // No move has more.
+                let _ = segments.push(*segment);
+            })?;
+        if !motion.keeps_rate() {
             resolved::<T>(&self.start, &summary)?;
         }
         Ok(PlannedMove { segments, start: self.start, summary })

@@ -19,7 +19,7 @@ pub(crate) use stop::Arrival;
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Limits, Move, MoveSummary, Plan, Remedy, Segment, plan_segments};
+use crate::motion::{Limits, Move, MoveSummary, Plan, Plannable, Remedy, Segment};
 use crate::scene::AxisKind;
 use crate::stepper::{AnyMotion, AtRest, KinkMoments, Linear, Response, Stepper};
 
@@ -146,11 +146,11 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ///
     /// Runs in f64 and is not for the tick's interrupt. Either the whole move is taken or nothing
     /// changes.
-    pub fn push(&mut self, motion: &Move) -> Result<MoveSummary, Error> {
+    pub fn push(&mut self, motion: &impl Plannable) -> Result<MoveSummary, Error> {
         let (start, tick) = (self.next_start(), self.stepper.tick());
         let (mut needed, free) = (0, QUEUE - self.queue.len());
         let mut moment = self.border_moment();
-        let summary = plan_segments(motion, start, &self.limits, tick, &mut |segment| {
+        let summary = motion.plan_segments(start, &self.limits, tick, &mut |segment| {
             needed += 1;
             // A full queue gives it back; told below.
             let _ = self.queue.push_back(segment.behind(&mut moment));

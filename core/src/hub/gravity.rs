@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::HubState;
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 
 /// Direction of gravity as the hub frame sees it.
 ///
@@ -31,6 +31,7 @@ impl<T: Scalar> GravityDirection<T> {
     }
 
     /// Gravity on a carriage, turned by δ = `direction` rad from global −Y.
+    #[inline(never)]
     pub(crate) fn on_carriage<P: Scalar>(direction: P) -> Self {
         let turns = T::from_f64(direction.to_f64() / TAU);
         let (sin, cos) = (-turns).sin_cos_turns();
@@ -75,6 +76,10 @@ impl<T: Scalar> GravityDirection<T> {
             (self.sin, self.cos)
         }
     }
+}
+
+words! {
+    [T: Scalar] GravityDirection<T>: follows, turns, sin, cos;
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Symmetric band matrices and their LDLᵀ factors.
 
-use super::{Scalar, dot};
+use super::{Scalar, dot, words};
 
 /// Symmetric `N × N` matrix with `W − 1` sub-diagonals, row-wise: `rows[i][d] = A[i][i − d]`.
 ///
@@ -274,6 +274,12 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
         }
         x
     }
+}
+
+words! {
+    [T: Scalar, const N: usize, const W: usize] Band<T, N, W>: rows;
+    [T: Scalar, const N: usize, const W: usize] HalfForm<T, N, W>: rows;
+    [T: Scalar, const N: usize, const W: usize] Ldl<T, N, W>: lower, inverse;
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ mod least_squares;
 mod principal;
 mod propagator;
 mod scalar;
+mod words;
 
 pub use band::{Band, HalfForm, Ldl};
 pub(crate) use gauss::{GAUSS_POINTS, gauss_points, polynomial};
@@ -18,6 +19,8 @@ pub(crate) use least_squares::LeastSquares;
 pub(crate) use principal::{principal_axes, root};
 pub(crate) use propagator::{Matrix2, phi_functions, product};
 pub use scalar::Scalar;
+pub use words::Words;
+pub(crate) use words::words;
 
 /// Square root, correctly rounded, the same bits everywhere. Set-up only.
 pub(crate) fn sqrt(x: f64) -> f64 {

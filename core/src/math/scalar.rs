@@ -3,6 +3,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+use super::Words;
+
 /// A real number of the tick path.
 ///
 /// Only `+ − × ÷`, the absolute value, comparisons and conversions: these are IEEE-exact on every
@@ -21,6 +23,7 @@ pub trait Scalar:
     + Neg<Output = Self>
     + AddAssign
     + SubAssign
+    + Words
     + 'static
 {
     /// 0.

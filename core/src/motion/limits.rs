@@ -1,6 +1,7 @@
 //! Limits of the drive, and the peaks of a move that are held against them.
 
 use crate::Error;
+use crate::math::words;
 
 /// Limits of the drive; `None` is unlimited.
 ///
@@ -133,4 +134,8 @@ fn within(
         }
         _ => Ok(()),
     }
+}
+
+words! {
+    [] Limits: rate, acceleration, deceleration, jerk, torque, moment;
 }

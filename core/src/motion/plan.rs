@@ -1,21 +1,15 @@
-//! Cuts a move into segments, once a move. Its ends are computed in f64; what the tick evaluates is
-//! computed in the precision of the tick.
+//! Plans of moves, and the shortest duration that keeps the limits.
 
 use core::f64::consts::TAU;
 
 use heapless::Vec;
 
-use super::cubics::lay_cubics;
-use super::demand::{Demand, admit};
+use super::demand::Demand;
 use super::optimal::{Bounds, TimeOptimal};
-use super::pass::Pass;
-use super::segment::Shape;
-use super::shapes::{Shapes, quintic, rest_to_rest, spin_up};
-use super::{Limits, Move, Peaks, Profile, Remedy, Segment, curve_peaks};
+use super::{Limits, Move, Peaks, Plannable, Remedy, Segment};
 use crate::Error;
 use crate::error::MAX_TICKS;
 use crate::hub::{Angle, HubState, MAX_ANGLE};
-use crate::math::Scalar;
 
 /// Segments of the longest plan: seven of constant jerk, and one up to the next tick.
 pub const MAX_SEGMENTS: usize = 8;
@@ -59,7 +53,7 @@ impl Plan {
         tick: f64,
     ) -> Result<Self, Error> {
         let mut segments = Vec::new();
-        let summary = plan_segments(motion, start, limits, tick, &mut |segment| {
+        let summary = motion.plan_segments(start, limits, tick, &mut |segment| {
             // No move has more.
             let _ = segments.push(*segment);
         })?;
@@ -109,7 +103,7 @@ impl Plan {
                 _ => f64::from(MAX_TICKS) * tick,
             }),
         };
-        plan_segments::<f64>(&shortest, start, limits, tick, &mut |_| ()).map(|_| shortest)
+        shortest.plan_segments::<f64>(start, limits, tick, &mut |_| ()).map(|_| shortest)
     }
 
     /// Returns a move from any state in the first duration that keeps the limits, from the shortest
@@ -130,7 +124,7 @@ impl Plan {
             .map_or(0.0, |shortest| shortest.duration());
         let lasting = |ticks: u32| motion.lasting(f64::from(ticks) * tick);
         let fits = |ticks: u32| {
-            plan_segments::<f64>(&lasting(ticks), start, limits, tick, &mut |_| ()).is_ok()
+            lasting(ticks).plan_segments::<f64>(start, limits, tick, &mut |_| ()).is_ok()
         };
         let mut fails = (least / tick - 1e-6).clamp(0.0, f64::from(MAX_TICKS - 1)) as u32;
         let mut reach = fails + 1;
@@ -150,152 +144,5 @@ impl Plan {
             }
         }
         Ok(lasting(reach))
-    }
-}
-
-/// Plans `motion` and hands its segments to `sink`, first to last; none if it is refused.
-pub(crate) fn plan_segments<T: Scalar>(
-    motion: &Move,
-    start: HubState<f64>,
-    limits: &Limits,
-    tick: f64,
-    sink: &mut dyn FnMut(&Segment<T>),
-) -> Result<MoveSummary, Error> {
-    let limits = limits.of_motion()?;
-    match *motion {
-        Move::Reach { .. } | Move::Ramp { .. } => plan_shortest(motion, start, &limits, tick, sink),
-        _ => plan_lasting(motion, start, &limits, tick, sink),
-    }
-}
-
-/// Plans a move that takes the shortest time.
-// Not inlined: the plan of another move needs no stack for it.
-#[inline(never)]
-fn plan_shortest<T: Scalar>(
-    motion: &Move,
-    start: HubState<f64>,
-    limits: &Limits,
-    tick: f64,
-    sink: &mut dyn FnMut(&Segment<T>),
-) -> Result<MoveSummary, Error> {
-    let shortest = match *motion {
-        Move::Reach { to, rate, bounds } => {
-            let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
-            let end = HubState::turning(Angle::from_radians(to), rate);
-            TimeOptimal::reach(&start, &end, &bounds)?
-        }
-        Move::Ramp { rate, bounds } => TimeOptimal::ramp(&start, rate, &bounds)?,
-        // Those that have a duration never come here.
-        _ => return plan_lasting(motion, start, limits, tick, sink),
-    };
-    shortest.admitted(limits, tick)?.lay(tick, sink)
-}
-
-/// Plans a move that has a duration.
-fn plan_lasting<T: Scalar>(
-    motion: &Move,
-    start: HubState<f64>,
-    limits: &Limits,
-    tick: f64,
-    sink: &mut dyn FnMut(&Segment<T>),
-) -> Result<MoveSummary, Error> {
-    let ticks = motion.ticks(tick)?;
-    let duration = f64::from(ticks) * tick;
-    let turned = |rate: f64| rate * duration / TAU;
-    let rounded_by = duration - motion.duration();
-    let (shapes, end, demand) = match *motion {
-        Move::Pass { profile, to, rate, .. } => {
-            let summary = plan_pass(profile, [to, rate], start, limits, [duration, tick], sink)?;
-            return Ok(MoveSummary { ticks, rounded_by, ..summary });
-        }
-        Move::To { profile, to, .. } => {
-            let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
-            if start.rate != 0.0 {
-                return Err(Error::NotAtRest { rate: start.rate });
-            }
-            let (delta, end) = turn_to(to, &start);
-            (rest_to_rest(profile, delta), end, Demand::Turn(profile, delta * TAU))
-        }
-        Move::SpinUp { rate, .. } => {
-            let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
-            let change = rate - start.rate;
-            let mean = 0.5 * (rate + start.rate);
-            let end = HubState::turning(start.angle.plus(turned(mean)), rate);
-            let demand = Demand::Spin { from: start.rate, to: rate };
-            let (old, change) = (turned(start.rate), turned(change));
-            (Shapes::One(spin_up(T::from_f64(old), T::from_f64(change))), end, demand)
-        }
-        Move::Still { to, bulge, .. } => {
-            let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
-            if start.rate != 0.0 {
-                return Err(Error::NotAtRest { rate: start.rate });
-            }
-            for b in bulge {
-                Error::check("move.bulge", b, -MAX_ANGLE, MAX_ANGLE, "rad")?;
-            }
-            let (delta, end) = turn_to(to, &start);
-            let (c, d) = (quintic(T::from_f64(delta)), bulge.map(|b| T::from_f64(b / TAU)));
-            let demand = Demand::Curve(curve_peaks(&c, &d, duration));
-            (Shapes::One(Shape::Bulged { c, d }), end, demand)
-        }
-        // The shortest motions never come here.
-        Move::Dwell { .. } | Move::Reach { .. } | Move::Ramp { .. } => {
-            let angle = start.angle.plus(turned(start.rate));
-            (Shapes::Hold, HubState::turning(angle, start.rate), Demand::Hold(start.rate))
-        }
-    };
-    let peaks = demand.admit(limits, ticks, tick)?;
-    emit(shapes, &start, ticks, tick, sink);
-    Ok(MoveSummary { end, ticks, peaks, rounded_by })
-}
-
-/// Plans a move in `duration` s from any state to the angle `to`, rad, passed at `rate`, rad/s. Its
-/// ticks are left to be told.
-// Not inlined, for the same reason.
-#[inline(never)]
-fn plan_pass<T: Scalar>(
-    profile: Profile,
-    [to, rate]: [f64; 2],
-    start: HubState<f64>,
-    limits: &Limits,
-    [duration, tick]: [f64; 2],
-    sink: &mut dyn FnMut(&Segment<T>),
-) -> Result<MoveSummary, Error> {
-    let to = Error::check("move.to", to, -MAX_ANGLE, MAX_ANGLE, "rad")?;
-    let rate = Error::check("move.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
-    let end = HubState::turning(Angle::from_radians(to), rate);
-    let pass = Pass::new(profile, start, end, duration, tick);
-    admit(limits, &pass.peaks, tick)?;
-    pass.emit(start, sink);
-    Ok(MoveSummary { end, ticks: 0, peaks: pass.peaks, rounded_by: 0.0 })
-}
-
-/// Turns from `start` to the angle `to`, rad, and the hub at rest there. The end is exactly that
-/// angle, whatever the turns round to.
-#[inline(always)]
-fn turn_to(to: f64, start: &HubState<f64>) -> (f64, HubState<f64>) {
-    let end = HubState::at_rest(Angle::from_radians(to));
-    (end.angle.since(start.angle), end)
-}
-
-/// Hands the segments of a move from `start` to `sink`, first to last.
-#[inline(always)]
-fn emit<T: Scalar>(
-    shapes: Shapes<T>,
-    start: &HubState<f64>,
-    ticks: u32,
-    tick: f64,
-    sink: &mut dyn FnMut(&Segment<T>),
-) {
-    match shapes {
-        Shapes::Hold => sink(&Segment::cruise(start.angle, start.rate, ticks, tick)),
-        Shapes::One(shape) => {
-            let length = T::from_u32(ticks);
-            let segment = Segment::new(start.angle, shape, length, T::ZERO, ticks, tick);
-            // Every shape of one piece begins and ends without acceleration.
-            let rate = T::from_f64(start.rate);
-            sink(&segment.beginning(rate, T::ZERO).ending(T::ZERO));
-        }
-        Shapes::Cubics(pieces, turn) => lay_cubics(pieces, turn, start.angle, ticks, tick, sink),
     }
 }

@@ -178,15 +178,18 @@ impl Move {
     /// # Errors
     /// The duration is under half a tick or over 2²⁴ ticks, or none is asked for.
     pub fn ticks(&self, tick: f64) -> Result<u32, Error> {
-        let duration = Error::check(
-            "move.duration",
-            self.duration(),
-            0.5 * tick,
-            tick * f64::from(MAX_TICKS),
-            "s",
-        )?;
-        Ok(((duration / tick + 0.5) as u32).max(1))
+        whole_ticks(self.duration(), tick)
     }
+}
+
+/// Returns the whole number of ticks of `tick` s nearest to `duration` s, at least one.
+///
+/// # Errors
+/// The duration is under half a tick or over 2²⁴ ticks.
+pub(super) fn whole_ticks(duration: f64, tick: f64) -> Result<u32, Error> {
+    let most = tick * f64::from(MAX_TICKS);
+    let duration = Error::check("move.duration", duration, 0.5 * tick, most, "s")?;
+    Ok(((duration / tick + 0.5) as u32).max(1))
 }
 
 impl fmt::Display for Move {

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use super::Objective;
 use super::curve::{bulges, quintic};
-use crate::math::{Scalar, dot};
+use crate::math::{Scalar, dot, words};
 use crate::motion::{BULGE, curve_peaks};
 
 /// Most amplitudes that a move has to bring to zero: two of each of three arms.
@@ -168,4 +168,8 @@ impl<T: Scalar> Response<T> {
         }
         Self { rows, offset }
     }
+}
+
+words! {
+    [T: Scalar] Oscillation<T>: decay, damped, ratio, gain, alpha;
 }

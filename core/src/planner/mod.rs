@@ -26,6 +26,7 @@ mod loads;
 mod objective;
 mod path;
 mod prediction;
+mod prepared;
 mod problem;
 mod redirect;
 mod request;
@@ -47,7 +48,7 @@ pub use stop::StopThenMove;
 use simulate::{Arm, Resolution};
 
 use crate::Error;
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 use crate::model::{Rod, RodPoints};
 use crate::motion::{Limits, Move};
 use crate::scene::{LinkShape, Scene, Uniform};
@@ -172,4 +173,8 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
     fn resolution(&self, duration: f64) -> &Resolution<T, K> {
         if duration < LONG * self.first_period() { &self.fine } else { &self.coarse }
     }
+}
+
+words! {
+    [T: Scalar, const K: usize] Planner<T, K>: points, coarse, fine, robust, scene, tick, loads;
 }

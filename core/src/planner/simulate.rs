@@ -6,7 +6,7 @@ use super::linear::Oscillation;
 use super::{MAX_ARMS, Path};
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Scalar, cast, sqrt};
+use crate::math::{Scalar, cast, sqrt, words};
 use crate::model::{Load, Rod, RodPoints};
 use crate::motion::Segment;
 use crate::scene::{LinkShape, Scene};
@@ -219,4 +219,10 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
                 + self.coupling[k] * drive
         })
     }
+}
+
+words! {
+    [T: Scalar, const K: usize] Arm<T, K>: modes, stiffness, loss, coupling, oscillation, alpha,
+        tip_per_mode, frequency;
+    [T: Scalar, const K: usize] Resolution<T, K>: arms, steps, per_step;
 }

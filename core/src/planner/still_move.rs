@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use super::Path;
 use crate::hub::HubState;
 use crate::math::{Scalar, cast};
-use crate::motion::{BULGE, Move, Peaks, Segment, curve_peaks};
+use crate::motion::{BULGE, Move, Peaks, PlainMove, Segment, curve_peaks};
 
 /// A move after which the arm is at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,9 +45,15 @@ impl StillMove {
     /// A move that ends turning is for `redirect` only. It comes back with a bulge that is no
     /// number, which every queue refuses.
     #[must_use]
-    pub fn motion(&self) -> Move {
+    pub fn plain(&self) -> PlainMove {
         let bulge = if self.rate == 0.0 { self.bulge } else { [f64::NAN; BULGE] };
-        Move::Still { duration: self.duration(), to: self.to, bulge }
+        PlainMove::Still { duration: self.duration(), to: self.to, bulge }
+    }
+
+    /// Returns [`Self::plain`] among moves of other kinds.
+    #[must_use]
+    pub fn motion(&self) -> Move {
+        self.plain().into()
     }
 
     /// Returns the curve of the hub.

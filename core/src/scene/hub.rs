@@ -2,7 +2,7 @@
 
 use super::AxisKind;
 use crate::Error;
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 
 /// The motor hub, and the joint between it and the link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -86,4 +86,10 @@ impl<T: Scalar> Damping<T> {
     pub fn is_zero(&self) -> bool {
         self.alpha == T::ZERO && self.beta == T::ZERO && self.joint == T::ZERO
     }
+}
+
+words! {
+    [] Hub<f64>: radius, inertia, stiffness;
+    [] Payload<f64>: mass, inertia, offset;
+    [] Damping<f64>: alpha, beta, joint;
 }

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::material::{Material, Strip};
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 
 /// A link in cubic Bernoulli-Euler bending in the plane of motion, described as a uniform one.
 ///
@@ -53,4 +53,8 @@ impl<T: Scalar> Link<T> {
         Error::check("link.bending_stiffness", self.bending_stiffness, 1e-9, 1e12, "N m^2")?;
         Ok(self)
     }
+}
+
+words! {
+    [] Link<f64>: length, mass, bending_stiffness;
 }

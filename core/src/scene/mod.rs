@@ -21,7 +21,7 @@ pub use varied::{MAX_MASSES, MAX_SECTIONS, PointMass, Varied};
 
 use crate::Error;
 use crate::hub::GravityDirection;
-use crate::math::Scalar;
+use crate::math::{Scalar, Words, words};
 
 /// An arm: a link clamped to a motor hub, with a payload at its tip.
 ///
@@ -216,6 +216,7 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
     }
 
     /// Refuses a carrier that turns: of a model that does not know of it.
+    #[inline(never)]
     pub(crate) fn check_no_carrier(&self) -> Result<(), Error> {
         let unit = "rad/s here, which is for a carrier that rests";
         Error::check("carrier.rate", self.mount.carrier, 0.0, 0.0, unit).map(drop)
@@ -255,6 +256,8 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
     }
 
     /// Gravity in the plane of motion, `g cos(tilt)`, m/s².
+    // Not inlined, as the next two: set-up asks several times, and has time.
+    #[inline(never)]
     pub fn in_plane_gravity(&self) -> T {
         let tilt = self.mount.tilt;
         if tilt == T::ZERO {
@@ -310,4 +313,16 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
         };
         link + self.payload.mass * self.payload_reach()
     }
+}
+
+impl Words for Uniform {
+    fn put(&self, _: &mut dyn FnMut(u32)) {}
+
+    fn get(_: &mut dyn FnMut() -> u32) -> Self {
+        Self
+    }
+}
+
+words! {
+    [] Scene<f64, Uniform>: link, shape, hub, payload, damping, gravity, mount;
 }

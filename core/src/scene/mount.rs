@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::Error;
-use crate::math::Scalar;
+use crate::math::{Scalar, Words, words};
 
 /// Kind of the axis that moves the hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -82,4 +82,18 @@ impl Mount {
             carrier: f(self.carrier),
         }
     }
+}
+
+impl Words for AxisKind {
+    fn put(&self, sink: &mut dyn FnMut(u32)) {
+        (*self == Self::Linear).put(sink);
+    }
+
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        if bool::get(source) { Self::Linear } else { Self::Rotary }
+    }
+}
+
+words! {
+    [] Mount: axis, tilt, direction, carrier;
 }

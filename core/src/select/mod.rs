@@ -15,6 +15,7 @@ use crate::hub::{GravityDirection, HubState};
 use crate::math::Scalar;
 use crate::model::{EightElements, Rod};
 use crate::motion::{Move, Moves, Peaks};
+use crate::prepared::Prepare;
 use crate::stepper::{
     Elastica, ElasticaState, FastPaths, HubMotion, KinkMoments, Modal, ModalState, Response, Rigid,
     Stepper, check_tick,
@@ -206,6 +207,21 @@ impl<T: Scalar> Stepper for Auto<T> {
     #[inline(always)]
     fn is_settled(&self, state: &AutoState<T>) -> bool {
         each_with_state!(self, state, (s, own) => s.is_settled(own), false)
+    }
+}
+
+/// The words of the stepper itself, which a program loads by its own type.
+impl<T: Scalar> Prepare for Auto<T> {
+    fn kind(&self) -> [u32; 2] {
+        each!(self, s => s.kind())
+    }
+
+    fn period(&self) -> f64 {
+        self.tick()
+    }
+
+    fn put_own(&self, sink: &mut dyn FnMut(u32)) {
+        each!(self, s => s.put_own(sink));
     }
 }
 

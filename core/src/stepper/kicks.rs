@@ -1,7 +1,7 @@
 //! Response of a mode to a kink of the motion inside a tick.
 
 use super::oscillator::pulled_back;
-use crate::math::{Matrix2, Scalar, phi_functions, product};
+use crate::math::{Matrix2, Scalar, Words, phi_functions, product};
 use crate::motion::{Kink, ORDERS};
 
 /// Changes of a mode's state before a tick, one for each moment of a [`Kink`].
@@ -77,6 +77,16 @@ fn answers(z: &Matrix2) -> [Matrix2; ORDERS] {
         *answer = before;
     }
     answers
+}
+
+impl<T: Scalar> Words for Kicks<T> {
+    fn put(&self, sink: &mut dyn FnMut(u32)) {
+        self.0.put(sink);
+    }
+
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        Self(Words::get(source))
+    }
 }
 
 // Not under Miri, which takes many minutes for the sums and finds nothing here: no code is unsafe.

@@ -10,6 +10,7 @@ mod newmark;
 mod on_carrier;
 mod oscillator;
 mod path;
+mod prepared;
 mod rigid;
 mod shaped;
 mod terms;

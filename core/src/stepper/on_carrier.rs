@@ -3,7 +3,7 @@
 use super::{AnyMotion, FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Scalar, round};
+use crate::math::{Scalar, Words, round, words};
 use crate::motion::Peaks;
 use crate::scene::{LinkShape, Mount, Scene};
 
@@ -41,6 +41,16 @@ impl<S: Stepper> OnCarrier<S> {
         let rate = carrier.to_f64();
         arm.admit(&Peaks { rate: rate.abs(), acceleration: 0.0, jerk: 0.0 }, rate)?;
         Ok(Self { arm, carrier: round(carrier) })
+    }
+
+    /// The stepper of the arm on a carrier that rests.
+    pub(super) fn arm(&self) -> &S {
+        &self.arm
+    }
+
+    /// `Ω`, rad/s.
+    pub(super) fn carrier(&self) -> S::Scalar {
+        self.carrier
     }
 
     /// The hub as the link feels it.
@@ -124,4 +134,8 @@ impl<S: Stepper> Stepper for OnCarrier<S> {
     fn is_settled(&self, state: &S::State) -> bool {
         self.arm.is_settled(state)
     }
+}
+
+words! {
+    [S: Stepper + Words] OnCarrier<S>: arm, carrier;
 }

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Scalar, phi_functions};
+use crate::math::{Scalar, phi_functions, words};
 
 /// `ȧ = p + nₐ`, `ṗ = −ω²a − (α + βω²)p − b u(t) + n_p`, with `u = θ̈ + αθ̇`.
 ///
@@ -272,3 +272,7 @@ pub(super) fn contracting<T: Scalar>(exact: [[f64; 2]; 2]) -> [[T; 2]; 2] {
 
 /// Steps of an eighth of a rounding; some ten are enough.
 const MOST_STEPS: u32 = 1000;
+
+words! {
+    [T: Scalar] Oscillator<T>: gain, drive, constant, slope, correction;
+}

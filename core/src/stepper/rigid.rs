@@ -3,7 +3,7 @@
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Scalar, round};
+use crate::math::{Scalar, round, words};
 use crate::motion::Peaks;
 use crate::scene::{LinkShape, Scene};
 
@@ -87,6 +87,10 @@ impl<T: Scalar> Stepper for Rigid<T> {
     fn is_settled(&self, (): &()) -> bool {
         true
     }
+}
+
+words! {
+    [T: Scalar] Rigid<T>: tick, inertia, drag, weight, reach, gravity;
 }
 
 #[cfg(test)]

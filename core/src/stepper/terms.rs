@@ -1,6 +1,6 @@
 //! Terms of a tick that a scene needs.
 
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 use crate::scene::{LinkShape, Scene};
 
 /// Terms that the scene needs; the others cost nothing but a branch that never changes.
@@ -20,4 +20,8 @@ impl Terms {
             damping: !scene.damping.is_zero(),
         }
     }
+}
+
+words! {
+    [] Terms: spin, gravity, damping, turns;
 }

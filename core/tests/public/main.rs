@@ -12,6 +12,7 @@ mod optimal;
 mod path;
 mod peaks;
 mod plan;
+mod prepared;
 mod remedy;
 mod sequence;
 mod shapers;

@@ -18,7 +18,7 @@ use embassy_sync::channel::Channel;
 use heapless::Vec;
 use semihosting::process::ExitCode;
 use stillbeam::axis::{Axis, Mode};
-use stillbeam::{Angle, Error, Move, Profile};
+use stillbeam::{Angle, Error, PlainMove, Profile};
 use stillbeam_firmware::counter::{Chosen as Counter, Stopwatch};
 use stillbeam_firmware::output::Output;
 use stillbeam_golden::methods::Method;
@@ -104,7 +104,7 @@ fn run(watch: &Stopwatch<Counter>, mode: Mode, heard: bool) -> u32 {
 
 /// The same move for every axis.
 #[inline(never)]
-fn take(motion: &Move) {
+fn take(motion: &PlainMove) {
     with(|joints| {
         for axis in joints.iter_mut() {
             let context = axis.plan_context().expect("the axes are enabled");
@@ -114,8 +114,8 @@ fn take(motion: &Move) {
     });
 }
 
-const fn to(profile: Profile, duration: f64, to: f64) -> Move {
-    Move::To { profile, duration, to }
+const fn to(profile: Profile, duration: f64, to: f64) -> PlainMove {
+    PlainMove::To { profile, duration, to }
 }
 
 #[entry]

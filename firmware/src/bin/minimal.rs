@@ -15,7 +15,7 @@ use semihosting::process;
 use stillbeam::model::Rod;
 use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::{Elastica, Quality};
-use stillbeam::{Error, Generator, Link, Move, Profile, UniformScene};
+use stillbeam::{Error, Generator, Link, PlainMove, Profile, UniformScene};
 use stillbeam_firmware::{exit, stack};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 
@@ -56,7 +56,7 @@ fn one_move<M: Method>() -> Option<()> {
     let mut arm = Generator::<_, 2>::new(M::stepper(&scene, 0.010).ok()?, 0.0).ok()?;
     // The profile is known, so that only it is planned; duration and angle are not.
     let (duration, to) = black_box((2.0, core::f64::consts::PI));
-    let motion = Move::To { profile: Profile::Cubic, duration, to };
+    let motion = PlainMove::To { profile: Profile::Cubic, duration, to };
     arm.push(&motion).ok()?;
     for _ in 0..=400 {
         black_box(arm.tick());
@@ -78,7 +78,7 @@ fn one_still_move() -> Result<(), Error> {
     let mut arm = Generator::<_, 2>::new(stepper, 0.0)?;
     let planner = Planner::<f32, 2>::new(&scene, 0.010)?;
     let request = Request::from_rest(0.0, black_box(core::f64::consts::PI)).duration(2.0);
-    arm.push(&planner.plan(&request.any_deflection())?.motion())?;
+    arm.push(&planner.plan(&request.any_deflection())?.plain())?;
     for _ in 0..=400 {
         black_box(arm.tick());
     }

@@ -2,6 +2,7 @@
 
 mod arm;
 mod compare;
+mod export;
 mod motion;
 mod plan;
 mod reference;
@@ -52,6 +53,8 @@ enum Command {
     Run(run::RunArgs),
     /// Plan a move that arrives still, judge it and draw it
     Plan(plan::PlanArgs),
+    /// Write a scene's stepper as constants, for a program without set-up
+    Export(export::ExportArgs),
     /// Compare two runs of a scene
     Compare(compare::CompareArgs),
     /// Solve a scene with a reference solver
@@ -72,6 +75,7 @@ impl Cli {
             Some(Command::Arm(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Plan(args)) => args.execute(),
+            Some(Command::Export(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Reference(args)) => args.execute(),
             #[cfg(feature = "talk")]

@@ -4,7 +4,7 @@ use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::{Demand, Drivetrain};
 use stillbeam::planner::Planner;
-use stillbeam::{Angle, Move};
+use stillbeam::{Angle, PlainMove};
 use stillbeam_protocol::{Command, Description};
 use stillbeam_wiring::drive::{Switch, demand};
 use stillbeam_wiring::{Configuration, Work};
@@ -56,7 +56,7 @@ impl Replica {
         }
     }
 
-    fn follow(&mut self, motion: &Move) -> Result<(), Error> {
+    fn follow(&mut self, motion: &PlainMove) -> Result<(), Error> {
         let planned = self.axis.plan_context().map_err(apart)?.plan(motion)?;
         self.axis.take(&planned).map(drop).map_err(apart)
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use stillbeam::{Move, Payload, Profile};
+use stillbeam::{Payload, PlainMove, Profile};
 use stillbeam_protocol::Command;
 
 use super::{Answer, Session};
@@ -130,7 +130,7 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
         "move" => {
             let profile = Profile::named(words.next()?)?;
             let (duration, to) = (number(words.next())?, number(words.next())?);
-            Command::Move(Move::To { profile, duration, to })
+            Command::Move(PlainMove::To { profile, duration, to })
         }
         "still" => {
             let to = number(words.next())?;
@@ -140,9 +140,9 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
         }
         "spin" => {
             let (duration, rate) = (number(words.next())?, number(words.next())?);
-            Command::Move(Move::SpinUp { duration, rate })
+            Command::Move(PlainMove::SpinUp { duration, rate })
         }
-        "dwell" => Command::Move(Move::Dwell { duration: number(words.next())? }),
+        "dwell" => Command::Move(PlainMove::Dwell { duration: number(words.next())? }),
         "payload" => {
             let mass = number(words.next())?;
             let inertia = words.next().map_or(Some(0.0), |word| number(Some(word)))?;

@@ -8,7 +8,7 @@ use stillbeam::axis::{Axis, Mode, Pace, Tick};
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::Demand;
-use stillbeam::{Error, Move, Payload, PlannedMove, UniformScene};
+use stillbeam::{Error, Payload, PlainMove, PlannedMove, UniformScene};
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Request};
 use stillbeam_wiring::axes::{Joint, QUEUE, Stepper, stepper};
@@ -59,7 +59,7 @@ enum Ready {
     /// A planned move. With `again`, it is planned once more if the axis' motion has changed
     /// meanwhile.
     Plan {
-        motion: Move,
+        motion: PlainMove,
         planned: PlannedMove<f32>,
         again: bool,
     },
@@ -195,7 +195,7 @@ impl Board {
         }
     }
 
-    fn plan(&self, motion: Move, again: bool) -> Result<Ready, Refusal<'static>> {
+    fn plan(&self, motion: PlainMove, again: bool) -> Result<Ready, Refusal<'static>> {
         let planned = self.joint.axis.plan_context()?.plan(&motion)?;
         Ok(Ready::Plan { motion, planned, again })
     }

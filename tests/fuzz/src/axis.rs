@@ -5,7 +5,7 @@ use embedded_can::{Frame, StandardId};
 use stillbeam::axis::Mode;
 use stillbeam::drive::ClassicFrame;
 use stillbeam::motion::BULGE;
-use stillbeam::{Move, Payload, Profile};
+use stillbeam::{Payload, PlainMove, Profile};
 use stillbeam_board::machine::{CONFIGURATIONS, SILENCE, TICK, ticks};
 use stillbeam_board::{Board, Drive, PERIOD, Watch};
 use stillbeam_protocol::frame::{MAX, encode};
@@ -120,20 +120,20 @@ fn command(u: &mut Unstructured<'_>) -> Result<Command> {
     })
 }
 
-fn motion(u: &mut Unstructured<'_>) -> Result<Move> {
+fn motion(u: &mut Unstructured<'_>) -> Result<PlainMove> {
     let duration = double(u)?;
     Ok(match u.int_in_range(0..=7)? {
-        0 => Move::SpinUp { duration, rate: double(u)? },
-        1 => Move::SpinUp { duration, rate: 0.0 },
-        2 => Move::Dwell { duration },
+        0 => PlainMove::SpinUp { duration, rate: double(u)? },
+        1 => PlainMove::SpinUp { duration, rate: 0.0 },
+        2 => PlainMove::Dwell { duration },
         3 => {
             let mut bulge = [0.0; BULGE];
             for factor in &mut bulge {
                 *factor = double(u)? as _;
             }
-            Move::Still { duration, to: double(u)?, bulge }
+            PlainMove::Still { duration, to: double(u)?, bulge }
         }
-        _ => Move::To { profile: *u.choose(&Profile::ALL)?, duration, to: double(u)? },
+        _ => PlainMove::To { profile: *u.choose(&Profile::ALL)?, duration, to: double(u)? },
     })
 }
 

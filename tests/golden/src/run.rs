@@ -2,8 +2,9 @@
 
 use stillbeam::model::Rod;
 use stillbeam::planner::{Planner, Request, Target};
+use stillbeam::prepared::{Prepare, Prepared};
 use stillbeam::stepper::{Elastica, Quality};
-use stillbeam::{Error, Generator, Setpoint};
+use stillbeam::{Angle, Error, Generator, Setpoint};
 
 use crate::methods::{Method, Visitor, visit_all};
 use crate::motions::{self, MOTIONS};
@@ -74,8 +75,18 @@ impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Visitor for Runner<'_, F> {
     }
 }
 
+/// Words of the largest prepared stepper of the list, at least.
+const WORDS: usize = 1024;
+
+/// One scene with one method, its stepper loaded from its own words. The last record holds their
+/// checksum in place of a setpoint: it tells whether set-up has given the same bits.
 fn one<M: Method>(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Result<(), Error> {
-    let stepper = M::stepper(&run.scene, run.tick)?;
+    let (mut words, mut count) = ([0; WORDS], 0);
+    M::stepper(&run.scene, run.tick)?.prepare(&mut |word| {
+        words[count] = word;
+        count += 1;
+    });
+    let stepper = M::Stepper::load(&words[..count], run.tick)?;
     let mut arm = Generator::<_, QUEUE>::new(stepper, run.from)?;
     let mut ticks = 0;
     for motion in run.moves {
@@ -84,6 +95,9 @@ fn one<M: Method>(run: &Run, sink: &mut impl FnMut(u32, &Setpoint<f32>)) -> Resu
     for k in 0..=ticks {
         sink(k, &arm.tick());
     }
+    let angle = Angle { turns: words[count - 1] as i32, part: 0.0 };
+    let checksum = Setpoint { angle, rate: 0.0, acceleration: 0.0, torque: 0.0, tip: [0.0; 2] };
+    sink(ticks + 1, &checksum);
     Ok(())
 }
 

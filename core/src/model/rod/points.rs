@@ -8,7 +8,7 @@
 use super::varied::VariedLink;
 use super::{LINK_STATIONS, POINTS as FINE, Rod, legendre, rule};
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Band, Scalar, cast, dot};
+use crate::math::{Band, Scalar, cast, dot, words};
 use crate::scene::{LinkShape, Scene, Varied};
 
 /// Gauss points: six follow moves that bend by a radian.
@@ -334,4 +334,9 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         }
         (force, mass)
     }
+}
+
+words! {
+    [T: Scalar, const K: usize] RodPoints<T, K>: pairs, first, slope, tip_slope, to_tip, radius, mass, gravity,
+        direction, alpha, payload_inertia, hub_inertia, carried, carrier;
 }

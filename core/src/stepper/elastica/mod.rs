@@ -37,7 +37,7 @@ use super::oscillator::{check_turns, kick};
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Scalar, dot};
+use crate::math::{Scalar, Words, dot, words};
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
 
@@ -345,3 +345,18 @@ const HALVINGS: u32 = 16;
 
 /// Halvings of the distance to the equilibrium: f32's precision is reached after 24.
 const EQUILIBRIUM_STEPS: usize = 60;
+
+impl Words for Quality {
+    fn put(&self, sink: &mut dyn FnMut(u32)) {
+        (*self == Self::Fine).put(sink);
+    }
+
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        if bool::get(source) { Self::Fine } else { Self::Fast }
+    }
+}
+
+words! {
+    [T: Scalar, const K: usize] Elastica<T, K>: modes, nonlinear, per_tick, quarter, eighth_tick, alpha, asleep, quality, kink,
+        tick, bend, sag, flexibility, numerical_damping, kicks, gravity, tip_slope;
+}

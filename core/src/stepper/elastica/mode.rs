@@ -1,6 +1,6 @@
 //! One mode, advanced exactly about a centre that moves.
 
-use crate::math::{Scalar, phi_functions};
+use crate::math::{Scalar, phi_functions, words};
 use crate::stepper::Forcing;
 use crate::stepper::oscillator::{contracting, gain};
 
@@ -139,4 +139,8 @@ impl<T: Scalar> Mode<T> {
             y[1] + (across * excess[0] - along * excess[1]),
         ]
     }
+}
+
+words! {
+    [T: Scalar] Mode<T>: turn, drive, per_turn, loss_per_turn, correction, lag;
 }

@@ -3,7 +3,7 @@
 use super::polynomial::{Axial, Even, Local, Odd, Order, Shape};
 use super::reach::Reach;
 use crate::hub::HubState;
-use crate::math::{Scalar, cast};
+use crate::math::{Scalar, cast, words};
 use crate::model::rod::monomials::{EVEN, ODD};
 use crate::model::{Expansion, Rod};
 use crate::scene::AxisKind;
@@ -332,4 +332,9 @@ const LEAST_INERTIA: f64 = 0.25;
 fn at_least<T: Scalar>(x: T, least: f64) -> T {
     let least = T::from_f64(least);
     if x < least { least } else { x }
+}
+
+words! {
+    [T: Scalar, const K: usize] Nonlinear<T, K>: c, d, e, second, coupling, inertia_at_rest, hub_inertia, moment_at_rest,
+        moment, tip_at_rest, tip, omega, loss, alpha, drag, gravity, damping, turns, reach;
 }

@@ -1,6 +1,6 @@
 //! Numerical damping: keeps an undamped arm from gaining energy while its hub rests.
 
-use crate::math::{Scalar, sqrt};
+use crate::math::{Scalar, sqrt, words};
 use crate::model::Rod;
 
 /// Relative energy growth per step, divided by `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in
@@ -60,4 +60,8 @@ impl<T: Scalar, const K: usize> NumericalDamping<T, K> {
         let rounding = T::EPSILON * T::from_f64(ROUNDING);
         self.weight.map(|weight| weight * bend + rounding)
     }
+}
+
+words! {
+    [T: Scalar, const K: usize] NumericalDamping<T, K>: bend, most, weight;
 }

@@ -1,6 +1,6 @@
 //! The polynomials that the remainder is made of, in the scaled coordinates `xₖ = ωₖaₖ`.
 
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 use crate::model::rod::monomials::{Exponents, Table};
 
 /// A shape of the arm, with the powers that every polynomial needs.
@@ -197,4 +197,10 @@ fn power<const K: usize>(omega: &[f64; K], exponents: Exponents) -> f64 {
         }
     }
     product
+}
+
+words! {
+    [T: Scalar, const K: usize] Even<T, K>: q, q4;
+    [T: Scalar] Axial<T>: q, q4;
+    [T: Scalar, const K: usize] Odd<T, K>: linear, square, second, fifth;
 }

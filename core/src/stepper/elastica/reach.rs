@@ -1,6 +1,6 @@
 //! Keeps the remainder's arguments where its polynomials are bounded.
 
-use crate::math::Scalar;
+use crate::math::{Scalar, words};
 
 /// Largest weighted sum of the arguments' absolute values, in fitted ranges of the first mode.
 ///
@@ -50,6 +50,10 @@ impl<T: Scalar, const K: usize> Reach<T, K> {
         let scale = self.most / if sum > self.most { sum } else { self.most };
         (y.map(|y| scale * y[0]), y.map(|y| scale * y[1]))
     }
+}
+
+words! {
+    [T: Scalar, const K: usize] Reach<T, K>: most, weight;
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use super::terms::Terms;
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Band, HalfForm, Scalar, dot};
+use crate::math::{Band, HalfForm, Scalar, dot, words};
 use crate::motion::Peaks;
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
@@ -226,4 +226,10 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         }
         swing < T::ONE
     }
+}
+
+words! {
+    [T: Scalar, const K: usize] Modal<T, K>: modes, rest, spin, shortening, tip, reach,
+        support, inertia, terms, per_tick, kink, alpha, drag, loss, tension, bent, weight,
+        moment, awake, tick, most, fastest, kicks, gravity, tip_slope;
 }

@@ -32,7 +32,7 @@ use super::terms::Terms;
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Band, HalfForm, Ldl, Scalar, dot};
+use crate::math::{Band, HalfForm, Ldl, Scalar, dot, words};
 use crate::model::Model;
 use crate::motion::Peaks;
 
@@ -266,4 +266,12 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
         }
         Response { torque, tip: self.tip_of(state) }
     }
+}
+
+words! {
+    [T: Scalar, const N: usize, const W: usize, const AXES: bool] Newmark<T, N, W, AXES>:
+        turn, spin, effective, coupling, inertia, twice_per_half, reach, shortening, tip,
+        factors, stiffness, terms, numerical_damping, tip_last, awake, tick, damping, drag,
+        drag_torque, alpha, rigid_drag, tension, bent, weight, moment, most, gravity,
+        tip_slope;
 }

@@ -4,7 +4,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::axis::{Cause, Mode};
 use stillbeam::drive::ClassicFrame;
-use stillbeam::{Move, Profile};
+use stillbeam::{PlainMove, Profile};
 use stillbeam_board::machine::{CONFIGURATIONS, Configuration, SILENCE, TICK, ticks};
 use stillbeam_board::{Board, Drive, PERIOD, Watch};
 use stillbeam_protocol::frame::{MAX, encode};
@@ -226,7 +226,7 @@ impl<'a> Run<'a> {
         }
         let from = self.board.axis().generator().hub().angle.radians();
         let to = if from > 0.0 { from - 0.7 } else { from + 0.7 };
-        self.send(Command::Move(Move::To { profile: Profile::Quintic, duration: 1.5, to }));
+        self.send(Command::Move(PlainMove::To { profile: Profile::Quintic, duration: 1.5, to }));
         for _ in 0..160 {
             self.send(Command::Heartbeat);
             self.tick(PERIOD);

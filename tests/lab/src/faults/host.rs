@@ -3,7 +3,7 @@
 use rand::Rng;
 use rand::rngs::StdRng;
 use stillbeam::motion::BULGE;
-use stillbeam::{Limits, Move, Payload, Profile};
+use stillbeam::{Limits, Payload, PlainMove, Profile};
 use stillbeam_board::EDGES;
 use stillbeam_board::machine::ticks;
 use stillbeam_protocol::Command;
@@ -52,21 +52,21 @@ pub fn say(fault: Fault, limits: &Limits, k: u32, rng: &mut StdRng) -> (Vec<Comm
 }
 
 /// Draws a move, mostly within the limits.
-fn motion(limits: &Limits, rng: &mut StdRng) -> Move {
+fn motion(limits: &Limits, rng: &mut StdRng) -> PlainMove {
     let (rate, acceleration) = (limits.rate.unwrap_or(1.0), limits.acceleration.unwrap_or(1.0));
     match rng.random_range(0..10) {
-        0 => Move::SpinUp {
+        0 => PlainMove::SpinUp {
             duration: rng.random_range(0.2..1.5),
             rate: rate * rng.random_range(-1.05..1.05),
         },
-        1 | 2 => Move::SpinUp { duration: rng.random_range(0.5..1.5), rate: 0.0 },
-        3 => Move::Dwell { duration: rng.random_range(0.005..0.5) },
+        1 | 2 => PlainMove::SpinUp { duration: rng.random_range(0.5..1.5), rate: 0.0 },
+        3 => PlainMove::Dwell { duration: rng.random_range(0.005..0.5) },
         _ => {
             let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
             let to: f64 = rng.random_range(-3.0..3.0);
             let peaks = profile.peaks(to, 1.0);
             let least = (peaks.rate / rate).max((peaks.acceleration / acceleration).sqrt());
-            Move::To { profile, duration: least.max(0.02) * rng.random_range(0.9..2.0), to }
+            PlainMove::To { profile, duration: least.max(0.02) * rng.random_range(0.9..2.0), to }
         }
     }
 }
@@ -94,19 +94,19 @@ pub fn any(rng: &mut StdRng) -> f64 {
 fn nonsense(rng: &mut StdRng) -> Command {
     let profile = Profile::ALL[rng.random_range(0..Profile::ALL.len())];
     match rng.random_range(0..8) {
-        0 => Command::Move(Move::To { profile, duration: any(rng), to: any(rng) }),
-        1 => Command::Move(Move::SpinUp { duration: any(rng), rate: any(rng) }),
-        2 => Command::Move(Move::Dwell { duration: any(rng) }),
+        0 => Command::Move(PlainMove::To { profile, duration: any(rng), to: any(rng) }),
+        1 => Command::Move(PlainMove::SpinUp { duration: any(rng), rate: any(rng) }),
+        2 => Command::Move(PlainMove::Dwell { duration: any(rng) }),
         3 => Command::Home(any(rng)),
         4 => Command::Payload(Payload { mass: any(rng), inertia: any(rng), offset: any(rng) }),
         6 => Command::Still { to: any(rng), duration: Some(any(rng)) },
-        5 => Command::Move(Move::Still {
+        5 => Command::Move(PlainMove::Still {
             duration: any(rng),
             to: any(rng),
             bulge: core::array::from_fn(|_| any(rng)),
         }),
         // Plausible, but for a bulge that makes it violent.
-        _ => Command::Move(Move::Still {
+        _ => Command::Move(PlainMove::Still {
             duration: rng.random_range(0.3..2.0),
             to: rng.random_range(-1.0..1.0),
             bulge: core::array::from_fn::<_, BULGE, _>(|_| rng.random_range(-2.0..2.0)),

@@ -2,7 +2,7 @@
 
 use stillbeam::axis::{Cause, Mode};
 use stillbeam::planner::{Planner, Request};
-use stillbeam::{Move, Profile};
+use stillbeam::{PlainMove, Profile};
 use stillbeam_board::machine::{CONFIGURATIONS, Configuration, TICK, ticks};
 use stillbeam_board::{Board, Drive, PERIOD, Watch};
 use stillbeam_protocol::Command;
@@ -15,13 +15,14 @@ const TICKS: u32 = ticks(1.3);
 
 /// Returns moves of every profile, a spin-up and its end, and a still move if it can be planned.
 /// Each has another move waiting behind it.
-fn moves(configuration: &Configuration) -> Result<Vec<Move>, Error> {
-    let mut moves = Profile::ALL.map(|p| Move::To { profile: p, duration: 1.2, to: 1.5 }).to_vec();
-    moves.push(Move::SpinUp { duration: 1.0, rate: 0.8 * 5.0 });
+fn moves(configuration: &Configuration) -> Result<Vec<PlainMove>, Error> {
+    let mut moves =
+        Profile::ALL.map(|p| PlainMove::To { profile: p, duration: 1.2, to: 1.5 }).to_vec();
+    moves.push(PlainMove::SpinUp { duration: 1.0, rate: 0.8 * 5.0 });
     let planner = Planner::<f32, 2>::new(&configuration.scene, TICK)?;
     let duration = 1.2_f64.max(2.0 * planner.first_period());
     let request = Request::from_rest(0.0, 1.0).duration(duration).any_deflection();
-    moves.push(planner.plan(&request)?.motion());
+    moves.push(planner.plan(&request)?.plain());
     Ok(moves)
 }
 
@@ -42,7 +43,7 @@ pub fn all() -> Result<Outcome, Error> {
 
 fn one(
     configuration: &Configuration,
-    motion: Move,
+    motion: PlainMove,
     cause: Cause,
     at: u32,
 ) -> Result<Outcome, Error> {
@@ -58,7 +59,7 @@ fn one(
     board.ask(Command::Home(0.0));
     board.ask(Command::Enable);
     board.ask(Command::Move(motion));
-    board.ask(Command::Move(Move::To { profile: Profile::Cubic, duration: 1.5, to: 0.3 }));
+    board.ask(Command::Move(PlainMove::To { profile: Profile::Cubic, duration: 1.5, to: 0.3 }));
     for k in 0..at + 400 {
         if k == at && cause == Cause::Requested {
             board.ask(Command::Stop);

@@ -1,0 +1,135 @@
+//! Steppers and planners as plain words: set up on the desktop, loaded on the target.
+//!
+//! | word | holds |
+//! |---|---|
+//! | 0 | `SBPA`, the lowest byte first |
+//! | 1 | version, which changes whenever the numbers of a type do |
+//! | 2, 3 | [`Prepared::KIND`]: family, sizes and scalar |
+//! | 4, 5 | the tick, s: the bits of an f64, the lower half first |
+//! | 6 | number of words of the value |
+//! | 7 … | the value |
+//! | last | CRC-32 (ISO-HDLC) of all words before it, each as four bytes, the lowest first |
+//!
+//! Set-up gives the same bits on desktop and target, so that a loaded stepper is the one that the
+//! target would have set up.
+
+use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
+
+use crate::Error;
+use crate::math::Words;
+
+/// The first word: `SBPA`, the lowest byte first.
+const MAGIC: u32 = u32::from_le_bytes(*b"SBPA");
+
+/// Version of what the words hold. Another one is refused.
+const FORMAT: u32 = 1;
+
+/// Words before the value's own.
+const HEADER: usize = 7;
+
+/// Without a table, which would take a kilobyte: words are checked once.
+const CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
+
+/// A stepper or planner whose numbers can be written as words. The type that loads them may be known
+/// only when the program runs, as that of [`Auto`](crate::select::Auto).
+pub trait Prepare {
+    /// Returns the type that loads the words: see [`Prepared::KIND`].
+    fn kind(&self) -> [u32; 2];
+
+    /// Returns the tick that the value was set up for, s.
+    fn period(&self) -> f64;
+
+    /// Hands the words of the value itself to `sink`, first to last.
+    fn put_own(&self, sink: &mut dyn FnMut(u32));
+
+    /// Hands the words of the prepared value to `sink`, first to last: header, value, checksum.
+    fn prepare(&self, sink: &mut dyn FnMut(u32)) {
+        let mut count = 0;
+        self.put_own(&mut |_| count += 1);
+        let mut digest = CRC.digest();
+        let mut put = |word: u32| {
+            digest.update(&word.to_le_bytes());
+            sink(word);
+        };
+        let [family, sizes] = self.kind();
+        for word in [MAGIC, FORMAT, family, sizes] {
+            put(word);
+        }
+        self.period().put(&mut put);
+        put(count);
+        self.put_own(&mut put);
+        sink(digest.finalize());
+    }
+}
+
+/// A stepper or planner that can be loaded from the words that another program has prepared.
+///
+/// A program that only loads links no set-up: no matrices, no eigenvalues, no fit.
+pub trait Prepared: Prepare + Words {
+    /// The type: four letters of the family; sizes and bytes of the scalar, a byte each.
+    const KIND: [u32; 2];
+
+    /// Loads the value from the words of [`Prepare::prepare`], for ticks of `tick` s.
+    ///
+    /// # Errors
+    /// [`Error::NotPrepared`] for words that are not a prepared value of this type and version,
+    /// that are cut, or that have changed; [`Error::OutOfRange`] for another tick.
+    fn load(words: &[u32], tick: f64) -> Result<Self, Error> {
+        load(words.len(), &|i| words.get(i).copied().unwrap_or(0), tick)
+    }
+
+    /// Loads the value as [`Self::load`] does, from bytes at any address: four a word, the lowest
+    /// first.
+    ///
+    /// # Errors
+    /// Those of [`Self::load`]; also bytes that are not whole words.
+    fn load_bytes(bytes: &[u8], tick: f64) -> Result<Self, Error> {
+        let (words, rest) = bytes.as_chunks::<4>();
+        require("arm.bytes", bytes.len() as u32, (bytes.len() - rest.len()) as u32)?;
+        let word = |i: usize| words.get(i).map_or(0, |&word| u32::from_le_bytes(word));
+        load(words.len(), &word, tick)
+    }
+}
+
+fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Result<S, Error> {
+    check(count, word, S::KIND)?;
+    let mut next = 4;
+    let mut source = || {
+        next += 1;
+        word(next - 1)
+    };
+    let prepared = f64::get(&mut source);
+    if prepared.to_bits() != tick.to_bits() {
+        let (parameter, min, max, unit) = ("arm.tick", tick, tick, "s");
+        return Err(Error::OutOfRange { parameter, value: prepared, min, max, unit });
+    }
+    let own = source() as usize;
+    let value = S::get(&mut source);
+    // A value of this type has a number of words of its own, which the header has told.
+    require("arm.words", own as u32, (next - HEADER) as u32)?;
+    Ok(value)
+}
+
+/// Refuses words that are not a prepared value of that kind.
+fn check(count: usize, word: &dyn Fn(usize) -> u32, kind: [u32; 2]) -> Result<(), Error> {
+    require("arm.magic", word(0), MAGIC)?;
+    require("arm.format", word(1), FORMAT)?;
+    require("arm.method", word(2), kind[0])?;
+    require("arm.sizes", word(3), kind[1])?;
+    let whole = (HEADER as u32 + 1).saturating_add(word(6));
+    require("arm.length", count as u32, whole)?;
+    let mut digest = CRC.digest();
+    for i in 0..count - 1 {
+        digest.update(&word(i).to_le_bytes());
+    }
+    require("arm.checksum", word(count - 1), digest.finalize())
+}
+
+fn require(parameter: &'static str, found: u32, needed: u32) -> Result<(), Error> {
+    if found == needed { Ok(()) } else { Err(Error::NotPrepared { parameter, found, needed }) }
+}
+
+/// The second word of a kind.
+pub(crate) const fn sizes<T>(n: usize, w: usize, variant: bool) -> u32 {
+    u32::from_le_bytes([n as u8, w as u8, variant as u8, size_of::<T>() as u8])
+}
