@@ -230,6 +230,6 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
 
 words! {
     [T: Scalar, const K: usize] Modal<T, K>: modes, rest, spin, shortening, tip, reach,
-        support, inertia, terms, per_tick, kink, alpha, drag, loss, tension, bent, weight,
+        support, inertia, terms, per_tick, kink, alpha, drag, loss, tension, bent, weight, lever,
         moment, awake, tick, most, fastest, kicks, gravity, tip_slope;
 }

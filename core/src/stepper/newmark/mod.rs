@@ -272,6 +272,6 @@ words! {
     [T: Scalar, const N: usize, const W: usize, const AXES: bool] Newmark<T, N, W, AXES>:
         turn, spin, effective, coupling, inertia, twice_per_half, reach, shortening, tip,
         factors, stiffness, terms, numerical_damping, tip_last, awake, tick, damping, drag,
-        drag_torque, alpha, rigid_drag, tension, bent, weight, moment, most, gravity,
+        drag_torque, alpha, rigid_drag, tension, bent, weight, swings, moment, most, gravity,
         tip_slope;
 }
