@@ -23,5 +23,5 @@ impl Terms {
 }
 
 words! {
-    [] Terms: spin, gravity, damping, turns;
+    [] Terms: spin, gravity, damping;
 }
