@@ -8,7 +8,7 @@ use stillbeam_golden::motions::{MOTIONS, WAYPOINTS};
 use stillbeam_golden::record::{BYTES, FIELDS};
 use stillbeam_golden::run::STILL_SCENES;
 use stillbeam_golden::scenes::SCENES;
-use stillbeam_tests::emulator::{self, Clock, LIMIT};
+use stillbeam_tests::emulator::{self, Board, Clock, LIMIT};
 use stillbeam_tests::stream::{self, Mismatch};
 use stillbeam_tests::{embedded, firmware, root};
 
@@ -38,6 +38,19 @@ fn every_bit_of_every_setpoint_agrees() {
     let agreement = stream::compare(target()).unwrap_or_else(|mismatch| panic!("{mismatch}"));
     println!("{agreement:?}");
     assert!(agreement.setpoints > 50_000, "{agreement:?}");
+}
+
+/// Processors without floating-point unit compute the same bits in software: of Armv7-M, and of
+/// Armv6-M (Cortex-M0 and M0+), whose instructions the emulated Cortex-M3 executes too.
+#[test]
+fn processors_without_floating_point_unit_give_the_same_bits() {
+    for build in [firmware::build_soft, firmware::build_smallest] {
+        let image = build("golden").unwrap_or_else(|error| panic!("{error}"));
+        let stream = emulator::run_on(Board::An385, &image, Clock::Host, LIMIT);
+        let stream = stream.unwrap_or_else(|error| panic!("{error}"));
+        let agreement = stream::compare(&stream).unwrap_or_else(|mismatch| panic!("{mismatch}"));
+        assert!(agreement.setpoints > 50_000, "{agreement:?}");
+    }
 }
 
 /// A rotary inertia of the payload asks for another lumped type; whichever it is, each scene runs
