@@ -10,11 +10,12 @@ use stillbeam_sim::talk::{Answer, DEMONSTRATION, FAULTS, FIRST, Machine, STILL, 
 use stillbeam_tests::firmware_page::{FITTED, Fit};
 use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 
-/// Whole application on the emulated board.
-const FLASH: u64 = 64 * 1024;
-const RAM: u64 = 16 * 1024;
+/// Whole application on the emulated board. Until arms had joints that give, offset payloads and
+/// mounts it was 64 and 16 KiB.
+const FLASH: u64 = 68 * 1024;
+const RAM: u64 = 18 * 1024;
 /// With the planner of still moves.
-const STILL_FLASH: u64 = 116 * 1024;
+const STILL_FLASH: u64 = 128 * 1024;
 const STILL_RAM: u64 = 32 * 1024;
 
 /// Time of an instruction of the emulated board, s.
@@ -130,7 +131,8 @@ fn a_stop_does_not_wait_for_a_plan() {
     let stopped = session.ask(0, Command::Stop);
     assert!(matches!(stopped, Ok(Answer::Accepted(tick)) if tick <= before + 1), "{stopped:?}");
     let Ok(Answer::Refused(why)) = session.answer(posted) else { panic!("it was stopped") };
-    assert!(why.contains("mode = Stopped") || why.contains("planned before a stop"), "{why}");
+    let stopped = ["mode = Stopping", "mode = Stopped", "planned before a stop"];
+    assert!(stopped.iter().any(|words| why.contains(words)), "{why}");
     assert!(session.now() > before + 20, "the plan was still being made");
 }
 
@@ -269,7 +271,7 @@ fn no_panic_is_reachable_from_an_axis_tick() {
 fn the_nucleo_boards_build_and_fit() {
     for (features, flash) in [
         ("nucleo-g474re", 96 * 1024),
-        ("nucleo-g474re,still", 132 * 1024),
+        ("nucleo-g474re,still", 142 * 1024),
         ("nucleo-g491re", 96 * 1024),
     ] {
         let image = firmware::application(features).unwrap_or_else(|error| panic!("{error}"));
