@@ -4,13 +4,11 @@
 //! then changed by editing its file.
 //!
 //! ```no_run
-//! // build.rs; in Cargo.toml under [build-dependencies]:
+//! // In the `main` of build.rs; in Cargo.toml under [build-dependencies]:
 //! // stillbeam-sim = { version = "0.1", default-features = false }
-//! fn main() {
-//!     // Then in the firmware: include!(concat!(env!("OUT_DIR"), "/arm.rs"));
-//!     if let Err(error) = stillbeam_sim::export::for_build_script("arm.toml", "arm.rs", false) {
-//!         panic!("{error}");
-//!     }
+//! // Then in the firmware: include!(concat!(env!("OUT_DIR"), "/arm.rs"));
+//! if let Err(error) = stillbeam_sim::export::for_build_script("arm.toml", "arm.rs", false) {
+//!     panic!("{error}");
 //! }
 //! ```
 
