@@ -12,6 +12,25 @@
 //!
 //! Set-up gives the same bits on desktop and target, so that a loaded stepper is the one that the
 //! target would have set up.
+//!
+//! ```
+//! use stillbeam::model::Rod;
+//! use stillbeam::prepared::{Prepare, Prepared};
+//! use stillbeam::stepper::{Elastica2, Quality};
+//! use stillbeam::{Generator, Link, Scene};
+//!
+//! // On the desktop; `stillbeam-sim export` writes the words as Rust or C.
+//! let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
+//! let set_up = Elastica2::<f32>::new(&Rod::new(&scene)?, 0.010, Quality::Fast, 1.0)?;
+//! let mut words = Vec::new();
+//! set_up.prepare(&mut |word| words.push(word));
+//!
+//! // On the target.
+//! let stepper = Elastica2::<f32>::load(&words, 0.010)?;
+//! let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
+//! assert_eq!(arm.tick().deflection(), 0.0);
+//! # Ok::<(), stillbeam::Error>(())
+//! ```
 
 use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
 

@@ -1,7 +1,18 @@
 //! Prepared arms: the stepper of a scene as words that a program loads in place of its set-up.
 //!
-//! A build script calls [`prepare`] and [`PreparedArm::to_rust`] for a firmware whose arms are
-//! scene files.
+//! A firmware whose arms are scene files calls [`for_build_script`] in its build script; an arm is
+//! then changed by editing its file.
+//!
+//! ```no_run
+//! // In the `main` of build.rs; in Cargo.toml under [build-dependencies]:
+//! // stillbeam-sim = { version = "0.1", default-features = false }
+//! // Then in the firmware: include!(concat!(env!("OUT_DIR"), "/arm.rs"));
+//! if let Err(error) = stillbeam_sim::export::for_build_script("arm.toml", "arm.rs", false) {
+//!     panic!("{error}");
+//! }
+//! ```
+
+use std::path::Path;
 
 use stillbeam::Stepper;
 use stillbeam::planner::Planner;
@@ -11,6 +22,7 @@ use crate::dispatch::{self, StepperVisitor};
 use crate::error::Error;
 use crate::scene_file::SceneFile;
 use crate::solver::Solver;
+use crate::{output, scenes};
 
 /// The steppers of an arm with each of its payloads, all of one type.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,6 +87,30 @@ pub fn prepare(
         arms,
         planners,
     })
+}
+
+/// Prepares the arm of a scene file for the package whose build script calls it: writes Rust
+/// constants to `file` in cargo's `OUT_DIR`, anew whenever the scene file changes. Method, tick and
+/// payload are the scene's; with `still` also the planner.
+///
+/// # Errors
+/// Those of [`prepare`]; a scene file that cannot be read; no `OUT_DIR` outside of a build script.
+pub fn for_build_script(scene: &str, file: &str, still: bool) -> Result<(), Error> {
+    let folder = std::env::var_os("OUT_DIR").ok_or_else(|| {
+        Error::new("OUT_DIR = unset: must be set by cargo; call this from a build script")
+    })?;
+    println!("cargo:rerun-if-changed={scene}");
+    write_rust(scene, &Path::new(&folder).join(file), still)
+}
+
+/// Prepares the arm of a scene file with the scene's own solver, and writes Rust constants.
+///
+/// # Errors
+/// Those of [`prepare`]; a file that cannot be read or written.
+pub fn write_rust(scene: &str, file: &Path, still: bool) -> Result<(), Error> {
+    let scene = scenes::open(scene)?;
+    let arm = prepare(&scene, &scene.solver.resolve()?, &[], still)?;
+    output::write_whole(file, |out| out.write_all(arm.to_rust().as_bytes()))
 }
 
 fn words_of(value: &impl Prepare) -> Vec<u32> {

@@ -69,6 +69,21 @@ fn a_planner_is_written_where_it_is_asked_for() {
     Planner::<f32, 2>::load_bytes(behind, 0.01).expect("the same in bytes");
 }
 
+/// A build script gets the constants that the command writes.
+#[test]
+fn a_build_script_writes_what_the_command_writes() {
+    let folder = tempfile::tempdir().expect("folder");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/b-tip30.toml");
+    let (code, out, err) = export(folder.path(), &[scene, "--still", "--rust", "command.rs"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    let script = folder.path().join("script.rs");
+    stillbeam_sim::export::write_rust(scene, &script, true).expect("a prepared arm");
+    let command = fs::read_to_string(folder.path().join("command.rs")).expect("command.rs");
+    assert_eq!(fs::read_to_string(script).expect("script.rs"), command);
+    let error = stillbeam_sim::export::write_rust("none.toml", &folder.path().join("x"), false);
+    assert!(error.is_err_and(|error| error.to_string().contains("none.toml")));
+}
+
 /// The choice of `auto` is written as the stepper that it is.
 #[test]
 fn an_automatic_choice_is_loaded_by_its_own_type() {

@@ -1,4 +1,4 @@
-//! What the smallest useful program takes: set-up, one move and its ticks.
+//! What the smallest useful programs take: set-up or a prepared arm, one move and its ticks.
 
 use stillbeam_tests::instructions;
 use stillbeam_tests::instructions::Minimal;
@@ -19,6 +19,26 @@ fn one_element_is_small() {
     assert!(minimal.flash <= 22 * 1024, "{minimal:?}");
     assert!(minimal.ram <= 2 * 1024, "{minimal:?}");
     assert!(minimal.stack <= 4 * 1024, "{minimal:?}");
+}
+
+/// Without set-up: 16.5 KiB of flash, 2 KiB of stack.
+#[test]
+fn one_prepared_element_is_smaller() {
+    let prepared = instructions::prepared("Newmark1Nodal").unwrap_or_else(|e| panic!("{e}"));
+    assert!(prepared.flash <= 33 * 512, "{prepared:?}");
+    assert_eq!(prepared.ram, 0, "{prepared:?}");
+    assert!((100..=2 * 1024).contains(&prepared.stack), "{prepared:?}");
+    assert!(prepared.flash + 4 * 1024 <= one_element().flash, "{prepared:?}");
+}
+
+/// The method that is a thousand times closer, without its set-up: 43 KiB of flash and 3.25 KiB of
+/// stack, a third of what it takes with it.
+#[test]
+fn exact_kinematics_fit_without_their_set_up() {
+    let prepared = instructions::prepared("Elastica2").unwrap_or_else(|error| panic!("{error}"));
+    assert!(prepared.flash <= 43 * 1024, "{prepared:?}");
+    assert_eq!(prepared.ram, 0, "{prepared:?}");
+    assert!((100..=13 * 256).contains(&prepared.stack), "{prepared:?}");
 }
 
 /// A name that is not in the list of methods is not taken for a small program.

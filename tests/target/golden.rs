@@ -8,7 +8,7 @@ use stillbeam_golden::motions::{MOTIONS, WAYPOINTS};
 use stillbeam_golden::record::{BYTES, FIELDS};
 use stillbeam_golden::run::STILL_SCENES;
 use stillbeam_golden::scenes::SCENES;
-use stillbeam_tests::emulator::{self, Clock, LIMIT};
+use stillbeam_tests::emulator::{self, Board, Clock, LIMIT};
 use stillbeam_tests::stream::{self, Mismatch};
 use stillbeam_tests::{embedded, firmware, root};
 
@@ -37,6 +37,16 @@ fn the_embedded_scenes_are_those_of_the_scene_files() {
 fn every_bit_of_every_setpoint_agrees() {
     let agreement = stream::compare(target()).unwrap_or_else(|mismatch| panic!("{mismatch}"));
     println!("{agreement:?}");
+    assert!(agreement.setpoints > 50_000, "{agreement:?}");
+}
+
+/// Without floating-point unit the same bits are computed in software.
+#[test]
+fn a_processor_without_fpu_gives_the_same_bits() {
+    let image = firmware::build_soft("golden").unwrap_or_else(|error| panic!("{error}"));
+    let stream = emulator::run_on(Board::An385, &image, Clock::Host, LIMIT);
+    let stream = stream.unwrap_or_else(|error| panic!("{error}"));
+    let agreement = stream::compare(&stream).unwrap_or_else(|mismatch| panic!("{mismatch}"));
     assert!(agreement.setpoints > 50_000, "{agreement:?}");
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use stillbeam_sim::console::open;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::output::Files;
 use stillbeam_sim::solver::SolverKeys;
@@ -33,7 +34,7 @@ pub struct ExportArgs {
 
 impl ExportArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = super::open(&self.scene)?;
+        let scene = open(&self.scene)?;
         let solver = self.solver.or(scene.solver).resolve()?;
         if let Some(line) = self.solver.unread(solver.method).into_iter().next() {
             return Err(Error::new(line));

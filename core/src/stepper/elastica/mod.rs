@@ -357,6 +357,7 @@ impl Words for Quality {
 }
 
 words! {
-    [T: Scalar, const K: usize] Elastica<T, K>: modes, nonlinear, per_tick, quarter, eighth_tick, alpha, asleep, quality, kink,
-        tick, bend, sag, flexibility, numerical_damping, kicks, gravity, tip_slope;
+    [T: Scalar, const K: usize] Elastica<T, K>: modes, nonlinear, per_tick, quarter,
+        eighth_tick, alpha, asleep, quality, kink, tick, bend, sag, flexibility,
+        numerical_damping, kicks, gravity, tip_slope;
 }

@@ -335,6 +335,6 @@ fn at_least<T: Scalar>(x: T, least: f64) -> T {
 }
 
 words! {
-    [T: Scalar, const K: usize] Nonlinear<T, K>: c, d, e, second, coupling, inertia_at_rest, hub_inertia, moment_at_rest,
-        moment, tip_at_rest, tip, omega, loss, alpha, drag, gravity, damping, turns, reach;
+    [T: Scalar, const K: usize] Nonlinear<T, K>: c, d, e, second, coupling,
+        inertia_at_rest, hub_inertia, moment_at_rest, moment, tip_at_rest, tip, omega, loss, alpha, drag, gravity, damping, turns, reach;
 }
