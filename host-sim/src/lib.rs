@@ -20,6 +20,7 @@ pub mod dispatch;
 pub mod document;
 pub mod error;
 mod flight;
+pub mod identify;
 pub mod limits;
 pub mod motion_file;
 pub mod number;

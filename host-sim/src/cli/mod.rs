@@ -2,6 +2,7 @@
 
 mod arm;
 mod compare;
+mod identify;
 mod motion;
 mod plan;
 mod reference;
@@ -50,6 +51,8 @@ enum Command {
     Arm(arm::ArmArgs),
     /// Run the core on a scene and write its setpoints
     Run(run::RunArgs),
+    /// Find frequencies and damping in a measured log, and write a scene with them
+    Identify(Box<identify::IdentifyArgs>),
     /// Plan a move that arrives still, judge it and draw it
     Plan(plan::PlanArgs),
     /// Compare two runs of a scene
@@ -71,6 +74,7 @@ impl Cli {
             Some(Command::Study(args)) => args.execute(),
             Some(Command::Arm(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
+            Some(Command::Identify(args)) => args.execute(),
             Some(Command::Plan(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Reference(args)) => args.execute(),
