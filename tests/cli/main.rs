@@ -4,6 +4,7 @@
 mod arm;
 mod bad_input;
 mod commands;
+mod identify;
 mod interruption;
 mod motions;
 mod notes;
