@@ -9,6 +9,7 @@ use stillbeam_sim::identify::forced::Lowpass;
 use stillbeam_sim::identify::log::{Columns, Kind, Sign};
 use stillbeam_sim::identify::report::{ArmFit, Report};
 use stillbeam_sim::identify::{Identified, Request, page, scene};
+use stillbeam_sim::number::Digits;
 use stillbeam_sim::output::Files;
 use stillbeam_sim::table::significant;
 use stillbeam_sim::{println, scenes};
@@ -173,8 +174,8 @@ fn print(report: &Report) {
     let main = &report.modes[0];
     println!(
         "  seen at     {} to {} {}, {:.0} periods of the first mode",
-        digits(main.amplitude[0]),
-        digits(main.amplitude[1]),
+        Digits::Three.show(main.amplitude[0]),
+        Digits::Three.show(main.amplitude[1]),
         report.unit,
         main.periods
     );

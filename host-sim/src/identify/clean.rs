@@ -26,6 +26,8 @@ const GAP: f64 = 2.5;
 /// Clipped samples of a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clipping {
+    /// Time of the first one, s.
+    pub first: f64,
     /// Time of the last one, s.
     pub last: f64,
     /// Share of the samples from the first to the last one.
@@ -44,6 +46,7 @@ pub fn clean(log: &mut Log, warnings: &mut Vec<Warning>) -> Option<Clipping> {
     let first = clipped.iter().position(|&mark| mark);
     let last = clipped.iter().rposition(|&mark| mark);
     let clipping = first.zip(last).map(|(first, last)| Clipping {
+        first: log.time[first],
         last: log.time[last],
         share: count(&clipped) as f64 / (last - first + 1) as f64,
     });

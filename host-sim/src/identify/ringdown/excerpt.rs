@@ -51,9 +51,13 @@ impl Excerpt {
         let mut begin = onset(log, period, windows[peak].0);
         let late = log.time[0] + 0.5 * (log.time[log.time.len() - 1] - log.time[0]);
         // Clipping that goes on is no excitation.
-        let is_cut = |clipped: &Clipping| clipped.share > CLIPPED && clipped.last < late;
-        if let Some(Clipping { last, .. }) = clipped.filter(is_cut) {
-            begin = begin.max(last + period);
+        if let Some(Clipping { first, last, share }) = clipped {
+            if share > CLIPPED && last < late {
+                begin = begin.max(last + period);
+            } else if share <= CLIPPED && first < begin {
+                // The largest samples are missing: what is clipped first is the excitation.
+                begin = if first < log.time[0] + period { log.time[0] } else { first + period };
+            }
         }
         let again = (peak + 1..windows.len().saturating_sub(2)).find(|&k| {
             let (before, after) = (windows[k].1, windows[k + 2].1);
