@@ -4,6 +4,7 @@
 mod drive;
 mod faults;
 mod firmware;
+mod identify;
 mod model;
 mod motion;
 mod packages;

@@ -21,6 +21,7 @@ pub mod document;
 pub mod error;
 pub mod export;
 mod flight;
+pub mod identify;
 pub mod limits;
 pub mod motion_file;
 pub mod number;

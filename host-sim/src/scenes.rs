@@ -48,6 +48,16 @@ pub fn open_arm(name_or_path: &str) -> Result<SceneFile, Error> {
     open_with(name_or_path, SceneFile::read_arm)
 }
 
+/// Returns the text of an embedded scene, or else of a scene file.
+pub fn text(name_or_path: &str) -> Result<String, Error> {
+    let embedded = EMBEDDED.iter().find(|entry| entry.0 == name_or_path);
+    match embedded {
+        Some((_, _, text)) => Ok((*text).to_owned()),
+        None => std::fs::read_to_string(name_or_path)
+            .map_err(|cause| Error::file(name_or_path.as_ref(), cause)),
+    }
+}
+
 fn open_with(
     name_or_path: &str,
     read: fn(&Path) -> Result<SceneFile, Error>,

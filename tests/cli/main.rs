@@ -5,6 +5,7 @@ mod arm;
 mod bad_input;
 mod commands;
 mod export;
+mod identify;
 mod interruption;
 mod motions;
 mod notes;

@@ -3,6 +3,7 @@
 mod arm;
 mod compare;
 mod export;
+mod identify;
 mod motion;
 mod plan;
 mod reference;
@@ -51,6 +52,8 @@ enum Command {
     Arm(arm::ArmArgs),
     /// Run the core on a scene and write its setpoints
     Run(run::RunArgs),
+    /// Find frequencies and damping in a measured log, and write a scene with them
+    Identify(Box<identify::IdentifyArgs>),
     /// Plan a move that arrives still, judge it and draw it
     Plan(plan::PlanArgs),
     /// Write a scene's stepper as constants, for a program without set-up
@@ -74,6 +77,7 @@ impl Cli {
             Some(Command::Study(args)) => args.execute(),
             Some(Command::Arm(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
+            Some(Command::Identify(args)) => args.execute(),
             Some(Command::Plan(args)) => args.execute(),
             Some(Command::Export(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),

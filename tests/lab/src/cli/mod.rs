@@ -4,6 +4,7 @@
 mod auto;
 mod docs;
 mod faults;
+mod identify;
 mod pareto;
 mod reference;
 mod shortest;
@@ -51,6 +52,8 @@ enum Command {
     Pareto(pareto::ParetoArgs),
     /// Plan random time-optimal motions, and hold their durations against Ruckig's
     Shortest(shortest::ShortestArgs),
+    /// Identify random arms from synthetic logs, and hold what is found against the truth
+    Identify(identify::IdentifyArgs),
     /// Let the two reference solvers converge to each other
     Reference(reference::ReferenceArgs),
     /// Print the tables of README.md and docs/accuracy.md
@@ -71,6 +74,7 @@ impl Cli {
             Command::Sweep(args) => args.execute(),
             Command::Pareto(args) => args.execute(),
             Command::Shortest(args) => args.execute(),
+            Command::Identify(args) => args.execute(),
             Command::Reference(args) => args.execute(),
             Command::Tables(args) => args.execute(),
         }
