@@ -5,6 +5,7 @@ mod auto;
 mod docs;
 mod faults;
 mod pareto;
+mod plant;
 mod reference;
 mod shortest;
 mod stability;
@@ -45,6 +46,8 @@ enum Command {
     Stability(stability::StabilityArgs),
     /// Inject faults around an axis, and count what comes out
     Faults(faults::FaultsArgs),
+    /// Run random axes with their drives and machines under faults, in the loop
+    Plant(plant::PlantArgs),
     /// Run many solvers on many scenes: error and time of each
     Sweep(sweep::SweepArgs),
     /// Draw a sweep's error against its time and answer what a choice costs
@@ -68,6 +71,7 @@ impl Cli {
             Command::Stress(args) => args.execute(),
             Command::Stability(args) => args.execute(),
             Command::Faults(args) => args.execute(),
+            Command::Plant(args) => args.execute(),
             Command::Sweep(args) => args.execute(),
             Command::Pareto(args) => args.execute(),
             Command::Shortest(args) => args.execute(),
