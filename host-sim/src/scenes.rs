@@ -19,6 +19,7 @@ embedded! {
     "b-tip30": "member B with 30 g, \u{3c0} rad in 2 s: arrives almost still",
     "c-tip30": "member C with 30 g, \u{3c0} rad in 2 s",
     "d-tip30": "member D with 30 g, \u{3c0} rad in 2 s",
+    "d-tip30-quick": "member D with 30 g, \u{3c0} rad in two first periods, for a drive in the loop",
     "b-tip30-damped-hub": "member B with 30 g, damped, hub radius 40 mm",
     "s-gravity": "1 m arm in a vertical plane, payload with inertia",
     "spin-up": "10 m blade brought to 6 rad/s, after Simo and Vu-Quoc",

@@ -4,3 +4,5 @@ mod cia402;
 mod common;
 mod moteus;
 mod odrive;
+mod power;
+mod reports;

@@ -6,7 +6,9 @@ use std::path::Path;
 use stillbeam::axis::Mode;
 use stillbeam_lab::markers;
 use stillbeam_protocol::{Command, Status};
-use stillbeam_sim::talk::{Answer, DEMONSTRATION, FAULTS, FIRST, Machine, STILL, Session, Step};
+use stillbeam_sim::talk::{
+    Answer, DEMONSTRATION, FAULTS, FIRST, MACHINE, Machine, STILL, Session, Step,
+};
 use stillbeam_tests::firmware_page::{FITTED, Fit};
 use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 
@@ -53,6 +55,37 @@ fn demonstration() -> (Session, Vec<String>) {
 
 fn run(session: &mut Session, steps: &[&str]) -> Vec<String> {
     steps.iter().map(|text| format!("{text}: {}", take(session, text))).collect()
+}
+
+/// The reference rod behind motor, gear and friction on both drives, in lock-step with QEMU.
+fn loaded() -> Session {
+    let image = firmware::application("mps2").unwrap_or_else(|error| panic!("{error}"));
+    let mut session = Machine::emulate(&image)
+        .and_then(Session::begin_loaded)
+        .unwrap_or_else(|error| panic!("{error}"));
+    run(&mut session, &MACHINE);
+    session
+}
+
+/// Every setpoint and frame is the host's own while the encoders' readings come from machines that
+/// lag, ring, are jolted and fail; and all of it is the same once more.
+#[test]
+fn machines_behind_the_drives_are_followed_and_repeat_to_the_bit() {
+    let (first, again) = (loaded(), loaded());
+    for axis in 0..2 {
+        assert_eq!(first.history(axis), again.history(axis));
+        assert_eq!(first.followed(axis), again.followed(axis));
+        let [behind, energy] = first.followed(axis).expect("a machine");
+        println!("axis {axis}: {behind} rad behind, energy {energy:e}");
+        assert!(energy < 1e-4, "axis {axis}: {energy:e}");
+        assert!(behind > 1e-3, "axis {axis}: {behind} rad");
+    }
+    // The drive of axis 0 works all along, that of axis 1 faults in the middle of a move.
+    let [behind, _] = first.followed(0).expect("a machine");
+    assert!(behind < 0.2, "{behind} rad");
+    assert_eq!(first.drive_is_on(1), Some(false));
+    let [setpoints, frames] = first.compared();
+    assert!(setpoints > 1500 && frames > 1000, "{setpoints}, {frames}");
 }
 
 #[test]

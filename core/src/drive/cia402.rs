@@ -1,22 +1,28 @@
 //! CiA 402 cyclic synchronous position: what goes into the PDOs and how the drive is prepared.
 //!
 //! 0x607A target position i32, 0x60B1 velocity offset i32, 0x60B2 torque offset i16 in ‰ of the
-//! rated torque, 0x60C2 interpolation period `value × 10^index` s. Positions are encoder increments
-//! and velocities increments per second, the units of a drive whose factor group is left alone.
+//! rated torque, 0x60C2 interpolation period `value × 10^index` s. Positions are encoder
+//! increments. Velocities are increments per second, the unit of a drive whose factor group is left
+//! alone, or what [`VelocityUnit`] says. [`PowerDrive`] is the state machine behind 0x6040 and 0x6041.
 //! Source: CiA 402-2 / IEC 61800-7-201; object descriptions as in Beckhoff's AX8000 and Elmo's DSP
 //! 402 manuals.
 //!
 //! One PDO of ten bytes over EtherCAT or CAN FD; over classic CAN two, of eight and of two bytes,
 //! which take effect together at the SYNC after them.
 
+mod power;
+mod status;
+
 use embedded_can::Frame;
+
+pub use power::{PowerDrive, State, Step, Wanted};
+pub use status::{Emergency, Status};
 
 use super::counts::{count, count_i16};
 use super::frame::standard;
-use super::{Encoded, Saturated};
+use super::{Encoded, Range, Saturated, WHOLE_TURNS};
 use crate::Error;
 use crate::axis::Sequence;
-use crate::hub::Angle;
 use crate::motor::Demand;
 
 /// A drive's node id and what its counts mean.
@@ -27,6 +33,20 @@ pub struct Drive {
     increments: u32,
     /// 0x6076, N m.
     rated_torque: f32,
+    /// Counts of the velocity offset in a turn/s.
+    velocity_counts: f32,
+}
+
+/// Unit of 0x60B1 that the drive was told: 0x60A9, or the maker's own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VelocityUnit {
+    /// Encoder increments per second.
+    Increments,
+    /// Turns per minute times `10^-decimals`, 0 to 3 decimals: 1 is 0.1 rpm.
+    PerMinute {
+        /// Decimals of the unit.
+        decimals: u8,
+    },
 }
 
 /// Payload of the whole PDO: 0x607A, 0x60B1, 0x60B2.
@@ -38,7 +58,36 @@ impl Drive {
         Error::check("drive.node", f64::from(node), 1.0, 127.0, "")?;
         Error::check("drive.increments", f64::from(increments), 4.0, 16_777_216.0, "a turn")?;
         Error::check("drive.rated_torque", rated_torque, 1e-6, 1e6, "N m")?;
-        Ok(Self { node, increments, rated_torque: rated_torque as f32 })
+        let velocity_counts = increments as f32;
+        Ok(Self { node, increments, rated_torque: rated_torque as f32, velocity_counts })
+    }
+
+    /// The same drive with its velocity offset in another unit.
+    ///
+    /// # Errors
+    /// More than 3 decimals.
+    pub fn with_velocity_unit(self, unit: VelocityUnit) -> Result<Self, Error> {
+        let velocity_counts = match unit {
+            VelocityUnit::Increments => self.increments as f32,
+            VelocityUnit::PerMinute { decimals } => {
+                let decimals =
+                    Error::check("drive.velocity_decimals", f64::from(decimals), 0.0, 3.0, "")?;
+                60.0 * [1.0, 10.0, 100.0, 1000.0][decimals as usize]
+            }
+        };
+        Ok(Self { velocity_counts, ..self })
+    }
+
+    /// What the PDO holds.
+    pub fn range(&self) -> Range {
+        // The greatest f32 below 2³¹.
+        let most = 2_147_483_520.0;
+        let position = most / self.increments as f32;
+        Range {
+            position: if position < WHOLE_TURNS { position } else { WHOLE_TURNS },
+            velocity: most / self.velocity_counts,
+            torque: 32.767 * self.rated_torque,
+        }
     }
 
     /// N m a count of the torque offset.
@@ -59,7 +108,8 @@ impl Drive {
         let (rest, _) = count(demand.position.part, per_turn, i32::MIN, i32::MAX);
         let exact = whole + i64::from(rest);
         let position = exact.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
-        let (velocity, velocity_cut) = count(demand.velocity, per_turn, i32::MIN, i32::MAX);
+        let (velocity, velocity_cut) =
+            count(demand.velocity, self.velocity_counts, i32::MIN, i32::MAX);
         let (torque, torque_cut) = count_i16(demand.torque, 1000.0 / self.rated_torque);
         let mut payload = [0; 10];
         payload[..4].copy_from_slice(&position.to_le_bytes());
@@ -76,12 +126,9 @@ impl Drive {
         let position = i32::from_le_bytes([p0, p1, p2, p3]);
         let velocity = i32::from_le_bytes([v0, v1, v2, v3]);
         let torque = i16::from_le_bytes([t0, t1]);
-        let increments = i64::from(self.increments);
-        let rest = i64::from(position).rem_euclid(increments);
-        let turns = i64::from(position).div_euclid(increments) as i32;
         Demand {
-            position: Angle { turns, part: 0.0 }.plus(rest as f32 / self.increments as f32),
-            velocity: (f64::from(velocity) / f64::from(self.increments)) as f32,
+            position: self.angle(position),
+            velocity: (f64::from(velocity) / f64::from(self.velocity_counts)) as f32,
             torque: f32::from(torque) * self.torque_step(),
         }
     }

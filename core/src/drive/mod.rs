@@ -10,19 +10,26 @@
 //! | [`cia402`] CSP | i32 increments | i32 increments/s | i16 ‰ of rated torque | 10, or two PDOs |
 //! | [`moteus`] | f32 turns | f32 turns/s | f32 N m | 24, CAN FD |
 //!
+//! Each says of itself what it is at ([`Condition`]). A move whose values a format does not hold is
+//! refused before it begins, by [`Range::admit`], and not saturated on its way.
+//!
 //! No protocol has room for a count of its own, so a [`Sequence`](crate::axis::Sequence) travels
 //! beside each payload: to the task that sends it, in the stamp of a captured frame, as the counter
 //! of CANopen's SYNC.
 
 pub mod cia402;
+mod condition;
 mod counts;
 mod frame;
 pub mod moteus;
 pub mod odrive;
+mod range;
 mod resolution;
 
+pub use condition::Condition;
 pub use frame::ClassicFrame;
-pub use resolution::{Coarse, TorquePeak};
+pub use range::{DemandPeaks, Range};
+pub use resolution::{Coarse, Lost, TorquePeak};
 
 use crate::hub::Angle;
 
@@ -54,6 +61,9 @@ pub struct Encoded<P> {
     /// Flags of the values that were sent as the nearest that the format holds.
     pub saturated: Saturated,
 }
+
+/// Turns that one f32 position may be from the encoder's zero.
+const WHOLE_TURNS: f32 = 2_097_151.0;
 
 /// Turns in one f32 as an angle, if they are finite and nearest to fewer than 2²¹ whole ones.
 fn turns(position: f32) -> Option<Angle<f32>> {

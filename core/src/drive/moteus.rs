@@ -9,12 +9,19 @@
 //! Positions are turns of what the drive calls its output: with
 //! `motor_position.rotor_to_output_ratio` left at 1, the motor's shaft.
 
-use super::{Encoded, Saturated, turns};
+mod reply;
+
+pub use reply::{QUERY_BYTES, Reply};
+
+use super::{Encoded, Range, Saturated, WHOLE_TURNS, turns};
 use crate::Error;
 use crate::motor::Demand;
 
 /// Payload length: 23 bytes of subframes, filled up.
 pub const BYTES: usize = 24;
+
+/// What a payload holds: values in f32.
+pub const RANGE: Range = Range { position: WHOLE_TURNS, velocity: f32::MAX, torque: f32::MAX };
 
 const WRITE_INT8: u8 = 0x01;
 const WRITE_FLOAT: u8 = 0x0c;

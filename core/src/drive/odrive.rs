@@ -1,20 +1,28 @@
-//! ODrive "CAN simple", `Set_Input_Pos`, `Set_Axis_State` and `Get_Encoder_Estimates`.
+//! ODrive "CAN simple": `Set_Input_Pos`, `Set_Axis_State`, `Get_Encoder_Estimates`, and the
+//! `Heartbeat` with its errors.
 //!
 //! Identifier `node << 5 | command`, 11 bits. Set_Input_Pos is command 0x0C: position f32 (turns),
 //! velocity feed-forward i16 (0.001 turn/s), torque feed-forward i16 (0.001 N m), the drive's
 //! default scales. Source: ODrive documentation, CAN Protocol, and its `odrive-cansimple.dbc`.
 
+mod heartbeat;
+
 use embedded_can::Frame;
+
+pub use heartbeat::{Errors, Heartbeat, InputMode};
 
 use super::counts::count_i16;
 use super::frame::standard;
-use super::{Encoded, Saturated};
+use super::{Encoded, Range, Saturated, WHOLE_TURNS};
 use crate::Error;
 use crate::hub::Angle;
 use crate::motor::Demand;
 
 /// N m a count of the torque feed-forward.
 pub const TORQUE_STEP: f32 = 0.001;
+
+/// What a Set_Input_Pos frame holds.
+pub const RANGE: Range = Range { position: WHOLE_TURNS, velocity: 32.767, torque: 32.767 };
 
 const SET_AXIS_STATE: u16 = 0x07;
 const SET_INPUT_POS: u16 = 0x0c;

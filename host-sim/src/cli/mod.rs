@@ -2,6 +2,7 @@
 
 mod arm;
 mod compare;
+mod drive;
 mod export;
 mod identify;
 mod motion;
@@ -15,7 +16,7 @@ mod talk;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use stillbeam_sim::console::note;
+use stillbeam_sim::console::{note, open};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::limits::load::Progress;
 use stillbeam_sim::{println, progress, scenes};
@@ -56,6 +57,8 @@ enum Command {
     Identify(Box<identify::IdentifyArgs>),
     /// Plan a move that arrives still, judge it and draw it
     Plan(plan::PlanArgs),
+    /// Let a drive and its machine follow a scene, with less and with more feed-forward
+    Drive(drive::DriveArgs),
     /// Write a scene's stepper as constants, for a program without set-up
     Export(export::ExportArgs),
     /// Compare two runs of a scene
@@ -79,6 +82,7 @@ impl Cli {
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Identify(args)) => args.execute(),
             Some(Command::Plan(args)) => args.execute(),
+            Some(Command::Drive(args)) => args.execute(),
             Some(Command::Export(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Reference(args)) => args.execute(),

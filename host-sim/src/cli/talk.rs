@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
-use stillbeam_sim::talk::{self, DEMONSTRATION, Machine, Session, Step};
+use stillbeam_sim::talk::{self, DEMONSTRATION, MACHINE, Machine, Session, Step};
 use stillbeam_sim::{output, println};
 
 #[derive(clap::Args)]
@@ -18,6 +18,10 @@ pub struct TalkArgs {
     /// A board's serial port, instead of QEMU
     #[arg(long, value_name = "PORT")]
     serial: Option<String>,
+    /// The reference rod behind motor, gear and friction on every drive, in QEMU; the steps may then
+    /// be "jump A TURNS" of the encoder, "fault A" and "clear A" of the drive too
+    #[arg(long, conflicts_with = "serial")]
+    plant: bool,
     /// Baud rate of the serial port
     #[arg(long, default_value_t = 921_600)]
     baud: u32,
@@ -29,6 +33,7 @@ pub struct TalkArgs {
 impl TalkArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let steps: Vec<&str> = match self.steps.as_slice() {
+            [] if self.plant => MACHINE.to_vec(),
             [] => DEMONSTRATION.to_vec(),
             steps => steps.iter().map(String::as_str).collect(),
         };
@@ -40,7 +45,8 @@ impl TalkArgs {
             Some(port) => Machine::open(port, self.baud)?,
             None => Machine::emulate(&self.image.unwrap_or_else(talk::default_image))?,
         };
-        let mut session = Session::begin(machine)?;
+        let mut session =
+            if self.plant { Session::begin_loaded(machine)? } else { Session::begin(machine)? };
         talk::converse(&mut session, &steps, &mut |line| println!("{line}"))?;
         if let Some(path) = &self.plot {
             let page = talk::page(&session)?;

@@ -10,6 +10,7 @@
 
 use std::fmt;
 
+pub(crate) mod advance;
 mod carrying;
 pub mod fem;
 pub mod rod;

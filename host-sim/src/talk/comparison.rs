@@ -5,8 +5,9 @@ use std::collections::VecDeque;
 use stillbeam::Angle;
 use stillbeam::axis::{Cause, Mode, Tick};
 use stillbeam::drive::ClassicFrame;
-use stillbeam_protocol::{Command, Report, frame, slcan};
+use stillbeam_protocol::{Command, Description, Report, frame, slcan};
 
+use super::body::Body;
 use super::drive::Drive;
 use super::{Machine, Replica};
 use crate::error::Error;
@@ -39,13 +40,27 @@ pub(super) struct Axis {
 }
 
 impl Comparison {
-    /// Adds an axis. Its emulated arm stands at 0.05, 0.1, … turns.
-    pub(super) fn add(&mut self, replica: Replica) {
+    /// Adds an axis. Its emulated arm stands at 0.05, 0.1, … turns. With `loaded`, its drive turns a
+    /// machine.
+    ///
+    /// # Errors
+    /// An axis that is no machine.
+    pub(super) fn add(
+        &mut self,
+        replica: Replica,
+        description: &Description<'_>,
+        loaded: bool,
+    ) -> Result<(), Error> {
         let hub = Angle { turns: 0, part: 0.05 * (1 + self.axes.len()) as f32 };
         let shaft = replica.train().mapping().to_motor(hub);
-        let drive = Drive::new(replica.node(), shaft.in_turns() as f32);
+        let drive = if loaded {
+            Drive::with_body(replica.node(), Body::new(description, hub.radians())?)
+        } else {
+            Drive::new(replica.node(), shaft.in_turns() as f32)
+        };
         let (accepted, heard, missed) = Default::default();
         self.axes.push(Axis { replica, drive, accepted, heard, missed, history: Vec::new() });
+        Ok(())
     }
 
     /// Notes that the firmware has at least `axes` axes.
@@ -62,6 +77,10 @@ impl Comparison {
 
     pub(super) fn axes(&self) -> &[Axis] {
         &self.axes
+    }
+
+    pub(super) fn axes_mut(&mut self) -> &mut [Axis] {
+        &mut self.axes
     }
 
     pub(super) fn next(&self) -> u32 {

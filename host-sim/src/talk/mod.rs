@@ -5,6 +5,7 @@
 //! [`Step`]s are the user's requests, [`page()`] draws the result.
 
 mod arm;
+mod body;
 mod comparison;
 mod drive;
 mod emulator;
@@ -21,5 +22,5 @@ pub use image::default_image;
 pub use machine::Machine;
 pub use page::page;
 pub use replica::Replica;
-pub use script::{DEMONSTRATION, FAULTS, FIRST, STILL, Step, converse};
+pub use script::{DEMONSTRATION, FAULTS, FIRST, MACHINE, STILL, Step, converse};
 pub use session::{Answer, Posted, Session};

@@ -22,6 +22,10 @@ pub enum Step {
     Stall(f64),
     /// Goes on until every axis rests.
     Rest,
+    /// Lets the encoder of an axis jump, turns of the motor.
+    Jump(u8, f64),
+    /// Lets the drive of an axis switch itself off; with false, clears that.
+    Fail(u8, bool),
 }
 
 /// Demonstration of every part of the policy. Both axes move, one is stopped on its way, one takes
@@ -96,9 +100,35 @@ pub const FAULTS: [&str; 13] = [
     "status 0",
 ];
 
+/// What a machine behind the drives brings about: a move, a stop, a cut link, an encoder that jumps, a
+/// drive that faults on its way and is cleared.
+pub const MACHINE: [&str; 20] = [
+    "enable 0",
+    "enable 1",
+    "move 0 quintic 1.7 1.57",
+    "move 1 s-curve 1.0 -0.9",
+    "rest",
+    "move 0 quintic 1.7 0.2",
+    "wait 0.8",
+    "stop 0",
+    "rest",
+    "move 1 quintic 1.0 0.3",
+    "wait 0.4",
+    "jump 1 0.002",
+    "rest",
+    "move 1 quintic 1.0 -0.3",
+    "wait 0.5",
+    "fault 1",
+    "rest",
+    "clear 1",
+    "disable 1",
+    "silence 1.0",
+];
+
 /// Steps that are accepted.
 const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, still A TO \
-     [DURATION], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest";
+     [DURATION], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest, \
+     jump A TURNS, fault A, clear A";
 
 impl FromStr for Step {
     type Err = Error;
@@ -110,8 +140,11 @@ impl FromStr for Step {
             "wait" => number(words.next()).map(Self::Wait),
             "stall" => number(words.next()).map(Self::Stall),
             "silence" => number(words.next()).map(Self::Silence),
+            "jump" => axis(words.next()).zip(number(words.next())).map(|(a, x)| Self::Jump(a, x)),
+            "fault" => axis(words.next()).map(|axis| Self::Fail(axis, true)),
+            "clear" => axis(words.next()).map(|axis| Self::Fail(axis, false)),
             verb => {
-                let axis = words.next().and_then(|word| word.parse().ok());
+                let axis = axis(words.next());
                 axis.zip(command(verb, &mut words)).map(|(axis, command)| Self::Ask(axis, command))
             }
         };
@@ -152,6 +185,10 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
     })
 }
 
+fn axis(word: Option<&str>) -> Option<u8> {
+    word?.parse().ok()
+}
+
 /// Parses any number. The firmware decides on its range. The times of this script are checked when
 /// they pass.
 fn number(word: Option<&str>) -> Option<f64> {
@@ -183,6 +220,14 @@ impl Step {
                 session.rest()?;
                 Ok(modes(session))
             }
+            Self::Jump(axis, turns) => {
+                session.jump(axis, turns)?;
+                Ok(String::new())
+            }
+            Self::Fail(axis, fails) => {
+                session.fail(axis, fails)?;
+                Ok(String::new())
+            }
         }
     }
 }
@@ -209,6 +254,14 @@ pub fn converse(
     }
     session.wait(1)?;
     logged(session, print);
+    for axis in 0..session.axes() {
+        if let Some([behind, energy]) = session.followed(axis) {
+            print(&format!(
+                "axis {axis}: hub at most {behind:.4} rad behind its setpoint, energy balanced to \
+                 {energy:.1e}"
+            ));
+        }
+    }
     let [setpoints, frames] = session.compared();
     let what = format!("{setpoints} setpoints and {frames} drive frames");
     print(&format!("{what}, all equal to the host's to the bit"));

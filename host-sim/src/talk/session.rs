@@ -54,6 +54,8 @@ pub struct Session {
     beaten: u32,
     /// True if something was sent that the firmware has not heard.
     unheard: bool,
+    /// True if the drives turn machines.
+    loaded: bool,
 }
 
 impl Session {
@@ -63,6 +65,23 @@ impl Session {
     /// An error is returned if the firmware does not answer, or if this host cannot run along with
     /// it.
     pub fn begin(machine: Machine) -> Result<Self, Error> {
+        Self::begin_with(machine, false)
+    }
+
+    /// Begins as [`Session::begin`] does, with the reference rod behind motor, gear and friction on
+    /// every drive.
+    ///
+    /// # Errors
+    /// Errors are those of [`Session::begin`], that of a board, whose drives are its own, and that
+    /// of an axis which does not turn a hub.
+    pub fn begin_loaded(machine: Machine) -> Result<Self, Error> {
+        if !machine.is_emulated() {
+            return Err(Error::new("--plant: must be with QEMU; a board has drives of its own"));
+        }
+        Self::begin_with(machine, true)
+    }
+
+    fn begin_with(machine: Machine, loaded: bool) -> Result<Self, Error> {
         let mut session = Self {
             machine,
             link: Splitter::new(),
@@ -75,6 +94,7 @@ impl Session {
             silent: false,
             beaten: 0,
             unheard: false,
+            loaded,
         };
         let mut axis = 0;
         let mut axes = 1;
@@ -224,6 +244,52 @@ impl Session {
         self.comparison.axes().get(usize::from(axis)).map(|axis| axis.drive.is_on())
     }
 
+    /// Lets the encoder of an axis jump by `turns` of its motor.
+    ///
+    /// # Errors
+    /// An axis that does not exist, or drives without machines.
+    pub fn jump(&mut self, axis: u8, turns: f64) -> Result<(), Error> {
+        let drive = self.drive(axis)?;
+        match drive.body_mut() {
+            Some(body) if turns.is_finite() => body.jump(turns),
+            _ => {
+                return Err(Error::new(format_args!(
+                    "jump = {turns}: must be a number of turns, with --plant"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets the drive of an axis switch itself off, or clears that.
+    ///
+    /// # Errors
+    /// An axis that does not exist.
+    pub fn fail(&mut self, axis: u8, fails: bool) -> Result<(), Error> {
+        let drive = self.drive(axis)?;
+        if fails {
+            drive.fail()
+        } else {
+            drive.clear()
+        }
+        Ok(())
+    }
+
+    fn drive(&mut self, axis: u8) -> Result<&mut super::drive::Drive, Error> {
+        let count = self.comparison.axes().len();
+        let found = self.comparison.axes_mut().get_mut(usize::from(axis));
+        found.map(|axis| &mut axis.drive).ok_or_else(|| {
+            Error::new(format_args!("axis = {axis}: must be 0 to {}", count.saturating_sub(1)))
+        })
+    }
+
+    /// Of an axis with a machine: the greatest angle of its hub behind the latest setpoint, rad, and
+    /// the error of its energy balance over work and losses.
+    pub fn followed(&self, axis: u8) -> Option<[f64; 2]> {
+        let body = self.comparison.axes().get(usize::from(axis))?.drive.body()?;
+        Some([body.behind(), body.energy_error()])
+    }
+
     /// Every tick of an axis so far.
     pub fn history(&self, axis: u8) -> &[Tick<f32>] {
         self.comparison.axes().get(usize::from(axis)).map_or(&[], |axis| &axis.history)
@@ -283,7 +349,8 @@ impl Session {
         if !self.machine.is_emulated() {
             return self.take_in();
         }
-        for axis in self.comparison.axes() {
+        for axis in self.comparison.axes_mut() {
+            axis.drive.advance()?;
             self.machine.send_to_bus(&axis.drive.estimates());
         }
         let all_sent = self.machine.grant()?;
@@ -335,7 +402,8 @@ impl Session {
             Report::Description { sequence, description } => {
                 self.comparison.expect(description.axes.into());
                 let patient = !self.machine.is_emulated();
-                self.comparison.add(Replica::new(&description, patient)?);
+                let replica = Replica::new(&description, patient)?;
+                self.comparison.add(replica, &description, self.loaded)?;
                 self.open.retain(|open| *open != sequence);
                 return Ok(());
             }

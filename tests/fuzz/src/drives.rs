@@ -51,6 +51,12 @@ fn of_odrive(u: &mut Unstructured<'_>) -> Result<()> {
         if let Some(on) = node.axis_state(&frame) {
             assert_eq!(node.set_axis_state(on), Some(frame));
         }
+        if let Some(heartbeat) = node.heartbeat(&frame) {
+            let said = node.heartbeat_frame::<ClassicFrame>(&heartbeat).expect("eight bytes");
+            assert_eq!(node.heartbeat(&said), Some(heartbeat));
+            let _ = heartbeat.condition();
+        }
+        let _ = (node.errors(&frame), node.clears_errors(&frame));
         if let Some(heard) = node.demand(&frame) {
             assert!(heard.is_finite());
             let said = node.set_input_pos::<ClassicFrame>(&heard).expect("finite");
@@ -93,6 +99,23 @@ fn of_cia402(u: &mut Unstructured<'_>) -> Result<()> {
     }
     let payload: [u8; 10] = u.arbitrary()?;
     assert!(drive.decode(&payload).is_finite());
+    let mut power = can402::PowerDrive::default();
+    for wanted in [can402::Wanted::On, can402::Wanted::Reset, can402::Wanted::Off] {
+        let frame = frame(u)?;
+        let _ = (drive.emergency(&frame), drive.downloaded(&frame));
+        let (statusword, position, mode) = (u.arbitrary()?, u.arbitrary()?, u.arbitrary()?);
+        let status = can402::Status { statusword, position, mode };
+        let said = drive.status_frame::<ClassicFrame>(&status).expect("seven bytes");
+        assert_eq!(drive.status(&said), Some(status));
+        assert!(
+            (drive.angle(position).in_turns() - f64::from(position) / f64::from(increments)).abs()
+                < 1e-6
+        );
+        let step = power.step(&status, wanted);
+        // The actual position is sent until the drive follows.
+        assert!(step.hold.is_none_or(|hold| hold == position));
+        assert!(step.hold.is_some() || step.controlword == 0x0f);
+    }
     let (sequence, overflow) = (u16::arbitrary(u)?, u8::arbitrary(u)?);
     let sync = can402::sync::<ClassicFrame>(Sequence(sequence), overflow).expect("a frame");
     assert!((1..=overflow.clamp(2, 240)).contains(&sync.data()[0]));
@@ -132,6 +155,11 @@ fn of_moteus(u: &mut Unstructured<'_>) -> Result<()> {
     }
     if let Some(heard) = servo.decode(&u.arbitrary()?) {
         assert!(heard.is_finite());
+    }
+    let rest = u.bytes(u.len())?;
+    if let Some(reply) = fd::Reply::decode(rest) {
+        assert!(reply.position.is_finite() && reply.velocity.is_finite());
+        let _ = reply.condition();
     }
     Ok(())
 }

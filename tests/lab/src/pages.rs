@@ -11,7 +11,7 @@ use crate::markers::{self, Block, Difference};
 use crate::stability::{self, document::Findings, map};
 use crate::sweep::row::Row;
 use crate::sweep::tables;
-use crate::{choice, still};
+use crate::{choice, plant, still};
 
 /// A page, by its path from the root of the repository, and its blocks that are written here.
 /// Campaigns write the other blocks of the same page.
@@ -31,10 +31,11 @@ enum Source {
     Still,
     Stability,
     Auto,
+    Drive,
 }
 
 /// Every page.
-pub const PAGES: [Page; 5] = [
+pub const PAGES: [Page; 6] = [
     Page { path: "README.md", blocks: &["accuracy"], source: Source::Tables },
     Page { path: "docs/accuracy.md", blocks: &["accuracy", "torque"], source: Source::Tables },
     Page {
@@ -48,6 +49,11 @@ pub const PAGES: [Page; 5] = [
         source: Source::Stability,
     },
     Page { path: "docs/auto.md", blocks: &["command", "arms"], source: Source::Auto },
+    Page {
+        path: "docs/drive.md",
+        blocks: &["odrive", "odrive-tuned", "moteus-tuned", "cia402-tuned", "geared"],
+        source: Source::Drive,
+    },
 ];
 
 /// Finds a page by its path.
@@ -137,6 +143,11 @@ impl Pages {
                 let svg = stability::page::picture(self.findings()?)?;
                 files.add(&path.with_extension("svg"), |file| file.write_all(svg.as_bytes()))?;
             }
+            Source::Drive => {
+                with_bar("pictures", 14, |done| {
+                    plant::page::pictures(&mut files, &path, &|| done(1))
+                })?;
+            }
             Source::Tables | Source::Auto => {}
         }
         files.finish()
@@ -160,6 +171,9 @@ impl Pages {
             })?,
             Source::Stability => self.findings()?.blocks(),
             Source::Auto => choice::blocks(text)?,
+            Source::Drive => with_bar("drives", plant::page::STEPS as u64, |done| {
+                plant::page::blocks(&|| done(1))
+            })?,
         };
         Ok(all.into_iter().filter(|block| page.blocks.contains(&block.name.as_str())).collect())
     }

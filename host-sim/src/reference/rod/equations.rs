@@ -16,7 +16,7 @@ pub(super) struct Rod<const N: usize, const P: usize, const S: usize> {
     /// `ψₖ` at the points, and shape by shape; at the tip.
     pub shapes: [[f64; N]; P],
     by_shape: [[f64; P]; N],
-    tip: [f64; N],
+    pub tip: [f64; N],
     /// Matrix R, which integrates values at the points from the clamp to each station, m: station
     /// by station, and the same point by point.
     pub by_station: [[f64; P]; S],
@@ -29,7 +29,7 @@ pub(super) struct Rod<const N: usize, const P: usize, const S: usize> {
     /// Stiffness of link and joint, `∫EI ψᵢ'ψⱼ' dx + k ψᵢ(0)ψⱼ(0)`, N m.
     pub stiffness: SMatrix<f64, N, N>,
     /// The joint's own damping, `β_J k ψᵢ(0)ψⱼ(0)`, N m s, if it has any.
-    joint: Option<SMatrix<f64, N, N>>,
+    pub joint: Option<SMatrix<f64, N, N>>,
 }
 
 /// The rod of a uniform link.
@@ -44,7 +44,7 @@ pub(super) struct Configuration<const P: usize, const S: usize> {
     cos: [f64; P],
     sin: [f64; P],
     /// X, Y (m), their rates (m/s) and the part of Ẍ, Ÿ that holds no ä (m/s²), station by station.
-    stations: [[f64; S]; 6],
+    pub stations: [[f64; S]; 6],
 }
 
 impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
@@ -184,6 +184,20 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         v: &SVector<f64, N>,
         hub: &HubState<f64>,
     ) -> SVector<f64, N> {
+        match Cholesky::new(self.mass_matrix(at)) {
+            Some(factor) => factor.solve(&self.force(at, a, v, hub)),
+            None => SVector::repeat(f64::NAN),
+        }
+    }
+
+    /// Returns `M(a) ä`, N m: everything but the part of the inertia forces that is due to ä.
+    pub fn force(
+        &self,
+        at: &Configuration<P, S>,
+        a: &SVector<f64, N>,
+        v: &SVector<f64, N>,
+        hub: &HubState<f64>,
+    ) -> SVector<f64, N> {
         let tip = &self.tip;
         let turning = self.turning(v, hub);
         let beta = self.scene.damping.beta;
@@ -208,10 +222,7 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         for k in 0..N {
             force[k] -= dot(&self.by_shape[k], &moment);
         }
-        match Cholesky::new(self.mass_matrix(at)) {
-            Some(factor) => factor.solve(&force),
-            None => SVector::repeat(f64::NAN),
-        }
+        force
     }
 
     /// Returns the largest factor of stiffness-proportional damping, s.

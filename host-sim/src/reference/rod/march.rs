@@ -1,13 +1,12 @@
 //! Integrates the rod in time with a library's Runge-Kutta methods.
 
-use differential_equations::error::Error;
 use differential_equations::methods::{DiagonallyImplicitRungeKutta, ExplicitRungeKutta};
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
-use differential_equations::status::Status;
 use nalgebra::{SMatrix, SVector};
 
 use super::equations::Rod;
 use super::{Integrator, Load, Options, Resume};
+use crate::reference::advance::{advance, failure};
 use crate::reference::carrying::global;
 use crate::reference::schedule::{Schedule, Stretch};
 use crate::reference::{ReferenceError, Sample};
@@ -155,7 +154,7 @@ fn go<const N: usize, const P: usize, const S: usize>(
 /// polynomial decay at βω², and an explicit step is stable to about 6/βω² only. From βω = 8 on (a
 /// damping ratio of 4) the implicit method takes fewer evaluations. Below, the vibration that has
 /// to be followed binds both.
-fn choose(highest: f64, beta: f64) -> Integrator {
+pub(super) fn choose(highest: f64, beta: f64) -> Integrator {
     if beta * highest > 8.0 { Integrator::Implicit } else { Integrator::Explicit }
 }
 
@@ -172,55 +171,14 @@ fn march<const N: usize, const P: usize, const S: usize>(
     method.init(motion, begin, end, &start).map_err(|error| failure(begin, error))?;
     let (inside, at_end) = times.split_at(times.partition_point(|&t| t < end));
     for &t in inside {
-        advance(&mut method, motion, t, each_step)?;
+        advance(&mut method, motion, begin, t, each_step)?;
         visit(t, method.y());
     }
-    advance(&mut method, motion, end, each_step)?;
+    advance(&mut method, motion, begin, end, each_step)?;
     for &t in at_end {
         visit(t, method.y());
     }
     Ok(*method.y())
-}
-
-/// Steps to exactly `stop`, s.
-fn advance<const N: usize, const P: usize, const S: usize>(
-    method: &mut impl OrdinaryNumericalMethod<f64, State<N>>,
-    motion: &Motion<'_, N, P, S>,
-    stop: f64,
-    each_step: &mut dyn FnMut(f64, &State<N>),
-) -> Result<(), ReferenceError> {
-    // Rounding may leave a sliver before a stop; a step that small is none.
-    while stop - method.t() > 1e-13 * stop.max(1.0) {
-        let proposed = method.h();
-        if !proposed.is_finite() {
-            let reason = "the state is not finite".to_owned();
-            return Err(ReferenceError::Integration { time: method.t(), reason });
-        }
-        let left = stop - method.t();
-        let cut = proposed >= left;
-        if cut {
-            method.set_h(left);
-        }
-        method.step(motion).map_err(|error| failure(motion.stretch.begin, error))?;
-        if !matches!(method.status(), Status::RejectedStep) {
-            each_step(method.t(), method.y());
-            if cut {
-                method.set_h(proposed.max(method.h()));
-            }
-        }
-    }
-    Ok(())
-}
-
-fn failure<const N: usize>(begin: f64, error: Error<f64, State<N>>) -> ReferenceError {
-    let (time, reason) = match error {
-        Error::MaxSteps { t, .. } => (t, "too many steps".to_owned()),
-        Error::StepSize { t, .. } => (t, "the step became too small".to_owned()),
-        Error::Stiffness { t, .. } => (t, "too many steps in a row were rejected".to_owned()),
-        Error::LinearAlgebra { t, msg, .. } => (t, msg),
-        other => (begin, other.to_string()),
-    };
-    ReferenceError::Integration { time, reason }
 }
 
 fn sample<const N: usize, const P: usize, const S: usize>(

@@ -6,22 +6,6 @@
 //! the kinematics. Largest error against the same rod with one polynomial more: 1e-5 of L on mild
 //! moves.
 
-mod equations;
-mod legendre;
-mod march;
-mod statics;
-
-use equations::{UniformRod, VariedRod};
-use stillbeam::hub::HubState;
-use stillbeam::{Angle, Scene};
-
-use super::schedule::Schedule;
-use super::{ReferenceError, Sample};
-use crate::trajectory::Trajectory;
-
-/// Polynomials of what is asked of the rod without options.
-const ORDER: usize = 7;
-
 /// Makes the rod of a scene with that many unknowns, whose type depends on it, and hands it to the
 /// expression.
 macro_rules! with_rod {
@@ -41,6 +25,24 @@ macro_rules! with_rod {
         }
     };
 }
+
+mod driven;
+mod equations;
+mod legendre;
+mod march;
+mod statics;
+
+pub(crate) use driven::{Driven, Response, driven};
+use equations::{UniformRod, VariedRod};
+use stillbeam::hub::HubState;
+use stillbeam::{Angle, Scene};
+
+use super::schedule::Schedule;
+use super::{ReferenceError, Sample};
+use crate::trajectory::Trajectory;
+
+/// Polynomials of what is asked of the rod without options.
+const ORDER: usize = 7;
 
 /// Options of the rod's solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -179,12 +181,18 @@ pub fn first_damping_ratio(scene: &Scene) -> Result<f64, ReferenceError> {
 /// `angle`. A run's residual vibration is measured from it, whatever model made the run. Error
 /// below 1e-9 L.
 pub fn rest_deflection(scene: &Scene, angle: Angle<f64>) -> Result<f64, ReferenceError> {
+    rest_tip(scene, angle).map(|[_, y]| y)
+}
+
+/// Returns hub-frame X and Y of the tip, m, of the arm at rest under its own weight with the hub at
+/// `angle`.
+pub fn rest_tip(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], ReferenceError> {
     let scene = scene.validate()?;
     with_rod!(&scene, ORDER, |rod| {
         let hub = resting(angle);
         let a = rod
             .equilibrium(&hub)
             .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
-        Ok(rod.tip(&rod.configuration(&a, &a.map(|_| 0.0)))[1])
+        Ok(rod.tip(&rod.configuration(&a, &a.map(|_| 0.0))))
     })
 }

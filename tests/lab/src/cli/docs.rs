@@ -17,6 +17,7 @@ Written by commands of their own, because they take minutes or an emulator:
   docs/identify.md, its table   cargo lab identify docs/identify.md
   docs/stability.md, campaigns  cargo run --profile long -p stillbeam-lab -- stress docs/stability.md
   docs/stability.md, faults     cargo lab faults docs/stability.md
+  docs/drive.md, robustness     cargo lab plant docs/drive.md
   docs/stability.md, fuzzing    sh tests/fuzz/long
   docs/instructions.*           cargo run --release -p stillbeam-tests --bin instructions
   docs/firmware.md, README.md   cargo run --release -p stillbeam-tests --bin firmware

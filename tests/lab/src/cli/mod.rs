@@ -6,6 +6,7 @@ mod docs;
 mod faults;
 mod identify;
 mod pareto;
+mod plant;
 mod reference;
 mod shortest;
 mod stability;
@@ -46,6 +47,8 @@ enum Command {
     Stability(stability::StabilityArgs),
     /// Inject faults around an axis, and count what comes out
     Faults(faults::FaultsArgs),
+    /// Run random axes with their drives and machines under faults, in the loop
+    Plant(plant::PlantArgs),
     /// Run many solvers on many scenes: error and time of each
     Sweep(sweep::SweepArgs),
     /// Draw a sweep's error against its time and answer what a choice costs
@@ -71,6 +74,7 @@ impl Cli {
             Command::Stress(args) => args.execute(),
             Command::Stability(args) => args.execute(),
             Command::Faults(args) => args.execute(),
+            Command::Plant(args) => args.execute(),
             Command::Sweep(args) => args.execute(),
             Command::Pareto(args) => args.execute(),
             Command::Shortest(args) => args.execute(),

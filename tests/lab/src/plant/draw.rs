@@ -1,0 +1,136 @@
+//! Random arms, machines and moves.
+
+use rand::Rng;
+use rand::rngs::StdRng;
+use stillbeam::axis::Policy;
+use stillbeam::motor::{Direction, Ratio};
+use stillbeam::{Damping, Limits, Link, Payload, Scene, UniformScene};
+use stillbeam_board::machine::Configuration;
+use stillbeam_sim::plant::{Cogging, Friction, Gear, Motor, Parts};
+use stillbeam_sim::reference::rod;
+use stillbeam_sim::servo::odrive;
+
+/// An axis with its machine, and a move within its limits.
+pub struct Case {
+    /// The axis, as the board knows it.
+    pub configuration: Configuration,
+    /// Motor, gear and friction.
+    pub parts: Parts,
+    /// Gains and loops of the drive.
+    pub drive: odrive::Config,
+    /// Counts of the encoder a turn.
+    pub counts: u32,
+    /// Age of the encoder's reading, s.
+    pub latency: f64,
+    /// Duration of the move, s, and its turn, rad.
+    pub duration: f64,
+    /// See [`Self::duration`].
+    pub turn: f64,
+    /// Inertia of arm, hub and rotor about the hub, kg m².
+    pub inertia: f64,
+}
+
+/// Returns a number between two positive ones, evenly in its logarithm.
+fn spread(rng: &mut StdRng, least: f64, most: f64) -> f64 {
+    least * (most / least).powf(rng.random::<f64>())
+}
+
+impl Case {
+    /// Draws a case.
+    pub fn random(rng: &mut StdRng) -> Self {
+        let scene = arm(rng);
+        let arm = Scene::from(scene);
+        let period = rod::first_period(&arm).unwrap_or(0.3);
+        let duration = (period * rng.random_range(1.5..4.0)).clamp(0.3, 1.2);
+        let turn: f64 = rng.random_range(0.3..1.6) * if rng.random() { 1.0 } else { -1.0 };
+        let ratio = Ratio { motor: rng.random_range(1..=6), link: 1 };
+        let n: f64 = ratio.value();
+        let [_, _, second] = arm.link_moments();
+        let at_tip = (arm.hub.radius + arm.link.length).powi(2);
+        let load = second + arm.payload.mass * at_tip + arm.hub.inertia;
+        let rotor = load * rng.random_range(0.02..0.3);
+        let torque = (load + rotor) * 6.0 * turn.abs() / (duration * duration);
+        let parts = parts(rng, ratio, rotor / (n * n), torque);
+        let inertia = load + rotor;
+        // Peak rate and acceleration of a quintic, with room for a stop.
+        let limits = Limits {
+            rate: Some(2.2 * turn.abs() / duration),
+            acceleration: Some(8.0 * turn.abs() / (duration * duration)),
+            ..Limits::default()
+        };
+        let policy = Policy { limits, patience: 0.1, missed: 2 };
+        let direction = if rng.random() { Direction::Same } else { Direction::Opposite };
+        let joint = parts.joint(rng.random());
+        let zero = rng.random_range(-2.0..2.0);
+        let configuration =
+            Configuration { scene, policy, joint, direction, zero, node: rng.random_range(0..64) };
+        let drive = gains(rng, rotor / (n * n));
+        let counts = 1 << rng.random_range(13..18);
+        let latency = if rng.random() { 0.0 } else { 1.0 / drive.rate };
+        Self { configuration, parts, drive, counts, latency, duration, turn, inertia }
+    }
+}
+
+fn arm(rng: &mut StdRng) -> UniformScene {
+    let length = rng.random_range(0.2..1.0);
+    let mass = spread(rng, 0.02, 0.3);
+    // Of a first frequency of the bare link from 3 to 12 Hz.
+    let omega = std::f64::consts::TAU * spread(rng, 3.0, 12.0);
+    let stiffness = mass * f64::powi(length, 3) * (omega / 3.516).powi(2);
+    let mut scene = UniformScene::uniform(Link { length, mass, bending_stiffness: stiffness });
+    scene.payload = Payload { mass: mass * rng.random_range(0.0..2.0), ..Payload::default() };
+    scene.hub.radius = length * rng.random_range(0.0..0.2);
+    scene.hub.inertia = mass * length * length * rng.random_range(0.01..0.1);
+    scene.damping = Damping { alpha: 0.0, beta: 0.1 / omega, joint: 0.0 };
+    scene
+}
+
+fn parts(rng: &mut StdRng, ratio: Ratio, rotor_inertia: f64, torque: f64) -> Parts {
+    let n: f64 = ratio.value();
+    let coulomb = torque * rng.random_range(0.0..0.1);
+    let compliant = ratio.motor > 1 && rng.random();
+    Parts {
+        gear: Gear {
+            ratio,
+            efficiency: if ratio.motor > 1 { rng.random_range(0.7..1.0) } else { 1.0 },
+            stiffness: compliant.then_some(200.0 * torque),
+            damping: if compliant { 0.2 * torque } else { 0.0 },
+            backlash: if compliant { rng.random_range(0.0..2e-3) } else { 0.0 },
+            output_inertia: 0.0,
+        },
+        friction: Friction {
+            coulomb,
+            breakaway: coulomb * rng.random_range(1.0..1.5),
+            stribeck_rate: 0.05,
+            viscous: torque * rng.random_range(0.0..0.01),
+            presliding: 1e-3,
+        },
+        motor: Motor {
+            rotor_inertia,
+            torque: Some(4.0 * torque / n),
+            torque_rate: None,
+            speed: None,
+            cogging: Cogging {
+                amplitude: torque / n * rng.random_range(0.0..0.02),
+                periods: rng.random_range(10..100),
+            },
+        },
+    }
+}
+
+/// Gains for a rotor of that inertia, kg m²: a velocity loop of 80 to 200 rad/s by the rotor alone,
+/// which the arm makes softer.
+fn gains(rng: &mut StdRng, rotor_inertia: f64) -> odrive::Config {
+    let bandwidth = rng.random_range(80.0..200.0);
+    let velocity_gain = std::f64::consts::TAU * rotor_inertia * bandwidth;
+    odrive::Config {
+        position_gain: bandwidth * rng.random_range(0.05..0.1),
+        velocity_gain,
+        integrator_gain: velocity_gain * rng.random_range(0.0..4.0),
+        velocity_limit: 1e3,
+        bandwidth: 1500.0,
+        rate: [2000.0, 4000.0][rng.random_range(0..2)],
+        between: stillbeam_sim::servo::Between::Linear,
+        filter: None,
+    }
+}

@@ -1,0 +1,39 @@
+//! What came out of the runs with one fault.
+
+/// Counts and greatest values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// Runs.
+    pub runs: u64,
+    /// Faults put in.
+    pub injected: u64,
+    /// Setpoints that were judged.
+    pub setpoints: u64,
+    /// Stops on the way.
+    pub stops: u64,
+    /// Greatest way of the setpoints' stop over `v²/A`.
+    pub way: f64,
+    /// Greatest angle of the hub behind its setpoint, rad.
+    pub behind: f64,
+    /// Greatest speed of hub at the end over the move's mean rate.
+    pub restless: f64,
+    /// Greatest error of the energy balance over work and losses.
+    pub energy: f64,
+    /// Promises that were broken, with the run's number.
+    pub broken: Vec<String>,
+}
+
+impl Outcome {
+    /// Adds the outcome of other runs.
+    pub fn add(&mut self, other: Self) {
+        self.runs += other.runs;
+        self.injected += other.injected;
+        self.setpoints += other.setpoints;
+        self.stops += other.stops;
+        self.way = self.way.max(other.way);
+        self.behind = self.behind.max(other.behind);
+        self.restless = self.restless.max(other.restless);
+        self.energy = self.energy.max(other.energy);
+        self.broken.extend(other.broken);
+    }
+}

@@ -1,0 +1,33 @@
+//! The campaign as a table.
+
+use super::Outcome;
+use crate::table::{aligned, grouped};
+
+/// Formats a line for each fault, in Markdown.
+pub fn markdown(rows: &[(&str, Outcome)]) -> String {
+    let header = [
+        "injected",
+        "runs",
+        "times",
+        "setpoints",
+        "stops",
+        "way of a stop, of v²/A",
+        "hub behind, rad",
+        "rate at the end, of the mean",
+        "energy error",
+        "broken",
+    ];
+    let mut lines = vec![header.map(str::to_owned).to_vec()];
+    for (name, outcome) in rows {
+        let counts = [outcome.runs, outcome.injected, outcome.setpoints, outcome.stops];
+        let mut line = vec![(*name).to_owned()];
+        line.extend(counts.map(grouped));
+        line.push(format!("{:.3}", outcome.way));
+        line.push(format!("{:.3}", outcome.behind));
+        line.push(format!("{:.4}", outcome.restless));
+        line.push(format!("{:.1e}", outcome.energy));
+        line.push(grouped(outcome.broken.len() as u64));
+        lines.push(line);
+    }
+    aligned(&lines)
+}
