@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use stillbeam_sim::console::open;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::servo::trials::{Report, Trial};
 use stillbeam_sim::servo::{Between, Machine, Protocol, page};
@@ -30,7 +31,7 @@ pub struct DriveArgs {
 
 impl DriveArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = super::open(&self.scene)?;
+        let scene = open(&self.scene)?;
         let machine = self.machine()?;
         let trials = Trial::all(&scene.arm);
         let bar = progress::bar("runs", trials.len());

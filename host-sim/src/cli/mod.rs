@@ -16,7 +16,7 @@ mod talk;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use stillbeam_sim::console::{note, open};
+use stillbeam_sim::console::note;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::limits::load::Progress;
 use stillbeam_sim::{println, progress, scenes};
