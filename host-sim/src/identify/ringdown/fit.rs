@@ -79,6 +79,10 @@ pub fn identify(
     let strongest = strongest(log, asked)?;
     let mut excerpt = Excerpt::of(log, 1.0 / strongest, clipped, warnings);
     if excerpt.length() * strongest < PERIODS {
+        // Samples this far apart show beats, the largest of them late.
+        if strongest > limit {
+            return Err(undersampled(log, strongest));
+        }
         return Err(too_short(log, strongest, excerpt.length()));
     }
     let mut ringdown = Ringdown::of(excerpt.clone(), asked);
@@ -91,18 +95,23 @@ pub fn identify(
     let ringdown = ringdown.map_err(|error| error.within(&log.name))?;
     let first = ringdown.line(0).frequency();
     if first > limit {
-        return Err(Error::new(format_args!(
-            "{}: the first mode is at {first:.2} Hz; must be below {limit:.2} Hz, half of the Nyquist \
-             frequency: sample at {:.0} Hz or more",
-            log.name,
-            4.0 * first
-        )));
+        return Err(undersampled(log, first));
     }
     let periods = ringdown.excerpt.length() * first;
     if periods < PERIODS {
         return Err(too_short(log, first, ringdown.excerpt.length()));
     }
     ringdown.without_unsampled(limit, asked, warnings)
+}
+
+fn undersampled(log: &Log, frequency: f64) -> Error {
+    Error::new(format_args!(
+        "{}: the first mode is at {frequency:.2} Hz; must be below {:.2} Hz, half of the Nyquist \
+         frequency: sample at {:.0} Hz or more",
+        log.name,
+        0.5 * log.nyquist(),
+        4.0 * frequency
+    ))
 }
 
 fn too_short(log: &Log, frequency: f64, length: f64) -> Error {
