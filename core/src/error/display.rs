@@ -33,13 +33,24 @@ impl Display for Error {
     }
 }
 
+/// A number in the fewest digits that tell it from its neighbours: those of single precision, where
+/// single precision holds it. 32.767 of a frame's format is not 32.766998291015625.
+struct Shortest(f64);
+
+impl Display for Shortest {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let single = self.0 as f32;
+        if f64::from(single) == self.0 { single.fmt(f) } else { self.0.fmt(f) }
+    }
+}
+
 /// A value of a scene, a limit, a tolerance or a type is not accepted.
 fn value(error: &Error, f: &mut Formatter<'_>) -> Result {
     match *error {
         Error::OutOfRange { parameter, value, min, max, unit } => {
-            write!(f, "{parameter} = {value}: must be {min}")?;
+            write!(f, "{parameter} = {}: must be {}", Shortest(value), Shortest(min))?;
             if min != max {
-                write!(f, " to {max}")?;
+                write!(f, " to {}", Shortest(max))?;
             }
             if unit.is_empty() { Ok(()) } else { write!(f, " {unit}") }
         }

@@ -229,7 +229,7 @@ impl Ringdown {
         let line = self.line(0);
         let end = (begin / (0.3 * noise)).ln() / (line.ratio * line.omega);
         let length = self.excerpt.length();
-        (end > 4.0 / line.frequency() && end < 0.85 * length).then_some(end)
+        (end > 10.0 / line.frequency() && end < 0.85 * length).then_some(end)
     }
 
     /// Returns the amplitudes of a mode at the beginning and at the end.
