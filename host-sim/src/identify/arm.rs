@@ -233,7 +233,7 @@ impl Problem<'_> {
             let step = slopes.svd(true, true).solve(&errors, 1e-10).map_err(Error::new)?;
             let step = &step / step.amax().max(1.0);
             x.iter_mut().zip(step.iter()).for_each(|(x, step)| *x -= step);
-            if x.iter().zip(&start).any(|(x, start)| !((x - start).abs() < 12.0)) {
+            if x.iter().zip(&start).any(|(x, start)| x.is_nan() || (x - start).abs() >= 12.0) {
                 break;
             }
             if step.amax() < 1e-10 {

@@ -123,7 +123,7 @@ impl Machine {
     /// Parses the text of a machine file. Errors begin with `name`.
     ///
     /// # Errors
-    /// As [`Self::read`].
+    /// As [`Self::open`].
     pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
         let document = Document::parse(name, text)?;
         let file: File = document.read()?;

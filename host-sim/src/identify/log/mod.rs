@@ -51,7 +51,7 @@ impl Log {
     /// An error is returned if fewer than eight rows are left.
     pub fn between(mut self, from: Option<f64>, to: Option<f64>) -> Result<Self, Error> {
         let (low, high) = (from.unwrap_or(f64::NEG_INFINITY), to.unwrap_or(f64::INFINITY));
-        if !(low < high) {
+        if low.is_nan() || high.is_nan() || low >= high {
             return Err(Error::new(format_args!(
                 "--from = {low}: must be less than --to = {high}, both in s from the first row"
             )));

@@ -55,7 +55,7 @@ fn pool(estimates: &[Estimate], k: usize, of: &dyn Fn(&Estimate) -> f64) -> (f64
     (mean.exp(), [(mean - half).exp(), (mean + half).exp()])
 }
 
-/// Returns Student's two-sided quantile of [`CONFIDENCE`].
+/// Returns Student's two-sided quantile of `CONFIDENCE`.
 pub fn quantile(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |t| t.inverse_cdf(0.5 + 0.5 * CONFIDENCE))
 }
