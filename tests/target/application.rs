@@ -85,7 +85,7 @@ fn machines_behind_the_drives_are_followed_and_repeat_to_the_bit() {
     assert!(behind < 0.2, "{behind} rad");
     assert_eq!(first.drive_is_on(1), Some(false));
     let [setpoints, frames] = first.compared();
-    assert!(setpoints > 1500 && frames > 1000, "{setpoints}, {frames}");
+    assert!(setpoints > 1000 && frames > 1000, "{setpoints}, {frames}");
 }
 
 #[test]
