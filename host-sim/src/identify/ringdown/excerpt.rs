@@ -10,6 +10,10 @@ use crate::identify::warning::Warning;
 /// have.
 const EXCITED: f64 = 2.5;
 
+/// Share of the largest envelope from which a window may be that of the excitation: noise makes a
+/// later one the largest where the damping is light.
+const STRONG: f64 = 0.8;
+
 /// Share of the largest envelope below which a rise is noise.
 const LOUD: f64 = 0.1;
 
@@ -47,7 +51,7 @@ impl Excerpt {
     ) -> Self {
         let windows = envelope(log, period);
         let loudest = windows.iter().map(|window| window.1).fold(0.0, f64::max);
-        let peak = windows.iter().position(|window| window.1 >= 0.999 * loudest).unwrap_or(0);
+        let peak = windows.iter().position(|window| window.1 >= STRONG * loudest).unwrap_or(0);
         let mut begin = onset(log, period, windows[peak].0);
         let late = log.time[0] + 0.5 * (log.time[log.time.len() - 1] - log.time[0]);
         // Clipping that goes on is no excitation.
