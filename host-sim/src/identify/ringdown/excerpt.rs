@@ -140,3 +140,46 @@ fn envelope(log: &Log, period: f64) -> Vec<(f64, f64)> {
     }
     windows
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use rand::{Rng, SeedableRng, rngs::StdRng};
+
+    use super::*;
+    use crate::identify::log::Kind;
+
+    /// Five periods of a vibration that hardly decays, with noise.
+    fn log(seed: u64, begin: f64) -> Log {
+        let mut random = StdRng::seed_from_u64(seed);
+        let time: Vec<f64> = (0..1200).map(|k| 0.005 * f64::from(k)).collect();
+        let clean = |t: f64| if t < begin { 0.0 } else { (TAU * (t - begin)).sin() };
+        let sensor = time
+            .iter()
+            .map(|t| clean(*t) * (-0.02 * (t - begin)).exp() + random.random_range(-0.2..0.2))
+            .collect();
+        Log {
+            name: String::new(),
+            time,
+            hub: None,
+            sensor,
+            column: String::new(),
+            kind: Kind::Deflection,
+            unit: "m".to_owned(),
+            same_time: 0,
+            empty: 0,
+        }
+    }
+
+    /// Noise makes one of the later windows the largest. It is not taken for the excitation.
+    #[test]
+    fn noise_does_not_shorten_a_record() {
+        for seed in 0..20 {
+            let begin = |log: &Log| Excerpt::of(log, 1.0, None, &mut Vec::new()).begin;
+            assert_eq!(begin(&log(seed, 0.0)), 0.0, "{seed}");
+            let late = begin(&log(seed, 1.3));
+            assert!((2.3..3.4).contains(&late), "{seed}: {late}");
+        }
+    }
+}
