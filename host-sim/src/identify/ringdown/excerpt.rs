@@ -10,6 +10,9 @@ use crate::identify::warning::Warning;
 /// have.
 const EXCITED: f64 = 2.5;
 
+/// Samples of a window of the envelope at least.
+const SAMPLES: f64 = 8.0;
+
 /// Share of the largest envelope from which a window may be that of the excitation: noise makes a
 /// later one the largest where the damping is light.
 const STRONG: f64 = 0.8;
@@ -49,6 +52,8 @@ impl Excerpt {
         clipped: Option<Clipping>,
         warnings: &mut Vec<Warning>,
     ) -> Self {
+        // Fewer samples do not show how large a vibration is.
+        let period = period.max(SAMPLES * log.interval());
         let windows = envelope(log, period);
         let loudest = windows.iter().map(|window| window.1).fold(0.0, f64::max);
         let peak = windows.iter().position(|window| window.1 >= STRONG * loudest).unwrap_or(0);
@@ -180,6 +185,18 @@ mod tests {
             assert_eq!(begin(&log(seed, 0.0)), 0.0, "{seed}");
             let late = begin(&log(seed, 1.3));
             assert!((2.3..3.4).contains(&late), "{seed}: {late}");
+        }
+    }
+
+    /// Windows of two samples beat with a vibration of 2.2 samples a period: the first of them may
+    /// show next to none of it.
+    #[test]
+    fn few_samples_a_period_do_not_shorten_a_record() {
+        for phase in 0..8 {
+            let mut log = log(0, 0.0);
+            let angle = |t: f64| TAU * (t / 0.011 + 0.125 * f64::from(phase));
+            log.sensor = log.time.iter().map(|t| angle(*t).sin() * (-0.02 * t).exp()).collect();
+            assert_eq!(Excerpt::of(&log, 0.011, None, &mut Vec::new()).begin, 0.0, "{phase}");
         }
     }
 }
