@@ -8,9 +8,11 @@
 pub mod arm;
 mod clean;
 mod covariance;
+mod doubts;
 pub mod forced;
 pub mod log;
 pub mod page;
+mod panel;
 pub mod report;
 mod request;
 pub mod ringdown;
@@ -21,7 +23,8 @@ pub mod warning;
 
 use nalgebra::DVector;
 
-pub use request::{Identified, Panel, Request};
+pub use panel::Panel;
+pub use request::{Identified, Request};
 
 /// Returns `100 (1 − ‖y − ŷ‖/‖y − ȳ‖)`.
 pub fn fit_percent(value: &DVector<f64>, residual: &DVector<f64>) -> f64 {

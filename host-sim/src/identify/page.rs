@@ -2,8 +2,9 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::panel::Panel;
 use super::report::{ModeReport, Report};
-use super::request::{Identified, Panel};
+use super::request::Identified;
 use super::spectrum::Spectrum;
 use crate::error::Error;
 use crate::plot::{Axis, Chart, Colour, Series};

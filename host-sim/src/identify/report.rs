@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::log::Log;
+
 /// One natural mode.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ModeReport {
@@ -60,6 +62,31 @@ pub struct Report {
     pub arm: Option<ArmFit>,
     /// Warnings to read before trusting it.
     pub warnings: Vec<String>,
+}
+
+impl Report {
+    /// Returns a report of the logs and modes alone.
+    pub(super) fn of(logs: &[Log], modes: Vec<ModeReport>) -> Self {
+        let mut names: Vec<String> = logs.iter().map(|log| log.name.clone()).collect();
+        let validation_log = if names.len() > 1 { names.pop() } else { None };
+        Self {
+            case: "",
+            logs: names,
+            validation_log,
+            sensor: logs[0].column.clone(),
+            unit: logs[0].unit.clone(),
+            used_s: [0.0; 2],
+            modes,
+            fit_percent: 0.0,
+            validation_percent: 0.0,
+            delay_s: None,
+            scale: None,
+            offset: 0.0,
+            other_frequencies_hz: Vec::new(),
+            arm: None,
+            warnings: Vec::new(),
+        }
+    }
 }
 
 /// A value of the scene that was fitted.

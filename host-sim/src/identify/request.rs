@@ -6,10 +6,12 @@ use stillbeam::Scene;
 
 use super::arm::{self, Free, Sensor};
 use super::clean::{Clipping, clean};
-use super::forced::{self, Forced, Lowpass, Record};
+use super::doubts;
+use super::forced::{self, Lowpass, Record};
 use super::log::{Columns, Log, Sign};
+use super::panel::Panel;
 use super::report::{ModeReport, Report};
-use super::ringdown::{self, Estimate, Excerpt, Ringdown};
+use super::ringdown::{self, Estimate, Ringdown};
 use super::warning::Warning;
 use crate::arm::natural;
 use crate::error::Error;
@@ -23,15 +25,6 @@ const STEPS: f64 = 3.0;
 
 /// Fit below which a ring-down is doubted, %.
 const DOUBTED: f64 = 70.0;
-
-/// Periods below which the damping is uncertain.
-const FEW: f64 = 8.0;
-
-/// Relative width of an interval of the damping from which it counts as unknown.
-const WIDE: f64 = 1.0;
-
-/// Disagreement of a record's parts that is worth a warning.
-const DISAGREE: f64 = 5e-4;
 
 /// Ratio of the gain to its theory that is worth a warning, either way.
 const GAIN: f64 = 1.3;
@@ -61,19 +54,6 @@ pub struct Request {
     pub scene: Option<(String, Scene)>,
 }
 
-/// Measured and fitted values of a log, for a picture.
-#[derive(Clone, Debug)]
-pub struct Panel {
-    /// The log.
-    pub log: String,
-    /// Times from the first row, s.
-    pub time: Vec<f64>,
-    /// The sensor.
-    pub measured: Vec<f64>,
-    /// The model.
-    pub fitted: Vec<f64>,
-}
-
 /// Result of an identification.
 #[derive(Clone, Debug)]
 pub struct Identified {
@@ -96,8 +76,9 @@ struct Prepared {
 impl Request {
     /// Reads the logs and identifies what they show.
     ///
-    /// # Errors An error is returned if an option is out of its range, if a log cannot be read, or
-    /// if it does not show a vibration of at least two periods.
+    /// # Errors
+    /// An error is returned if an option is out of its range, if a log cannot be read, or if it
+    /// does not show a vibration of at least two periods.
     pub fn carry_out(&self) -> Result<Identified, Error> {
         let logs = self.logs.iter().map(|path| Log::read(path, &self.columns, self.sign));
         self.identify(logs.collect::<Result<_, _>>()?)
@@ -207,7 +188,7 @@ impl Request {
             Some(held) => first.explains(&held.excerpt),
             None => first.validation_percent(),
         };
-        warn_of_modes(&modes, &estimates[0], &logs[0].unit, &mut warnings);
+        doubts::of_modes(&modes, &estimates[0], &logs[0].unit, &mut warnings);
         if fit_percent < DOUBTED {
             warnings.push(Warning::PoorFit { percent: fit_percent });
         }
@@ -225,9 +206,9 @@ impl Request {
             scale: None,
             offset: first.solution.c[0],
             other_frequencies_hz: others,
-            ..self.blank(&logs, modes)
+            ..Report::of(&logs, modes)
         };
-        let panels = all.iter().map(panel).collect();
+        let panels = all.iter().map(Panel::of_ringdown).collect();
         self.finish(report, panels, warnings)
     }
 
@@ -243,7 +224,7 @@ impl Request {
         let mut records: Vec<Record> = logs.iter().map(Record::of).collect();
         let held = if records.len() > 1 { records.pop() } else { None };
         let fit = forced::identify(records, held.as_ref(), &asked, &mut warnings)?;
-        let modes = (0..fit.structure.modes).map(|mode| mode_of(&fit, mode)).collect();
+        let modes = (0..fit.structure.modes).map(|mode| fit.report(mode)).collect();
         let fit_percent = fit.fit_percent();
         if fit.validation_percent < fit_percent - 15.0 {
             let validation = fit.validation_percent;
@@ -270,42 +251,11 @@ impl Request {
             scale: Some(fit.gain()),
             offset: fit.offset(),
             other_frequencies_hz: Vec::new(),
-            ..self.blank(&logs, modes)
+            ..Report::of(&logs, modes)
         };
-        let panels = fit.records.iter().chain(&held).map(|record| {
-            let (measured, fitted) = fit.prediction(record);
-            Panel {
-                log: record.name.clone(),
-                time: record.time.clone(),
-                measured: measured.as_slice().to_vec(),
-                fitted: fitted.as_slice().to_vec(),
-            }
-        });
-        let panels = panels.collect();
+        let records = fit.records.iter().chain(&held);
+        let panels = records.map(|record| Panel::of_record(&fit, record)).collect();
         self.finish(report, panels, warnings)
-    }
-
-    /// Returns a report of the logs and modes alone.
-    fn blank(&self, logs: &[Log], modes: Vec<ModeReport>) -> Report {
-        let mut names: Vec<String> = logs.iter().map(|log| log.name.clone()).collect();
-        let validation_log = if names.len() > 1 { names.pop() } else { None };
-        Report {
-            case: "",
-            logs: names,
-            validation_log,
-            sensor: logs[0].column.clone(),
-            unit: logs[0].unit.clone(),
-            used_s: [0.0; 2],
-            modes,
-            fit_percent: 0.0,
-            validation_percent: 0.0,
-            delay_s: None,
-            scale: None,
-            offset: 0.0,
-            other_frequencies_hz: Vec::new(),
-            arm: None,
-            warnings: Vec::new(),
-        }
     }
 
     /// Fits the scene's arm and words the warnings.
@@ -341,62 +291,4 @@ fn hub_range(log: &Log) -> Option<(f64, bool)> {
     let step = steps.fold(f64::INFINITY, f64::min);
     let range = high - low;
     Some((range, range > AT_REST && range > STEPS * step))
-}
-
-fn mode_of(fit: &Forced, mode: usize) -> ModeReport {
-    let [omega, ratio] = fit.mode(mode);
-    let [omegas, ratios] = fit.intervals(mode);
-    let hz = |omega: f64| omega / std::f64::consts::TAU;
-    let values = &fit.records[0].value;
-    let half = 0.5 * (values.max() - values.min());
-    ModeReport {
-        frequency_hz: hz(omega),
-        frequency_interval_hz: omegas.map(hz),
-        damping_ratio: ratio,
-        damping_interval: ratios.map(|ratio| ratio.min(1.0)),
-        periods: fit.records.iter().map(Record::length).sum::<f64>() * hz(omega),
-        amplitude: [half, 0.0],
-        large_frequency_hz: None,
-        large_damping_ratio: None,
-    }
-}
-
-fn warn_of_modes(
-    modes: &[ModeReport],
-    first: &[Estimate],
-    unit: &str,
-    warnings: &mut Vec<Warning>,
-) {
-    let main = &modes[0];
-    if let (Some(hz), Some(ratio)) = (main.large_frequency_hz, main.large_damping_ratio) {
-        warnings.push(Warning::AmplitudeDependent {
-            small: [main.frequency_hz, main.damping_ratio],
-            large: [hz, ratio],
-            amplitude: main.amplitude,
-            unit: unit.to_owned(),
-        });
-    }
-    if main.periods < FEW {
-        warnings.push(Warning::FewPeriods { periods: main.periods });
-    }
-    for estimate in first.iter().filter(|estimate| estimate.spread.excess[0] > DISAGREE) {
-        let percent = 100.0 * estimate.spread.excess[0];
-        warnings.push(Warning::WindowsDisagree { percent, hz: estimate.spread.range });
-    }
-    for (index, mode) in modes.iter().enumerate() {
-        let interval = mode.damping_interval;
-        if interval[1] - interval[0] > WIDE * mode.damping_ratio {
-            warnings.push(Warning::DampingUnknown { mode: index + 1, interval });
-        }
-    }
-}
-
-fn panel(ringdown: &Ringdown) -> Panel {
-    let Excerpt { name, begin, time, value } = &ringdown.excerpt;
-    Panel {
-        log: name.clone(),
-        time: time.iter().map(|t| begin + t).collect(),
-        measured: value.as_slice().to_vec(),
-        fitted: (value - &ringdown.solution.residual).as_slice().to_vec(),
-    }
 }

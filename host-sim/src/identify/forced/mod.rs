@@ -2,6 +2,7 @@
 
 mod filter;
 mod fit;
+mod mode;
 mod model;
 mod verdict;
 
