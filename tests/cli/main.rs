@@ -3,6 +3,7 @@
 
 mod arm;
 mod bad_input;
+mod book;
 mod commands;
 mod export;
 mod identify;

@@ -18,32 +18,6 @@ fn run(folder: &Path, args: &[&str]) -> (i32, String) {
     (output.status.code().expect("an exit code"), text)
 }
 
-/// Every file and command of the page is as it says.
-#[test]
-fn the_page_runs() {
-    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/motions.md");
-    let page = fs::read_to_string(page).expect("the page");
-    let folder = tempfile::tempdir().expect("folder");
-    let mut commands = 0;
-    for block in page.split("```").skip(1).step_by(2) {
-        let (info, text) = block.split_once('\n').expect("a block has lines");
-        match info.split_once(' ') {
-            Some((_, file)) => fs::write(folder.path().join(file), text).expect("a file"),
-            None if info == "sh" => {
-                for line in text.lines() {
-                    let words: Vec<&str> = line.split_whitespace().collect();
-                    assert_eq!(words[0], "stillbeam-sim", "{line}");
-                    let (code, error) = run(folder.path(), &words[1..]);
-                    assert_eq!(code, 0, "{line}: {error}");
-                    commands += 1;
-                }
-            }
-            None => {}
-        }
-    }
-    assert_eq!(commands, 6);
-}
-
 /// An arm that has no moves of its own takes a motion from a file, and a move of `plan`.
 #[test]
 fn an_arm_without_moves_takes_a_motion() {

@@ -1,5 +1,5 @@
-//! The numbers in `docs/firmware.md` and the transcript in `README.md`. A command writes them, a
-//! test checks them.
+//! The numbers and transcripts of `docs/firmware.md`. A command writes them, a test
+//! checks them.
 
 use std::fmt::Write;
 

@@ -8,6 +8,7 @@ use super::judge::{Commanded, Judged};
 use super::setpoints::Setpoints;
 use super::{Between, Machine};
 use crate::error::Error;
+use crate::number::Digits;
 use crate::plan::Request;
 use crate::plant::{Friction, Options};
 use crate::reference::rod;
@@ -196,20 +197,21 @@ impl Report {
         if let (Some(less), Some(more)) =
             (of(Trial { feed: Feed::POSITION, ..Trial::PLAIN }), of(Trial::PLAIN))
         {
+            let show = |x: f64| Digits::Three.show(x);
             text += &format!(
-                "feed-forward makes the hub's largest error {:.0} times smaller: {:.3} rad instead \
-                 of {:.3}",
+                "feed-forward makes the hub's largest error {:.0} times smaller: {} rad instead of {}",
                 less.hub / more.hub,
-                more.hub,
-                less.hub
+                show(more.hub),
+                show(less.hub)
             );
-            if let Some(still) = of(Trial::STILL) {
-                text += &format!(
-                    "; a still move leaves {:.2} % of L of vibration instead of {:.2}",
-                    100.0 * still.residual,
-                    100.0 * more.residual
-                );
-            }
+            let left = show(100.0 * more.residual);
+            text += &match of(Trial::STILL).filter(|still| still.residual != more.residual) {
+                Some(still) => format!(
+                    "; a still move leaves {} % of L of vibration instead of {left}",
+                    show(100.0 * still.residual)
+                ),
+                None => format!("; {left} % of L of vibration is left"),
+            };
         }
         text
     }

@@ -15,6 +15,7 @@ pub mod baseline;
 pub mod campaign;
 pub mod choice;
 pub mod faults;
+mod figures;
 pub mod identify;
 pub mod markers;
 pub mod pages;

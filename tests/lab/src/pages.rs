@@ -12,7 +12,7 @@ use crate::markers::{self, Block, Difference};
 use crate::stability::{self, document::Findings, map};
 use crate::sweep::row::Row;
 use crate::sweep::tables;
-use crate::{choice, plant, still};
+use crate::{choice, figures, plant, still};
 
 /// A page, by its path from the root of the repository, and its blocks that are written here.
 /// Campaigns write the other blocks of the same page.
@@ -28,6 +28,7 @@ pub struct Page {
 /// Computation of the blocks of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
+    Figures,
     Tables,
     Still,
     Stability,
@@ -37,7 +38,7 @@ enum Source {
 
 /// Every page.
 pub const PAGES: [Page; 6] = [
-    Page { path: "README.md", blocks: &["accuracy"], source: Source::Tables },
+    Page { path: "README.md", blocks: &["figures"], source: Source::Figures },
     Page { path: "docs/accuracy.md", blocks: &["accuracy", "torque"], source: Source::Tables },
     Page {
         path: "docs/still.md",
@@ -72,7 +73,7 @@ pub fn named(path: &str) -> Result<Page, Error> {
 ///
 /// # Errors
 /// An error is returned if the file cannot be read.
-fn read(path: &Path) -> Result<String, Error> {
+pub(crate) fn read(path: &Path) -> Result<String, Error> {
     std::fs::read_to_string(path).map_err(|cause| {
         Error::file(path, format_args!("{cause}; must be a text file that can be read"))
     })
@@ -177,7 +178,7 @@ impl Pages {
                     plant::page::pictures(&mut files, &path, &|| done(1))
                 })?;
             }
-            Source::Tables | Source::Auto => {}
+            Source::Figures | Source::Tables | Source::Auto => {}
         }
         files.finish()
     }
@@ -194,6 +195,7 @@ impl Pages {
 
     fn blocks(&self, page: &Page, text: &str) -> Result<Vec<Block>, Error> {
         let all = match page.source {
+            Source::Figures => figures::blocks(&self.root)?,
             Source::Tables => tables::blocks(self.rows()?),
             Source::Still => with_bar("reference rod", still::document::STEPS as u64, |done| {
                 still::document::blocks(&|| done(1))

@@ -20,7 +20,7 @@ Written by commands of their own, because they take minutes or an emulator:
   docs/drive.md, robustness     cargo lab plant docs/drive.md
   docs/stability.md, fuzzing    sh tests/fuzz/long
   docs/instructions.*           cargo run --release -p stillbeam-tests --bin instructions
-  docs/firmware.md, README.md   cargo run --release -p stillbeam-tests --bin firmware
+  docs/firmware.md              cargo run --release -p stillbeam-tests --bin firmware
 Of docs/auto.md, --check compares the command and the distribution of the arms.";
 
 #[derive(clap::Args)]

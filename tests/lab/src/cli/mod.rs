@@ -60,7 +60,7 @@ enum Command {
     Identify(identify::IdentifyArgs),
     /// Let the two reference solvers converge to each other
     Reference(reference::ReferenceArgs),
-    /// Print the tables of README.md and docs/accuracy.md
+    /// Print the tables of docs/accuracy.md
     Tables(tables::TablesArgs),
 }
 

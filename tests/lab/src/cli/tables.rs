@@ -1,4 +1,4 @@
-//! `tables`: prints the numbers of README.md and docs/accuracy.md on the terminal.
+//! `tables`: prints the tables of docs/accuracy.md on the terminal.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,4 @@
-//! The tables of README.md and docs/accuracy.md, with errors by a sweep.
+//! The tables of docs/accuracy.md, with errors by a sweep.
 
 use super::answers::short;
 use super::execute;
