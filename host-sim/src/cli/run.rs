@@ -64,7 +64,10 @@ impl RunArgs {
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
         if let Some(Choice { rung, expected, .. }) = choice {
-            println!("  chose            {rung} (expected error {})", advice::errors(&scene, &expected));
+            println!(
+                "  chose            {rung} (expected error {})",
+                advice::errors(&scene, &expected)
+            );
         }
         println!("  {} setpoints to {}", rows.len(), self.csv.display());
         println!(

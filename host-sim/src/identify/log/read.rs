@@ -24,12 +24,7 @@ impl Log {
     ///
     /// # Errors
     /// As [`Self::read`].
-    pub fn parse(
-        name: &str,
-        text: &str,
-        columns: &Columns,
-        sign: Sign,
-    ) -> Result<Self, Error> {
+    pub fn parse(name: &str, text: &str, columns: &Columns, sign: Sign) -> Result<Self, Error> {
         Self::rows(name, text, columns, sign).map_err(|error| error.within(name))
     }
 
