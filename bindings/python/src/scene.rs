@@ -134,7 +134,7 @@ impl Scene {
         &self.file.name
     }
 
-    /// Control period of the scene's [solver], s.
+    /// Control period of the scene's solver, s.
     #[getter]
     fn tick(&self) -> PyResult<f64> {
         Ok(self.file.solver.resolve().map_err(refused)?.tick)
