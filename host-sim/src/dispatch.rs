@@ -146,17 +146,76 @@ fn not_on_carrier(scene: &SceneFile, solver: &Solver) -> Error {
 /// Builds the stepper of an arm on a carrier that turns. One type for all methods, as such scenes
 /// are rare.
 fn on_carrier<T: Real>(scene: &SceneFile, solver: &Solver) -> Result<OnCarrier<Auto<T>>, Error> {
-    let Solver { method, modes, elements, tick, .. } = *solver;
-    let rung = match method {
-        Method::Rigid => Rung::Rigid,
-        Method::Modal if (elements, solver.mass, solver.spin) == (8, Mass::Consistent, true) => {
-            Rung::Modal(modes)
-        }
-        Method::Elastica => Rung::Elastica(modes, quality(solver)),
-        _ => return Err(not_on_carrier(scene, solver)),
-    };
+    let rung = rung(solver).ok_or_else(|| not_on_carrier(scene, solver))?;
+    let tick = solver.tick;
     let bend = expected_bend(&Rod::<1>::new(&scene.arm)?, scene, solver)?;
     Ok(OnCarrier::new(&scene.arm, |arm| Auto::new(arm, tick, rung, bend))?)
+}
+
+/// Returns the rung of `auto`'s ladder that a solver names, or `None` if there is none: for newmark,
+/// for modal with another mesh or without spin terms, and for `auto` itself.
+fn rung(solver: &Solver) -> Option<Rung> {
+    let Solver { method, modes, elements, mass, spin, .. } = *solver;
+    match method {
+        Method::Rigid => Some(Rung::Rigid),
+        Method::Modal if (elements, mass, spin) == (8, Mass::Consistent, true) => {
+            Some(Rung::Modal(modes))
+        }
+        Method::Elastica => Some(Rung::Elastica(modes, quality(solver))),
+        _ => None,
+    }
+}
+
+/// Builds the stepper that `solver` asks for as one type, the same to the bit as its own. `auto`
+/// chooses for the scene's moves. Elastica is fitted for hub accelerations up to `acceleration`
+/// rad/s², or if that is `None` for those of the scene's moves.
+///
+/// # Errors
+/// A method that is none of [`Auto`], what a set-up refuses, and a carrier that turns.
+pub fn ladder_stepper<T: Real>(
+    scene: &SceneFile,
+    solver: &Solver,
+    acceleration: Option<f64>,
+) -> Result<Auto<T>, Error> {
+    let (arm, tick) = (&scene.arm, solver.tick);
+    if arm.mount.carrier != 0.0 {
+        return Err(Error::new(format_args!(
+            "carrier.rate = {}: must be 0 for a stepper outside of a run",
+            arm.mount.carrier
+        )));
+    }
+    if solver.method == Method::Auto {
+        let choice = choose(scene, solver)?.map_err(|none| none.error)?;
+        return Ok(Auto::chosen(arm, tick, &choice)?);
+    }
+    let rung = rung(solver).ok_or_else(|| {
+        Error::new(format_args!(
+            "solver.method = \"{}\": must be rigid, elastica, auto, or modal with 8 elements of \
+             consistent mass and spin",
+            solver.method.name()
+        ))
+    })?;
+    let bend = match (rung, acceleration) {
+        (Rung::Rigid | Rung::Modal(_), _) => 0.0,
+        (Rung::Elastica(1, _), given) => bend_of(&Rod::<1>::new(arm)?, scene, solver, given)?,
+        (Rung::Elastica(2, _), given) => bend_of(&Rod::<2>::new(arm)?, scene, solver, given)?,
+        (Rung::Elastica(..), given) => bend_of(&Rod::<3>::new(arm)?, scene, solver, given)?,
+    };
+    Ok(Auto::new(arm, tick, rung, bend)?)
+}
+
+/// Returns the tip angle for which elastica is fitted, rad: for the given acceleration, rad/s², or
+/// for those of the scene's moves.
+fn bend_of<const K: usize>(
+    rod: &Rod<K>,
+    scene: &SceneFile,
+    solver: &Solver,
+    acceleration: Option<f64>,
+) -> Result<f64, Error> {
+    match acceleration {
+        Some(acceleration) => bend_within(rod, acceleration),
+        None => expected_bend(rod, scene, solver),
+    }
 }
 
 struct NewmarkOf<'a, T, V> {
@@ -216,13 +275,25 @@ fn modal<T: Real, const K: usize, const N: usize, const W: usize>(
 /// # Errors
 /// An error is returned if the scene's moves are refused, whatever the method.
 pub fn choose(scene: &SceneFile, solver: &Solver) -> Result<Result<Choice, NoChoice>, Error> {
+    choose_with(scene, solver, &|_| ())
+}
+
+/// [`choose`] with `progress` called with the fraction that is done.
+pub fn choose_with(
+    scene: &SceneFile,
+    solver: &Solver,
+    progress: &dyn Fn(f64),
+) -> Result<Result<Choice, NoChoice>, Error> {
     if scene.arm.mount.carrier != 0.0 {
         return Err(not_on_carrier(scene, solver));
     }
     let tolerance = Tolerance { tip: solver.tolerance, torque: solver.torque_tolerance };
     let late = progress::late("choosing a method");
     along(scene, solver.tick, |motion| {
-        Ok(select::choose(&scene.arm, solver.tick, motion, &tolerance, &mut |part| late.set(part)))
+        Ok(select::choose(&scene.arm, solver.tick, motion, &tolerance, &mut |part| {
+            late.set(part);
+            progress(part);
+        }))
     })
 }
 
@@ -301,8 +372,16 @@ fn expected_bend<const K: usize>(
 ) -> Result<f64, Error> {
     let trajectory = scene.trajectory(solver.tick)?;
     let peaks = trajectory.plans().iter().map(|plan| plan.summary.peaks.acceleration);
+    bend_within(rod, peaks.fold(0.0, f64::max))
+}
+
+/// Returns the tip angle to expect from an acceleration in rad/s², rad.
+///
+/// # Errors
+/// An angle that elastica cannot be fitted for.
+fn bend_within<const K: usize>(rod: &Rod<K>, acceleration: f64) -> Result<f64, Error> {
     let (_, most) = Elastica::<f64, K>::BEND;
-    let bend = rod.bend(peaks.fold(0.0, f64::max));
+    let bend = rod.bend(acceleration);
     if bend > most {
         return Err(Error::new(format_args!(
             "solver.method = elastica: the tip is expected to turn {bend:.2} rad against the hub, \

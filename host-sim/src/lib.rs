@@ -12,6 +12,7 @@
 //!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 
+pub mod advice;
 pub mod arm;
 pub mod axis_units;
 pub mod compare;

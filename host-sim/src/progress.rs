@@ -3,7 +3,8 @@
 use std::cell::OnceCell;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+pub use indicatif::ProgressBar;
+use indicatif::ProgressStyle;
 
 /// Creates a bar over `steps` steps. It shows after the first.
 pub fn bar(what: &str, steps: usize) -> ProgressBar {

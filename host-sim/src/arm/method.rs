@@ -22,21 +22,35 @@ pub struct MethodReport {
     pub why: String,
 }
 
+/// A choice of `auto` with its report.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    /// The choice.
+    pub choice: Choice,
+    /// True if it keeps both tolerances; else it comes nearest.
+    pub keeps: bool,
+    /// The choice in words.
+    pub report: MethodReport,
+}
+
 /// Chooses as `auto` does and gives the reason: the errors of the next cheaper method.
 pub fn advise(scene: &SceneFile) -> Result<MethodReport, Error> {
+    advise_with(scene, &|_| ()).map(|advice| advice.report)
+}
+
+/// [`advise`] with the choice itself. `progress` is called with the fraction that is done.
+pub fn advise_with(scene: &SceneFile, progress: &dyn Fn(f64)) -> Result<Advice, Error> {
     let solver = Solver { method: Method::Auto, ..scene.solver.resolve()? };
     let (tip, torque) = (100.0 * solver.tolerance, 100.0 * solver.torque_tolerance);
     let limits = format!("{tip} % of L and {torque} % of the torque\u{2019}s peak");
-    match dispatch::choose(scene, &solver)? {
-        Ok(choice) => Ok(report(&choice, kept(scene, &solver, &choice, &limits))),
-        Err(none) => match none.nearest {
-            Some(nearest) => {
-                let why = format!("none keeps {limits}, this one comes nearest");
-                Ok(report(&nearest, why))
-            }
-            None => Err(none.error.into()),
-        },
-    }
+    let (choice, keeps, why) = match dispatch::choose_with(scene, &solver, progress)? {
+        Ok(choice) => (choice, true, kept(scene, &solver, &choice, &limits)),
+        Err(none) => {
+            let Some(nearest) = none.nearest else { return Err(none.error.into()) };
+            (nearest, false, format!("none keeps {limits}, this one comes nearest"))
+        }
+    };
+    Ok(Advice { report: report(&choice, why), choice, keeps })
 }
 
 fn report(choice: &Choice, why: String) -> MethodReport {

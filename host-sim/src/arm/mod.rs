@@ -5,5 +5,5 @@ mod method;
 pub mod natural;
 mod report;
 
-pub use method::{MethodReport, advise};
+pub use method::{Advice, MethodReport, advise, advise_with};
 pub use report::{ArmReport, describe};

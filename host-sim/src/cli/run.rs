@@ -3,13 +3,12 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use stillbeam::select::{Assessment, Choice, Tolerance};
+use stillbeam::select::Choice;
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::scene_file::SceneFile;
-use stillbeam_sim::solver::{Method, Solver, SolverKeys};
+use stillbeam_sim::solver::{Method, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{axis_units, dispatch, println, run, table};
+use stillbeam_sim::{advice, axis_units, println, run, table};
 
 use super::motion::MotionArgs;
 
@@ -48,14 +47,14 @@ impl RunArgs {
         notes.extend(scene.roundings(solver.tick)?);
         let keys = typed.or(scene.solver);
         let choice = match solver.method {
-            Method::Auto => Some(chosen(&scene, &solver, &keys, &mut notes)?),
+            Method::Auto => Some(advice::chosen(&scene, &solver, &keys, &|_| (), &mut notes)?),
             _ => None,
         };
         let rows = super::with_limits_shown(|progress| {
             run::run_with(&scene, &solver, choice.as_ref(), progress)
         })?;
         if choice.is_none() {
-            notes.extend(remark(&scene, &solver));
+            notes.extend(advice::remark(&scene, &solver));
         }
         for line in notes {
             super::note(&line);
@@ -65,7 +64,10 @@ impl RunArgs {
         let peak = |of: fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
         println!("{}: {}", scene.name, solver.describe());
         if let Some(Choice { rung, expected, .. }) = choice {
-            println!("  chose            {rung} (expected error {})", errors(&scene, &expected));
+            println!(
+                "  chose            {rung} (expected error {})",
+                advice::errors(&scene, &expected)
+            );
         }
         println!("  {} setpoints to {}", rows.len(), self.csv.display());
         println!(
@@ -92,67 +94,4 @@ impl RunArgs {
         }
         Ok(ExitCode::SUCCESS)
     }
-}
-
-/// Returns the method that `auto` chooses. If no method keeps default tolerances, takes the one
-/// that comes nearest and notes it. Returns an error if a method or tolerances were asked for, or
-/// if the tip's error exceeds [`REMARKABLE`].
-fn chosen(
-    scene: &SceneFile,
-    solver: &Solver,
-    keys: &SolverKeys,
-    notes: &mut Vec<String>,
-) -> Result<Choice, Error> {
-    let none = match dispatch::choose(scene, solver)? {
-        Ok(choice) => return Ok(choice),
-        Err(none) => none,
-    };
-    let asked =
-        keys.method.is_some() || keys.tolerance.is_some() || keys.torque_tolerance.is_some();
-    let near = |choice: &Choice| !asked && choice.expected.tip <= REMARKABLE.tip;
-    let Some(nearest) = none.nearest.filter(near) else { return Err(none.error.into()) };
-    notes.push(format!(
-        "no method keeps {} of L and {} of the {}'s peak here; {} comes nearest, with {}",
-        solver.tolerance,
-        solver.torque_tolerance,
-        axis_units::of(scene.arm.mount.axis).effort,
-        nearest.rung,
-        errors(scene, &nearest.expected)
-    ));
-    Ok(nearest)
-}
-
-/// Errors above which a method that is named by hand gets a remark.
-const REMARKABLE: Tolerance = Tolerance { tip: 0.01, torque: 0.05 };
-
-/// Returns a remark if the method is expected to err by more than [`REMARKABLE`]. The remark names
-/// a better method if there is one.
-fn remark(scene: &SceneFile, solver: &Solver) -> Option<String> {
-    // A method that cannot be judged here has run all the same.
-    let expected = dispatch::assess(scene, solver).ok()?;
-    if expected.excess(&REMARKABLE) <= 1.0 {
-        return None;
-    }
-    let (tolerance, torque_tolerance) = (Solver::PAPER.tolerance, Solver::PAPER.torque_tolerance);
-    let auto = Solver { method: Method::Auto, tolerance, torque_tolerance, ..*solver };
-    let better = match dispatch::choose(scene, &auto) {
-        Ok(Ok(choice)) => Some(choice),
-        Ok(Err(none)) => none.nearest,
-        Err(_) => None,
-    };
-    let excess = |choice: &Choice| choice.expected.excess(&REMARKABLE);
-    let advice = match better.filter(|choice| excess(choice) < expected.excess(&REMARKABLE)) {
-        Some(choice) => {
-            format!("auto would take {}, with {}", choice.rung, errors(scene, &choice.expected))
-        }
-        None => "no method does better at this tick; a shorter one may".to_owned(),
-    };
-    let method = solver.method.name();
-    Some(format!("{method} is expected to err by {}; {advice}", errors(scene, &expected)))
-}
-
-/// Returns the errors in words, e.g. `4.0e-4 of L, 0.2 % of the torque's peak`.
-fn errors(scene: &SceneFile, expected: &Assessment) -> String {
-    let effort = axis_units::of(scene.arm.mount.axis).effort;
-    format!("{:.1e} of L, {:.2} % of the {effort}'s peak", expected.tip, 100.0 * expected.torque)
 }

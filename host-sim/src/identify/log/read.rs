@@ -17,11 +17,18 @@ impl Log {
     pub fn read(path: &Path, columns: &Columns, sign: Sign) -> Result<Self, Error> {
         let text = std::fs::read_to_string(path)
             .map_err(|cause| Error::file(path, format_args!("{cause}; it must be a log as CSV")))?;
-        let name = path.display().to_string();
-        Self::parse(&name, &text, columns, sign).map_err(|error| error.within(&name))
+        Self::parse(&path.display().to_string(), &text, columns, sign)
     }
 
-    fn parse(name: &str, text: &str, columns: &Columns, sign: Sign) -> Result<Self, Error> {
+    /// Reads the text of a CSV as [`Self::read`] does. Errors begin with `name`.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(name: &str, text: &str, columns: &Columns, sign: Sign) -> Result<Self, Error> {
+        Self::rows(name, text, columns, sign).map_err(|error| error.within(name))
+    }
+
+    fn rows(name: &str, text: &str, columns: &Columns, sign: Sign) -> Result<Self, Error> {
         let text = text.trim_start_matches('\u{feff}');
         let mut csv = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
@@ -126,7 +133,7 @@ mod tests {
     use super::*;
 
     fn parse(text: &str) -> Result<Log, Error> {
-        Log::parse("log.csv", text, &Columns::default(), Sign::Plus)
+        Log::rows("log.csv", text, &Columns::default(), Sign::Plus)
     }
 
     fn rows(header: &str, row: impl Fn(u32) -> String) -> String {
