@@ -115,6 +115,7 @@ mod generator;
 pub mod hub;
 pub mod material;
 pub mod math;
+pub mod mechanism;
 pub mod model;
 pub mod motion;
 pub mod motor;

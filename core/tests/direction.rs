@@ -5,13 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules, in the order of the data. A module may import those before it.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 16] = [
     "math",
     "error",
     "prepared",
     "hub",
     "material",
     "scene",
+    "mechanism",
     "model",
     "motion",
     "stepper",

@@ -15,6 +15,7 @@ impl Display for Error {
             | Self::Buckles { .. }
             | Self::DegreesOfFreedom { .. }
             | Self::NotPrepared { .. } => value(self, f),
+            Self::PassiveJoint { .. } | Self::OpenLoop { .. } => mechanism(self, f),
             Self::LimitExceeded { .. }
             | Self::TooFast { .. }
             | Self::BendsTooFar { .. }
@@ -83,6 +84,23 @@ fn value(error: &Error, f: &mut Formatter<'_>) -> Result {
             f,
             "{parameter} = {found:#010x}: must be {needed:#010x} in an arm prepared for this \
              program; export it anew"
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// A chain of links is not accepted.
+fn mechanism(error: &Error, f: &mut Formatter<'_>) -> Result {
+    match *error {
+        Error::PassiveJoint { parameter, joint } => write!(
+            f,
+            "{parameter} = {joint}: must be a driven joint, this one is passive or released \
+             already; name another or give it a motor"
+        ),
+        Error::OpenLoop { gap } => write!(
+            f,
+            "closure.pin: the end of the chain stays {gap:.6} m from it, must reach it with the \
+             links straight; move the pin or let the passive joints begin at other angles"
         ),
         _ => Ok(()),
     }
@@ -187,7 +205,7 @@ mod tests {
     use crate::error::Mode;
 
     /// One error of every kind. The match is there to fail to compile when a kind is added.
-    fn every_kind() -> [Error; 20] {
+    fn every_kind() -> [Error; 22] {
         let (parameter, unit) = ("link.length", "m");
         let all = [
             Error::OutOfRange { parameter, value: -1.0, min: 1e-3, max: 1e3, unit },
@@ -209,6 +227,8 @@ mod tests {
             Error::Elsewhere { hub: 0.1, begins: 0.0 },
             Error::Buckles { gravity: 100.0 },
             Error::DegreesOfFreedom { given: 2, needed: 4 },
+            Error::PassiveJoint { parameter: "moves.joint", joint: 2 },
+            Error::OpenLoop { gap: 0.12 },
             Error::WrongMode { mode: Mode::Stopped },
             Error::Moving,
             Error::Stale,
@@ -226,6 +246,7 @@ mod tests {
                 Error::NotStill { .. } | Error::DeflectsTooFar { .. } => {}
                 Error::Elsewhere { .. } | Error::Buckles { .. } => {}
                 Error::DegreesOfFreedom { .. } | Error::WrongMode { .. } => {}
+                Error::PassiveJoint { .. } | Error::OpenLoop { .. } => {}
                 Error::Moving | Error::Stale | Error::Starved | Error::NoMove => {}
                 Error::NotPrepared { .. } => {}
             }

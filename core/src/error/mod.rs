@@ -125,6 +125,18 @@ pub enum Error {
         /// Degrees of freedom that the scene needs.
         needed: usize,
     },
+    /// A motor is asked for at a joint that has none, or no longer.
+    PassiveJoint {
+        /// The field that names the joint, e.g. `moves.joint`.
+        parameter: &'static str,
+        /// The joint, counted from 1.
+        joint: usize,
+    },
+    /// The end of a chain does not reach the pin that is to close it.
+    OpenLoop {
+        /// Distance that is left between end and pin, m.
+        gap: f64,
+    },
     /// The axis takes no such request in its mode.
     WrongMode {
         /// The mode that it is in.
