@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules, in the order of the data. A module may import those before it.
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 17] = [
     "math",
     "error",
     "prepared",
@@ -17,6 +17,7 @@ const ORDER: [&str; 16] = [
     "motion",
     "stepper",
     "generator",
+    "chain",
     "planner",
     "select",
     "axis",
