@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use stillbeam::Limits;
 use stillbeam_sim::console::open_arm;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::mechanism;
 use stillbeam_sim::plan::{Planned, Request, page};
 use stillbeam_sim::scene_file::angle_remark;
 use stillbeam_sim::{axis_units, println, progress};
@@ -14,12 +15,15 @@ use stillbeam_sim::{axis_units, println, progress};
 pub struct PlanArgs {
     /// Scene file, or the name of an embedded scene: its arm, first angle, limits and tick
     scene: String,
-    /// Hub angle at the end, rad (on a linear axis the position, m; likewise below)
-    #[arg(long, value_name = "RAD", allow_negative_numbers = true)]
-    to: f64,
+    /// Hub angle at the end, rad (on a linear axis the position, m; likewise below); of a mechanism
+    /// the angles of all joints, e.g. 1.0,1.3
+    #[arg(long, value_name = "RAD", allow_negative_numbers = true, required = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    to: Vec<f64>,
     /// Hub angle at the beginning, rad [default: the scene's]
-    #[arg(long, value_name = "RAD", allow_negative_numbers = true)]
-    from: Option<f64>,
+    #[arg(long, value_name = "RAD", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    from: Option<Vec<f64>>,
     /// Duration, s [default: the shortest within the limits]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     duration: Option<f64>,
@@ -49,8 +53,23 @@ pub struct PlanArgs {
 
 impl PlanArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
+        if let Some(scene) = mechanism::scenes::open(&self.scene)? {
+            super::mechanism::refuse("--robust", self.robust.is_some())?;
+            super::mechanism::refuse("--max-moment", self.max_moment.is_some())?;
+            let limits = Limits {
+                rate: self.max_rate,
+                acceleration: self.max_acceleration,
+                jerk: self.max_jerk,
+                torque: self.max_torque,
+                ..Limits::default()
+            };
+            let Self { from, to, duration, out, .. } = self;
+            return super::mechanism::plan(&scene, from, to, duration, limits, &out);
+        }
         let scene = open_arm(&self.scene)?;
-        for (key, value) in [("--from", self.from), ("--to", Some(self.to))] {
+        let to = single("--to", &self.to)?;
+        let from = self.from.as_ref().map(|angles| single("--from", angles)).transpose()?;
+        for (key, value) in [("--from", from), ("--to", Some(to))] {
             let turns = !scene.arm.mount.is_linear();
             let value = value.filter(|_| turns);
             if let (Some(value), Some(text)) = (value, value.and_then(angle_remark)) {
@@ -60,8 +79,8 @@ impl PlanArgs {
         let limits = scene.limits;
         let request = Request {
             arm: scene.arm,
-            from: self.from.unwrap_or(scene.from),
-            to: self.to,
+            from: from.unwrap_or(scene.from),
+            to,
             duration: self.duration,
             limits: Limits {
                 rate: self.max_rate.or(limits.rate),
@@ -87,6 +106,16 @@ impl PlanArgs {
         print(&scene.name, &request, &planned);
         println!("  {}", file.display());
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Returns the one angle of an arm's hub.
+fn single(key: &str, angles: &[f64]) -> Result<f64, Error> {
+    match angles {
+        [angle] => Ok(*angle),
+        _ => Err(Error::new(format_args!(
+            "{key} = {angles:?}: must be one angle with an arm of one [link]"
+        ))),
     }
 }
 
