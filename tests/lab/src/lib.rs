@@ -16,6 +16,7 @@ pub mod choice;
 pub mod faults;
 pub mod identify;
 pub mod markers;
+pub mod mechanisms;
 pub mod pages;
 pub mod plant;
 pub mod reference;
