@@ -13,7 +13,7 @@ struct Motion<T, const Q: usize> {
     end: Vector<T>,
     /// Time derivative of the tangents' rates, `W n − Ω² t`.
     tangents: [Vector<T>; Q],
-    /// Angular acceleration of the hub and of the end.
+    /// Angular acceleration of the hub, without damping, and of the end.
     hub_angular: T,
     end_angular: T,
     /// Rate of the end.
@@ -25,9 +25,9 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
     /// `acceleration`, of a joint the torque that its motor must give, N m.
     ///
     /// `acceleration` is to hold `q̈ + αq̇`: damping in proportion to mass is that much more
-    /// acceleration. Elastic forces are left out. `force` is what the ground pushes on the chain's end with, in the global
-    /// frame, N.
-    #[inline(always)]
+    /// acceleration, of all but hubs. Elastic forces are left out. `force` is what the ground pushes
+    /// on the chain's end with, in the global frame, N.
+    #[inline(never)]
     pub(super) fn inverse_dynamics(
         &self,
         pose: &[Pose<T, Q>; LINKS],
@@ -101,7 +101,8 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
             omega += rate[j][0];
             angular += acceleration[j][0];
             let motion = &mut motions[j];
-            motion.hub_angular = angular;
+            // A hub is not damped.
+            motion.hub_angular = angular - self.alpha * omega;
             a = [a[0] - body.radius * (omega * omega), a[1] + body.radius * angular];
             motion.clamp = a;
             for q in 0..Q {

@@ -13,7 +13,7 @@ pub struct Energy<T> {
     pub strain: T,
     /// In the field of gravity, zero at the height of the first joint.
     pub height: T,
-    /// What damping takes a second, `αq̇ᵀMq̇ + βȧᵀKȧ`, W.
+    /// What damping takes a second, `αq̇ᵀMq̇ + βȧᵀKȧ`, the hubs left out of `M`, W.
     pub loss: T,
 }
 
@@ -41,7 +41,11 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             twice += rates[i] * mass.matrix[i][i] * rates[i];
         }
         let (mut strain, mut bending) = (T::ZERO, T::ZERO);
+        let (mut hubs, mut omega) = (T::ZERO, T::ZERO);
         for j in 0..LINKS {
+            omega += state.rate[j][0];
+            hubs += self.model.links[j].hub * (omega * omega);
+            omega += state.rate[j][1];
             for k in 1..W {
                 let stiffness = self.model.links[j].stiffness[k];
                 strain += T::HALF * stiffness * state.shape[j][k] * state.shape[j][k];
@@ -52,7 +56,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             kinetic: T::HALF * twice,
             strain,
             height: self.model.gravity * turned(pose[0].frame, whole)[1],
-            loss: self.model.alpha * twice + self.model.beta * bending,
+            loss: self.model.alpha * (twice - hubs) + self.model.beta * bending,
         }
     }
 
