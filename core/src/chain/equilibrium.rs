@@ -13,6 +13,9 @@ const STEPS: usize = 200;
 const STRIDE: f64 = 0.2;
 /// Change of the coordinates, rad, below which the search has ended.
 const DONE: f64 = 1e-12;
+/// Least stiffness, of that of the spring at the pin, above which a place is taken for stable: the error
+/// of the differences is below it.
+const UNSTABLE: f64 = -1e-8;
 /// Step of the differences that the stiffness is taken from, rad: their error is its square.
 const DIFFERENCE: f64 = 1e-5;
 
@@ -60,7 +63,8 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
 
     /// Changes the free coordinates until nothing is missing and the end is on `pin`. Newton's
     /// method for the augmented Lagrangian: the pin is a stiff spring and a force that grows by what
-    /// the spring still holds. Returns the largest last change, rad, and the gap at the pin, m.
+    /// the spring still holds. Returns the largest last change, rad, and the gap at the pin, m. Where
+    /// the place is unstable, the change is infinite.
     fn settle<const C: usize>(
         &self,
         rest: &mut Rest<LINKS, W>,
@@ -89,8 +93,8 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
             let none = [Complex::ZERO; C];
             let right =
                 core::array::from_fn(|i| Complex::new(if free[i] { right[i] } else { 0.0 }, 0.0));
-            let step =
-                Factors::new(&stiffness, &none, free).solve(&right, free).map(|step| step.re);
+            let factors = Factors::new(&stiffness, &none, free);
+            let step = factors.solve(&right, free).map(|step| step.re);
             change = step.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
             gap = crate::math::sqrt(missed[0] * missed[0] + missed[1] * missed[1]);
             if !change.is_finite() {
@@ -111,6 +115,9 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
                 }
             }
             if change < DONE {
+                if factors.least_pivot(free) < UNSTABLE * spring {
+                    change = f64::INFINITY;
+                }
                 break;
             }
         }
@@ -168,7 +175,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     ///
     /// # Errors
     /// [`Error::OpenLoop`] if the end does not reach its pin, [`Error::Buckles`] if gravity leaves
-    /// no place to rest that is found.
+    /// no stable place to rest that is found.
     pub fn at_rest(&self, angles: &[f64; LINKS]) -> Result<ChainState<T, LINKS, W>, Error> {
         let model = self.model.precise();
         let pin = self.pin.map(|pin| pin.map(T::to_f64));

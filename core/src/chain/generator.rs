@@ -46,7 +46,7 @@ pub struct ChainGenerator<
     pub(super) third: T,
     pub(super) stop: Option<Stop<T>>,
     /// Number of the coming tick.
-    next: u32,
+    pub(super) next: u32,
 }
 
 impl<

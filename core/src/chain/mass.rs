@@ -36,9 +36,9 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         self.mass_and_whole::<C, WHOLE>(pose).0
     }
 
-    /// The same, and with `WHOLE` the first moment of all mass about the first joint in the first link's frame,
-    /// kg m.
-    #[inline(always)]
+    /// The same, and with `WHOLE` the first moment of all mass about the first joint in the first
+    /// link's frame, kg m.
+    #[inline(never)]
     pub(super) fn mass_and_whole<const C: usize, const WHOLE: bool>(
         &self,
         pose: &[Pose<T, Q>; LINKS],

@@ -45,6 +45,7 @@ mod pin;
 mod pose;
 mod quadrature;
 mod queue;
+mod rehearse;
 mod solve;
 mod stages;
 mod state;
@@ -58,6 +59,7 @@ use body::{Body, Load};
 pub use energy::Energy;
 pub use generator::{ChainGenerator, ChainSetpoint};
 pub use modes::ChainModes;
+pub use rehearse::Rehearsal;
 pub use state::{ChainState, Command, JointState};
 pub use still::{ChainPlan, ChainPlanner};
 

@@ -44,7 +44,7 @@ pub(super) struct Pose<T, const Q: usize> {
 impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LINKS, W, Q> {
     /// Directions of all links. In `coordinates` the joints' angles are in turns, `|x| ≤ 500`, the
     /// others in rad.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn pose(&self, coordinates: &[[T; W]; LINKS]) -> [Pose<T, Q>; LINKS] {
         let mut pose = [Pose {
             frame: [T::ONE, T::ZERO],
@@ -111,7 +111,7 @@ fn direction<T: Scalar>(turns: T) -> Vector<T> {
 
 impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LINKS, W, Q> {
     /// How far each coordinate moves the tip, in the global frame, m per unit.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn tip_moves<const C: usize>(&self, pose: &[Pose<T, Q>; LINKS]) -> [Vector<T>; C] {
         let mut moves = [[T::ZERO; 2]; C];
         let mut to_tip = [T::ZERO; 2];

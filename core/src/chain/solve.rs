@@ -14,7 +14,7 @@ pub(super) struct Factors<T, const C: usize> {
 impl<T: Scalar, const C: usize> Factors<T, C> {
     /// Factors `matrix + diag(diagonal)`, of which the lower triangle is read, in the rows and
     /// columns that are `free`.
-    #[inline(always)]
+    #[inline(never)]
     pub fn new(matrix: &[[T; C]; C], diagonal: &[Complex<T>; C], free: &[bool; C]) -> Self {
         let mut lower = [[Complex::ZERO; C]; C];
         let mut inverse = [Complex::ZERO; C];
@@ -43,9 +43,19 @@ impl<T: Scalar, const C: usize> Factors<T, C> {
         Self { lower, inverse }
     }
 
+    /// Least pivot of the free rows, of a matrix that is real: negative of one that is not definite.
+    pub fn least_pivot(&self, free: &[bool; C]) -> T {
+        let mut least = T::from_f64(f64::INFINITY);
+        for i in (0..C).filter(|&i| free[i]) {
+            let pivot = T::ONE / self.inverse[i].re;
+            least = if pivot < least { pivot } else { least };
+        }
+        least
+    }
+
     /// Solves for one right side in the rows that are `free`; the others stay as they are, and are
     /// to be zero.
-    #[inline(always)]
+    #[inline(never)]
     pub fn solve(&self, right: &[Complex<T>; C], free: &[bool; C]) -> [Complex<T>; C] {
         let mut x = *right;
         for i in 0..C {

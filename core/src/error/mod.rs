@@ -137,6 +137,27 @@ pub enum Error {
         /// Distance that is left between end and pin, m.
         gap: f64,
     },
+    /// The moves take a loop to where its end does not stay on the pin.
+    LeavesPin {
+        /// Distance of the end from the pin, m.
+        gap: f64,
+        /// Time from the latest tick, s.
+        time: f64,
+    },
+    /// The links of a loop lie in one line: its pin could hold any force along it.
+    StraightLoop {
+        /// Time from the latest tick, s.
+        time: f64,
+    },
+    /// The tick is too long for what a chain is to do.
+    TickTooLong {
+        /// The tick, s.
+        tick: f64,
+        /// Distance of a link's end from where half the tick takes it, of all lengths.
+        apart: f64,
+        /// Time from the latest tick, s.
+        time: f64,
+    },
     /// The axis takes no such request in its mode.
     WrongMode {
         /// The mode that it is in.

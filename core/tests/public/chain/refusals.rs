@@ -1,7 +1,7 @@
 //! What no chain is made of, and what no chain does.
 
 use stillbeam::chain::{Chain, ChainGenerator};
-use stillbeam::mechanism::{Closure, Joint, Link, Mechanism};
+use stillbeam::mechanism::{Closure, Joint, Link, Mechanism, Stiffness};
 use stillbeam::{Error, Move, Profile};
 
 use super::scenes;
@@ -100,4 +100,57 @@ fn a_move_that_bends_too_far_is_refused() {
     let motion = Move::To { profile: Profile::Quintic, duration: 0.15, to: 1.5 };
     arm.push(0, &motion).expect("alone it is within");
     assert!(matches!(arm.push(1, &motion), Err(Error::BendsTooFar { .. })));
+}
+
+/// With rigid links the latch's crank asks for a place beyond the reach of the two links behind it.
+#[test]
+fn a_loop_that_leaves_its_pin_is_refused() {
+    let mut scene = scenes::latch();
+    scenes::generator::<f32, 3, 3, 9, 3>(&scene, 0.01).rehearse(300).expect("strips give way");
+    for link in &mut scene.mechanism.links {
+        link.stiffness = Stiffness::Rigid;
+    }
+    let rigid = scenes::generator::<f32, 3, 3, 9, 3>(&scene, 0.01);
+    match rigid.rehearse(300) {
+        Err(Error::LeavesPin { gap, time }) => {
+            assert!(gap > 1e-4 && (1.8..2.6).contains(&time), "{gap} m at {time} s");
+        }
+        other => panic!("{other:?}"),
+    }
+    // Less far the same loop keeps its pin.
+    scene.turns[3].to = 1.7;
+    let torque = scenes::generator::<f32, 3, 3, 9, 3>(&scene, 0.01).rehearse(300).expect("a way");
+    assert!(torque.torque.iter().all(|torque| *torque < 1.0), "{torque:?}");
+}
+
+/// A strip that swings in three ticks is not resolved; with a tenth of the tick it is.
+#[test]
+fn a_tick_that_is_too_long_is_refused() {
+    let mut scene = scenes::arm_dd();
+    for turn in &mut scene.turns {
+        turn.duration = 0.4;
+    }
+    let found = scenes::generator::<f32, 2, 3, 6, 3>(&scene, 0.01).rehearse(120).expect("fine");
+    let exact = scenes::generator::<f32, 2, 3, 6, 3>(&scene, 0.001).rehearse(1200).expect("fine");
+    assert!(exact.apart < 0.01 * found.apart, "{exact:?}, {found:?}");
+    let coarse = scenes::generator::<f32, 2, 3, 6, 3>(&scene, 0.05).rehearse(24);
+    assert!(
+        matches!(coarse, Err(Error::TickTooLong { tick: 0.05, apart, .. }) if apart > 0.02),
+        "{coarse:?}"
+    );
+}
+
+/// A straight strip between two pins cannot give way along itself.
+#[test]
+fn a_loop_in_one_line_is_refused() {
+    let mut mechanism = Mechanism::new(&[D, D]).expect("links");
+    mechanism.joints[1] = Joint::passive(0.0);
+    let mut closure = Closure::at(0.1);
+    closure.release.push(0).expect("room");
+    mechanism.closure = Some(closure);
+    let chain = Chain::<f32, 2, 3, 6, 3>::new(&mechanism, 0.01).expect("a chain");
+    let arm = ChainGenerator::<f32, 2, 3, 6, 3>::new(chain, [0.4, 0.0]).expect("a generator");
+    arm.rehearse(10).expect("it is open");
+    let found = arm.rehearse(20);
+    assert!(matches!(found, Err(Error::StraightLoop { time }) if time < 0.2), "{found:?}");
 }
