@@ -45,8 +45,8 @@ impl<const LINKS: usize> Bends<LINKS> {
 impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usize>
     Chain<T, LINKS, W, C, Q>
 {
-    /// Refuses moves whose joints accelerate by up to `peaks`, rad/s², if the chain is open and they
-    /// would bend a link further than the tick follows. The links of a loop hold each other.
+    /// Refuses moves whose joints accelerate by up to `peaks`, rad/s², if the chain is open and
+    /// they would bend a link further than the tick follows. The links of a loop hold each other.
     pub(super) fn admit(&self, peaks: &[f64; LINKS], closed: bool) -> Result<(), Error> {
         if closed {
             return Ok(());

@@ -25,8 +25,8 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
     /// `acceleration`, of a joint the torque that its motor must give, N m.
     ///
     /// `acceleration` is to hold `q̈ + αq̇`: damping in proportion to mass is that much more
-    /// acceleration, of all but hubs. Elastic forces are left out. `force` is what the ground pushes
-    /// on the chain's end with, in the global frame, N.
+    /// acceleration, of all but hubs. Elastic forces are left out. `force` is what the ground
+    /// pushes on the chain's end with, in the global frame, N.
     #[inline(never)]
     pub(super) fn inverse_dynamics(
         &self,

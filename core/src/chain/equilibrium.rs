@@ -13,8 +13,8 @@ const STEPS: usize = 200;
 const STRIDE: f64 = 0.2;
 /// Change of the coordinates, rad, below which the search has ended.
 const DONE: f64 = 1e-12;
-/// Least stiffness, of that of the spring at the pin, above which a place is taken for stable: the error
-/// of the differences is below it.
+/// Least stiffness, of that of the spring at the pin, above which a place is taken for stable: the
+/// error of the differences is below it.
 const UNSTABLE: f64 = -1e-8;
 /// Step of the differences that the stiffness is taken from, rad: their error is its square.
 const DIFFERENCE: f64 = 1e-5;
@@ -62,9 +62,9 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
     }
 
     /// Changes the free coordinates until nothing is missing and the end is on `pin`. Newton's
-    /// method for the augmented Lagrangian: the pin is a stiff spring and a force that grows by what
-    /// the spring still holds. Returns the largest last change, rad, and the gap at the pin, m. Where
-    /// the place is unstable, the change is infinite.
+    /// method for the augmented Lagrangian: the pin is a stiff spring and a force that grows by
+    /// what the spring still holds. Returns the largest last change, rad, and the gap at the pin,
+    /// m. Where the place is unstable, the change is infinite.
     fn settle<const C: usize>(
         &self,
         rest: &mut Rest<LINKS, W>,

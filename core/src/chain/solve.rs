@@ -43,7 +43,8 @@ impl<T: Scalar, const C: usize> Factors<T, C> {
         Self { lower, inverse }
     }
 
-    /// Least pivot of the free rows, of a matrix that is real: negative of one that is not definite.
+    /// Least pivot of the free rows, of a matrix that is real: negative of one that is not
+    /// definite.
     pub fn least_pivot(&self, free: &[bool; C]) -> T {
         let mut least = T::from_f64(f64::INFINITY);
         for i in (0..C).filter(|&i| free[i]) {

@@ -30,9 +30,9 @@ pub const MAX_LINKS: usize = 8;
 
 /// A planar chain of links on revolute joints, open or with its end on a pin.
 ///
-/// Joint `j` carries link `j`. Joint 0 stands at the origin of the global frame, joint `j` at the end
-/// of link `j − 1`. Its angle is that of its link against the end of the link before, of joint 0
-/// against global x, counter-clockwise. Gravity acts along global −y.
+/// Joint `j` carries link `j`. Joint 0 stands at the origin of the global frame, joint `j` at the
+/// end of link `j − 1`. Its angle is that of its link against the end of the link before, of joint
+/// 0 against global x, counter-clockwise. Gravity acts along global −y.
 ///
 /// Fields are public so that a mechanism reads like its file; [`Mechanism::validate`] is called
 /// wherever a model is built from it.

@@ -91,9 +91,9 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         self.chain.modes(angles).map(|modes| modes.period())
     }
 
-    /// Plans the move of all joints from rest at `from` to rest at `to`, rad, in `duration` s. Takes
-    /// 20 to 90 flights of the move's length, up to five times as many where the first search fails;
-    /// to be run where nothing is urgent.
+    /// Plans the move of all joints from rest at `from` to rest at `to`, rad, in `duration` s.
+    /// Takes 20 to 90 flights of the move's length, up to five times as many where the first search
+    /// fails; to be run where nothing is urgent.
     ///
     /// # Errors
     /// [`Error::TooShort`] below 0.9 first periods, [`Error::NotStill`] if no bulge is found that

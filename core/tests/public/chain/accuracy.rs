@@ -69,8 +69,8 @@ fn assert_accurate<const LINKS: usize, const C2: usize, const C3: usize>(
     }
 }
 
-/// Measured figures beside the bounds, which are those with a little room. Angles of driven joints are
-/// commanded: what is left is rounding.
+/// Measured figures beside the bounds, which are those with a little room. Angles of driven joints
+/// are commanded: what is left is rounding.
 #[test]
 fn places_and_torques_are_those_of_the_truth() {
     assert_accurate::<2, 6, 8>(

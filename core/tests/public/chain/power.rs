@@ -6,8 +6,8 @@ use super::scenes::{self, Scene};
 
 const TICK: f64 = 0.001;
 
-/// Work that is missing in the balance in ticks of `tick` s, over the integral of the motors' absolute
-/// power. Another balance begins `impact` ticks after a chain has closed.
+/// Work that is missing in the balance in ticks of `tick` s, over the integral of the motors'
+/// absolute power. Another balance begins `impact` ticks after a chain has closed.
 fn imbalance<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usize>(
     scene: &Scene,
     tick: f64,
@@ -68,9 +68,9 @@ fn the_motors_work_is_energy_and_loss() {
     assert!(found.iter().all(|found| *found <= 1e-4), "{found:.7?}");
 }
 
-/// After an impact the highest modes die out in some hundredths of a millisecond. Ticks of 1 ms do not
-/// show that decay, and hold the balance from the second after it on; a tenth of them holds it from the
-/// impact on.
+/// After an impact the highest modes die out in some hundredths of a millisecond. Ticks of 1 ms do
+/// not show that decay, and hold the balance from the second after it on; a tenth of them holds it
+/// from the impact on.
 #[test]
 fn a_chain_that_closes_keeps_the_balance() {
     let latch = scenes::latch();
