@@ -119,6 +119,14 @@ fn values_that_no_chain_has_are_named() {
     refused(&with("[run]", "[damping]\nbeta = -1\n[run]"), &["damping.beta = -1"]);
     refused(&with("[run]", "[solver]\ncoordinates = 5\n[run]"), &["solver.coordinates = 5"]);
     refused(&with("[run]", "[solver]\nmodes = 2\n[run]"), &["solver.modes"]);
+    refused(
+        &with("[[joints]]", "[[joints]]\n[joints.limits]\nrate = -1"),
+        &["joints[0].limits.rate"],
+    );
+    refused(
+        &with("passive = true", "passive = true\n[joints.limits]\nrate = 1"),
+        &["joints[1].limits"],
+    );
     refused(&with("passive = true", "pasive = true"), &["joints[1].pasive", "passive"]);
 }
 
@@ -159,7 +167,11 @@ fn plans_that_no_chain_can_follow_are_refused() {
         (&["plan", "two-links", "--to", "1,1.3", "--robust", "0.1"], "--robust: must be absent"),
         (&["plan", "two-links", "--to", "1,1.3", "--duration", "0.1"], "must be"),
         (&["plan", "four-bar", "--to", "1,1,1"], "must be"),
-        (&["plan", "a-tip30", "--to", "1,2"], "--to = [1.0, 2.0]: must be one angle"),
+        (&["plan", "two-links", "--to", "1,1.3", "--max-rate", "1,2,3"], "--max-rate = [1.0, 2.0"),
+        (&["plan", "two-links", "--to", "1,1.3", "--max-torque", "1,0.01"], "limits.torque"),
+        (&["plan", "two-links", "--to", "1,1.3", "--max-rate", "9,0.5"], "limits.rate"),
+        (&["plan", "a-tip30", "--to", "1", "--max-rate", "1,2"], "--max-rate = [1.0, 2.0]"),
+        (&["plan", "a-tip30", "--to", "1,2"], "--to = [1.0, 2.0]: must be one value"),
     ] {
         let folder = tempfile::tempdir().expect("folder");
         let output = sim().current_dir(folder.path()).args(args).output().expect("program");
@@ -190,8 +202,8 @@ fn a_move_of_two_joints_arrives_still() {
     assert!(folder.path().join("plan/plan.csv").exists());
 }
 
-/// The columns are those of the truth files, the page draws the mechanism, and the two tables can be
-/// compared.
+/// The columns are those of the truth files, the page draws the mechanism, and the two tables can
+/// be compared.
 #[test]
 fn a_loop_is_run_solved_compared_and_drawn() {
     let folder = tempfile::tempdir().expect("folder");
@@ -218,3 +230,27 @@ fn a_loop_is_run_solved_compared_and_drawn() {
     let strict = ["compare", "run.csv", "rod.csv", "--scene", "scene.toml", "--tolerance", "0"];
     assert_eq!(execute(folder.path(), LOOP, &strict).status.code(), Some(1));
 }
+
+/// What the core's tick does not do is refused before anything is written.
+#[test]
+fn runs_beyond_a_limit_or_the_tick_are_refused() {
+    let limited =
+        |limits: &str| with("[[joints]]", &format!("[[joints]]\n[joints.limits]\n{limits}"));
+    let rigid = LATCH.replace("bending_stiffness = 0.46", "rigid = true");
+    for (scene, words) in [
+        (limited("rate = 1.0"), "moves[0]: limits.rate"),
+        (limited("torque = 0.001"), "joints[0].limits.torque"),
+        (with("[run]", "[solver]\ntick = 0.1\n[run]"), "solver.tick = 0.1"),
+        (rigid, "closure: "),
+    ] {
+        let folder = tempfile::tempdir().expect("folder");
+        let output = execute(folder.path(), &scene, &["run", "scene.toml", "--csv", "out.csv"]);
+        let text = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(2), "{words}: {text}");
+        assert_eq!(text.lines().count(), 1, "{text}");
+        assert!(text.contains(words) && text.contains("must "), "{text}");
+        assert_eq!(fs::read_dir(folder.path()).expect("folder").count(), 1, "{text}");
+    }
+}
+
+const LATCH: &str = include_str!("../truth/mechanisms/latch.toml");

@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use stillbeam::Limits;
 use stillbeam_sim::console::open_arm;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::mechanism;
+use stillbeam_sim::mechanism::limits::type_in;
+use stillbeam_sim::mechanism::{self, MechanismScene};
 use stillbeam_sim::plan::{Planned, Request, page};
 use stillbeam_sim::scene_file::angle_remark;
 use stillbeam_sim::{axis_units, println, progress};
@@ -27,18 +28,23 @@ pub struct PlanArgs {
     /// Duration, s [default: the shortest within the limits]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Hub rate, rad/s [default: the scene's limit, as with the other limits]
-    #[arg(long, value_name = "RAD/S", allow_negative_numbers = true)]
-    max_rate: Option<f64>,
+    /// Hub rate, rad/s [default: the scene's limit, as with the other limits]; of a mechanism one
+    /// value for all joints, or one a joint, e.g. 3,5; likewise below
+    #[arg(long, value_name = "RAD/S", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    max_rate: Option<Vec<f64>>,
     /// Hub acceleration, rad/s²
-    #[arg(long, value_name = "RAD/S2", allow_negative_numbers = true)]
-    max_acceleration: Option<f64>,
+    #[arg(long, value_name = "RAD/S2", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    max_acceleration: Option<Vec<f64>>,
     /// Hub jerk, rad/s³
-    #[arg(long, value_name = "RAD/S3", allow_negative_numbers = true)]
-    max_jerk: Option<f64>,
+    #[arg(long, value_name = "RAD/S3", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    max_jerk: Option<Vec<f64>>,
     /// Hub torque, N m
-    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
-    max_torque: Option<f64>,
+    #[arg(long, value_name = "NM", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    max_torque: Option<Vec<f64>>,
     /// Bending moment at the clamp, N m
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     max_moment: Option<f64>,
@@ -56,13 +62,7 @@ impl PlanArgs {
         if let Some(scene) = mechanism::scenes::open(&self.scene)? {
             super::mechanism::refuse("--robust", self.robust.is_some())?;
             super::mechanism::refuse("--max-moment", self.max_moment.is_some())?;
-            let limits = Limits {
-                rate: self.max_rate,
-                acceleration: self.max_acceleration,
-                jerk: self.max_jerk,
-                torque: self.max_torque,
-                ..Limits::default()
-            };
+            let limits = self.limits_of_joints(&scene)?;
             let Self { from, to, duration, out, .. } = self;
             return super::mechanism::plan(&scene, from, to, duration, limits, &out);
         }
@@ -77,17 +77,21 @@ impl PlanArgs {
             }
         }
         let limits = scene.limits;
+        let typed = |option, values: &Option<Vec<f64>>| {
+            values.as_ref().map(|values| single(option, values)).transpose()
+        };
         let request = Request {
             arm: scene.arm,
             from: from.unwrap_or(scene.from),
             to,
             duration: self.duration,
             limits: Limits {
-                rate: self.max_rate.or(limits.rate),
-                acceleration: self.max_acceleration.or(limits.acceleration),
+                rate: typed("--max-rate", &self.max_rate)?.or(limits.rate),
+                acceleration: typed("--max-acceleration", &self.max_acceleration)?
+                    .or(limits.acceleration),
                 deceleration: limits.deceleration,
-                jerk: self.max_jerk.or(limits.jerk),
-                torque: self.max_torque.or(limits.torque),
+                jerk: typed("--max-jerk", &self.max_jerk)?.or(limits.jerk),
+                torque: typed("--max-torque", &self.max_torque)?.or(limits.torque),
                 moment: self.max_moment.or(limits.moment),
             }
             .validate()?,
@@ -109,12 +113,29 @@ impl PlanArgs {
     }
 }
 
-/// Returns the one angle of an arm's hub.
-fn single(key: &str, angles: &[f64]) -> Result<f64, Error> {
-    match angles {
-        [angle] => Ok(*angle),
+impl PlanArgs {
+    /// Returns the limits of a mechanism's joints: those that are typed, else the scene's.
+    fn limits_of_joints(&self, scene: &MechanismScene) -> Result<Vec<Limits>, Error> {
+        let mut all = scene.limits.clone();
+        let mut set = |option, values: &Option<Vec<f64>>, set| {
+            type_in(&mut all, option, values.as_deref(), set)
+        };
+        set("--max-rate", &self.max_rate, |limits, value| limits.rate = Some(value))?;
+        set("--max-acceleration", &self.max_acceleration, |limits, value| {
+            limits.acceleration = Some(value);
+        })?;
+        set("--max-jerk", &self.max_jerk, |limits, value| limits.jerk = Some(value))?;
+        set("--max-torque", &self.max_torque, |limits, value| limits.torque = Some(value))?;
+        Ok(all)
+    }
+}
+
+/// Returns the one value of an arm's hub.
+fn single(key: &str, values: &[f64]) -> Result<f64, Error> {
+    match values {
+        [value] => Ok(*value),
         _ => Err(Error::new(format_args!(
-            "{key} = {angles:?}: must be one angle with an arm of one [link]"
+            "{key} = {values:?}: must be one value with an arm of one [link]"
         ))),
     }
 }

@@ -17,9 +17,11 @@ pub struct Comparison {
     pub place_of: usize,
     /// Root mean square distance over all ends and times, fraction of the total length.
     pub place_rms: f64,
-    /// Largest torque difference of any joint, fraction of the largest torque of `b`. Rows less
-    /// than one and a half row intervals from a jump are left out.
+    /// Largest torque difference of any joint, fraction of that joint's own largest torque in `b`.
+    /// Rows less than one and a half row intervals from a jump are left out.
     pub torque: f64,
+    /// The joint, counted from 1, whose torque it is.
+    pub torque_of: usize,
     /// Total length, m.
     pub length: f64,
 }
@@ -49,21 +51,37 @@ pub fn compare(a: &[Row], b: &[Row], scene: &MechanismScene) -> Result<Compariso
     let beside = 1.5 * interval(a).max(interval(b));
     let jumps = jumps(scene, &drives);
     let away = |t: f64| jumps.iter().all(|jump| (t - jump).abs() > beside);
-    let peak = b.iter().flat_map(|row| &row.torques).fold(0.0, |peak: f64, x| peak.max(x.abs()));
-    let torque = pairs
-        .iter()
-        .filter(|(_, b)| away(b.t))
-        .flat_map(|(a, b)| a.torques.iter().zip(&b.torques))
-        .fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+    let peaks = peaks(b);
+    let (mut torque, mut torque_of) = (0.0, 1);
+    for (a, b) in pairs.iter().filter(|(_, b)| away(b.t)) {
+        for (j, (one, other)) in a.torques.iter().zip(&b.torques).enumerate() {
+            let difference = (one - other).abs() / peaks[j];
+            if difference > torque {
+                (torque, torque_of) = (difference, j + 1);
+            }
+        }
+    }
     Ok(Comparison {
         common: pairs.len(),
         place,
         place_at,
         place_of,
         place_rms: f64::sqrt(squares / count),
-        torque: if peak > 0.0 { torque / peak } else { torque },
+        torque,
+        torque_of,
         length,
     })
+}
+
+/// Returns the largest torque of each joint, N m. A joint without any, or with less than a
+/// thousandth of the largest of all, counts with that thousandth: of a passive joint there is
+/// nothing to tell.
+fn peaks(rows: &[Row]) -> Vec<f64> {
+    let count = rows.first().map_or(0, |row| row.torques.len());
+    let peak = |j: usize| rows.iter().map(|row| row.torques[j].abs()).fold(0.0, f64::max);
+    let peaks: Vec<f64> = (0..count).map(peak).collect();
+    let least = 1e-3 * peaks.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    peaks.into_iter().map(|peak| peak.max(least)).collect()
 }
 
 /// Returns the times at which a run's torques jump, s: at jumps of a commanded acceleration, and

@@ -5,6 +5,7 @@
 
 pub mod compare;
 mod drives;
+pub mod limits;
 mod moves;
 pub mod page;
 pub(crate) mod picture;

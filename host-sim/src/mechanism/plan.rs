@@ -24,8 +24,8 @@ pub struct Request<'a> {
     pub to: Vec<f64>,
     /// Duration, s. `None` asks for twice the first period at the end.
     pub duration: Option<f64>,
-    /// Limits of every joint's drive.
-    pub limits: Limits,
+    /// Limits of each joint's drive.
+    pub limits: Vec<Limits>,
 }
 
 /// A plan and its judgement.
@@ -74,19 +74,16 @@ impl Request<'_> {
                 )));
             }
         }
-        let solver = self.scene.solver()?;
-        // Two curvatures err by more than a still move leaves.
-        let coordinates = self.scene.solver.coordinates.unwrap_or(3);
-        let tick = solver.tick;
-        let Found { moves, first_period, flights } = match (count, coordinates) {
-            (1, 2) => self.find::<1, 3, 3, 3>(tick)?,
-            (1, _) => self.find::<1, 4, 4, 5>(tick)?,
-            (2, 2) => self.find::<2, 3, 6, 3>(tick)?,
-            (2, _) => self.find::<2, 4, 8, 5>(tick)?,
-            (3, 2) => self.find::<3, 3, 9, 3>(tick)?,
-            (3, _) => self.find::<3, 4, 12, 5>(tick)?,
+        let tick = self.scene.solver()?.tick;
+        // Three curvatures: two err by more than a still move leaves.
+        let Found { moves, first_period, flights } = match count {
+            2 => self.find::<2, 8>(tick)?,
+            3 => self.find::<3, 12>(tick)?,
             _ => {
-                return Err(Error::new(format_args!("links = {count}: must be 1 to 3 here")));
+                return Err(Error::new(format_args!(
+                    "links = {count}: must be 2 or 3 to be planned; describe one link as an arm, \
+                     with [link]"
+                )));
             }
         };
         let duration = moves.first().map_or(0.0, Move::duration);
@@ -103,13 +100,10 @@ impl Request<'_> {
         })
     }
 
-    fn find<const LINKS: usize, const W: usize, const C: usize, const Q: usize>(
-        &self,
-        tick: f64,
-    ) -> Result<Found, Error> {
+    fn find<const LINKS: usize, const C: usize>(&self, tick: f64) -> Result<Found, Error> {
         let mechanism = &self.scene.mechanism;
-        let planner = ChainPlanner::<f64, LINKS, W, C, Q>::new(mechanism, tick)?
-            .with_limits([self.limits; LINKS])?;
+        let planner = ChainPlanner::<f64, LINKS, 4, C, 5>::new(mechanism, tick)?
+            .with_limits(std::array::from_fn(|j| self.limits[j]))?;
         let [from, to] = [&self.from, &self.to].map(|angles| std::array::from_fn(|j| angles[j]));
         let first_period = planner.period(&to)?;
         let plan = planner.plan(&from, &to, self.duration.unwrap_or(PERIODS * first_period))?;

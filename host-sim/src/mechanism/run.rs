@@ -1,8 +1,9 @@
 //! Runs the core on a mechanism: the same generator as on the target, in f32 or f64.
 
 use stillbeam::chain::{Chain, ChainGenerator, ChainSetpoint};
-use stillbeam::{Move, Scalar as Real};
+use stillbeam::{Limits, Move, Scalar as Real};
 
+use super::limits::of_joint;
 use super::table::Row;
 use super::{JointDrive, MechanismScene, MechanismSolver};
 use crate::error::Error;
@@ -15,6 +16,11 @@ const QUEUE: usize = 256;
 ///
 /// At a jump of a commanded acceleration, and when the chain closes, the row holds the values from
 /// before.
+///
+/// # Errors
+/// A number of links that the core has no type for, a move that it refuses, a loop that is to leave
+/// its pin, and a tick that is too long for what the chain does.
+/// A torque above its joint's limit.
 pub fn run(scene: &MechanismScene, solver: &MechanismSolver) -> Result<Vec<Row>, Error> {
     // Overlapping moves are refused with their names, which the core does not know.
     scene.drives(solver.tick)?;
@@ -50,6 +56,11 @@ where
     let chain = Chain::<T, LINKS, W, C, Q>::new(&scene.mechanism, tick)?;
     let from = std::array::from_fn(|joint| scene.mechanism.joints[joint].angle);
     let mut generator = ChainGenerator::<T, LINKS, W, C, Q, QUEUE>::new(chain, from)?;
+    for (joint, limits) in scene.limits.iter().enumerate() {
+        if limits.kinematic() != Limits::default() {
+            generator.limit(joint, limits.kinematic())?;
+        }
+    }
     let mut ends = [0; LINKS];
     for (index, drive) in in_order(&scene.drives) {
         let JointDrive { joint, start, motion } = drive;
@@ -65,6 +76,11 @@ where
         ends[*joint] = start + u64::from(summary.ticks);
     }
     let ticks = scene.drives(tick)?.ticks();
+    // A run has no more ticks than a u32 counts.
+    let rehearsal = generator.rehearse(u32::try_from(ticks + 1).unwrap_or(u32::MAX))?;
+    for (joint, (limits, peak)) in scene.limits.iter().zip(rehearsal.torque).enumerate() {
+        limits.admit_torque(peak).map_err(|error| of_joint(joint, error))?;
+    }
     Ok((0..=ticks).map(|k| row(k as f64 * tick, &generator.tick())).collect())
 }
 

@@ -3,9 +3,11 @@
 use std::path::Path;
 
 use serde::Deserialize;
+use stillbeam::Limits;
 use stillbeam::mechanism::{Closing, Closure, Joint, Link, Mechanism, Stiffness};
 use stillbeam::scene::{Damping, Payload};
 
+use super::limits::LimitsTable;
 use super::moves::{self, MoveTable};
 use super::solver::{MechanismKeys, MechanismSolver};
 use super::{Drives, JointDrive};
@@ -24,6 +26,8 @@ pub struct MechanismScene {
     pub drives: Vec<JointDrive>,
     /// Length of the run, s.
     pub duration: f64,
+    /// Limits of each joint's drive.
+    pub limits: Vec<Limits>,
     /// The `[solver]` table.
     pub solver: MechanismKeys,
 }
@@ -71,6 +75,7 @@ pub(super) struct JointTable {
     stator_inertia: f64,
     passive: bool,
     pub(super) angle: Option<f64>,
+    limits: LimitsTable,
 }
 
 #[derive(Default, Deserialize)]
@@ -113,7 +118,8 @@ struct RunTable {
 impl Default for JointTable {
     fn default() -> Self {
         let Joint { radius, inertia, mass, stator_inertia, passive, .. } = Joint::DRIVEN;
-        Self { radius, inertia, mass, stator_inertia, passive, angle: None }
+        let limits = LimitsTable::default();
+        Self { radius, inertia, mass, stator_inertia, passive, angle: None, limits }
     }
 }
 
@@ -156,7 +162,10 @@ impl MechanismScene {
             }
         };
         let name = name.to_owned();
-        let scene = Self { name, mechanism, drives, duration, solver: file.solver };
+        let limits = file.joints.iter().enumerate();
+        let limits = limits.map(|(j, joint)| joint.limits.build(j, joint.passive));
+        let limits = limits.collect::<Result<_, _>>()?;
+        let scene = Self { name, mechanism, drives, duration, limits, solver: file.solver };
         scene.drives(tick)?;
         // A loop that cannot close is refused before anything runs.
         rod::initial(&scene.mechanism)?;
@@ -227,7 +236,7 @@ impl LinkTable {
 
 impl JointTable {
     fn build(&self) -> Joint {
-        let &Self { radius, inertia, mass, stator_inertia, passive, angle } = self;
+        let &Self { radius, inertia, mass, stator_inertia, passive, angle, .. } = self;
         let angle = angle.unwrap_or(0.0);
         Joint { radius, inertia, mass, stator_inertia, passive, angle }
     }

@@ -31,7 +31,11 @@ pub fn compare(
         result.place_rms,
         result.place_rms * mm
     );
-    println!("  torque error      {:.4} % of the peak, away from jumps", 100.0 * result.torque);
+    println!(
+        "  torque error      {:.4} % of its peak, joint {}, away from jumps",
+        100.0 * result.torque,
+        result.torque_of
+    );
     let Some(tolerance) = tolerance.filter(|tolerance| result.place > *tolerance) else {
         return Ok(ExitCode::SUCCESS);
     };

@@ -16,12 +16,12 @@ pub fn plan(
     from: Option<Vec<f64>>,
     to: Vec<f64>,
     duration: Option<f64>,
-    limits: Limits,
+    limits: Vec<Limits>,
     out: &Path,
 ) -> Result<ExitCode, Error> {
     let joints = &scene.mechanism.joints;
     let from = from.unwrap_or_else(|| joints.iter().map(|joint| joint.angle).collect());
-    let request = Request { scene, from, to, duration, limits: limits.validate()? };
+    let request = Request { scene, from, to, duration, limits };
     let planned = request.carry_out()?;
     let rows = &planned.still.rows;
     let mut files = Files::default();
