@@ -34,6 +34,13 @@ const fn turn(joint: usize, start: f64, duration: f64, profile: Profile, to: f64
     Turn { joint, start, duration, profile, to }
 }
 
+/// One flexible link, horizontal, undamped.
+fn one_link() -> Result<Mechanism, Error> {
+    let mut mechanism = Mechanism::new(&[D])?;
+    mechanism.payload.mass = 0.02;
+    Ok(mechanism)
+}
+
 /// Two flexible links on driven joints, horizontal, undamped.
 fn two_links() -> Result<Mechanism, Error> {
     let mut mechanism = Mechanism::new(&[D, D])?;
@@ -106,6 +113,8 @@ const CRANK: [Turn; 1] = [turn(0, 0.0, 0.8, QUINTIC, 6.8)];
 /// # Errors
 /// The first chain or move that the core refuses; none of them is.
 pub fn run(sink: &mut impl Sink) -> Result<(), Error> {
+    one::<1, 3, 3, 3>("one-link", &one_link()?, [0.0], &TWO[..1], 90, sink)?;
+    one::<1, 4, 4, 5>("one-link-fine", &one_link()?, [0.0], &TWO[..1], 90, sink)?;
     one::<2, 3, 6, 3>("two-links", &two_links()?, [0.0, 0.3], &TWO, 90, sink)?;
     one::<2, 3, 6, 3>("two-links-full", &sag()?, [-1.8, 0.5], &SAG, 180, sink)?;
     one::<3, 3, 9, 3>("three-links", &three_links()?, [0.2; 3], &THREE, 90, sink)?;
