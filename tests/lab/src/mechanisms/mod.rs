@@ -2,6 +2,8 @@
 //! solutions.
 
 pub mod page;
+pub mod random;
+pub mod summary;
 
 use std::path::Path;
 
