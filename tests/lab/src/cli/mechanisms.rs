@@ -6,9 +6,11 @@ use std::process::ExitCode;
 
 use stillbeam_lab::campaign::with_bar;
 use stillbeam_lab::mechanisms::{NAMES, SOLVERS, page, random, summary};
-use stillbeam_lab::pages;
+use stillbeam_lab::pages::Target;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::println;
+
+use super::counted;
 
 #[derive(clap::Args)]
 pub struct MechanismsArgs {
@@ -17,31 +19,26 @@ pub struct MechanismsArgs {
     page: Option<PathBuf>,
     /// Random mechanisms to try
     #[arg(long, value_name = "N", default_value_t = 2_000)]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     count: u64,
     /// Seed of the first of them
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
 }
 
 impl MechanismsArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let page = self.page.map(|path| Ok::<_, Error>((pages::read(&path)?, path))).transpose()?;
-        if let Some((text, path)) = &page {
-            pages::has_places(path, text, [page::NAME, summary::NAME].into_iter())?;
-        }
-        let count = (NAMES.len() * SOLVERS.len()) as u64;
-        let block = with_bar("solutions", count, |done| page::block(&|| done(1)))?;
-        let trials = with_bar("mechanisms", self.count, |done| {
-            random::trials(self.seed, self.count, &|| done(1))
-        });
-        let blocks = [block, summary::block(&trials)];
+        let count = counted(self.count)?;
+        let target = Target::open(self.page, [page::NAME, summary::NAME])?;
+        let steps = (NAMES.len() * SOLVERS.len()) as u64;
+        let truth = with_bar("solutions", steps, |done| page::block(&|| done(1)))?;
+        let trials =
+            with_bar("mechanisms", count, |done| random::trials(self.seed, count, &|| done(1)));
+        let blocks = [truth, summary::block(&trials)];
         for block in &blocks {
             println!("{}", block.text);
         }
-        if let Some((text, path)) = &page {
-            pages::write(path, text, &blocks)?;
-            println!("{}: filled", path.display());
+        if let Some(target) = target {
+            target.fill(&blocks)?;
         }
         Ok(ExitCode::SUCCESS)
     }
