@@ -45,8 +45,8 @@ fn row(links: usize, end: &str, trials: &[&Trial]) -> String {
         .collect();
     ran.sort_by(|a, b| a.0.total_cmp(&b.0));
     let worst = |most: f64| {
-        let within = ran.iter().filter(|(_, deflection)| *deflection <= most);
-        within.last().map_or("–".to_owned(), |(place, _)| format!("{place:.1e}"))
+        let within = ran.iter().rfind(|(_, deflection)| *deflection <= most);
+        within.map_or("–".to_owned(), |(place, _)| format!("{place:.1e}"))
     };
     let median =
         ran.get(ran.len() / 2).map_or("–".to_owned(), |(place, _)| format!("{place:.1e}"));
