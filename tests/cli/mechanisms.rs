@@ -240,7 +240,7 @@ fn runs_beyond_a_limit_or_the_tick_are_refused() {
     for (scene, words) in [
         (limited("rate = 1.0"), "moves[0]: limits.rate"),
         (limited("torque = 0.001"), "joints[0].limits.torque"),
-        (with("[run]", "[solver]\ntick = 0.1\n[run]"), "solver.tick = 0.1"),
+        (ARM.replace("tick = 0.01", "tick = 0.1"), "solver.tick = 0.1"),
         (rigid, "closure: "),
     ] {
         let folder = tempfile::tempdir().expect("folder");
@@ -253,4 +253,5 @@ fn runs_beyond_a_limit_or_the_tick_are_refused() {
     }
 }
 
+const ARM: &str = include_str!("../truth/mechanisms/arm-dd.toml");
 const LATCH: &str = include_str!("../truth/mechanisms/latch.toml");
