@@ -46,6 +46,9 @@
 //! 8. [`motor`]: the setpoint's demand on the motor's shaft, behind gear and friction.
 //! 9. [`drive`]: that demand as the bytes of a drive's protocol.
 //!
+//! Several links on joints, open or closed to a loop, are a [`Mechanism`](mechanism::Mechanism). A
+//! [`ChainGenerator`](chain::ChainGenerator) gives the setpoints of all its joints in one tick.
+//!
 //! # Which stepper
 //!
 //! | stepper | assumes | take it |
@@ -109,12 +112,14 @@
 //! | `08_follow` | a hub that another program moves, and a target that moves |
 
 pub mod axis;
+pub mod chain;
 pub mod drive;
 mod error;
 mod generator;
 pub mod hub;
 pub mod material;
 pub mod math;
+pub mod mechanism;
 pub mod model;
 pub mod motion;
 pub mod motor;

@@ -5,17 +5,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules, in the order of the data. A module may import those before it.
-const ORDER: [&str; 15] = [
+const ORDER: [&str; 17] = [
     "math",
     "error",
     "prepared",
     "hub",
     "material",
     "scene",
+    "mechanism",
     "model",
     "motion",
     "stepper",
     "generator",
+    "chain",
     "planner",
     "select",
     "axis",

@@ -24,6 +24,7 @@ pub mod export;
 mod flight;
 pub mod identify;
 pub mod limits;
+pub mod mechanism;
 pub mod motion_file;
 pub mod number;
 pub mod output;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::error::Error;
+use crate::mechanism;
 use crate::scene_file::SceneFile;
 
 macro_rules! embedded {
@@ -63,6 +64,12 @@ fn open_with(
     name_or_path: &str,
     read: fn(&Path) -> Result<SceneFile, Error>,
 ) -> Result<SceneFile, Error> {
+    if mechanism::scenes::open(name_or_path).is_ok_and(|scene| scene.is_some()) {
+        return Err(Error::new(format_args!(
+            "scene = \"{name_or_path}\": a mechanism of several links; must be an arm of one [link] \
+             here; run, reference, compare and plan take mechanisms"
+        )));
+    }
     named(name_or_path).unwrap_or_else(|| {
         read(name_or_path.as_ref()).map_err(|error| {
             let known = list().map(|(name, _)| name).collect::<Vec<_>>().join(", ");

@@ -53,7 +53,11 @@ pub fn solve(
 
 /// Returns times from 0 to the end of a motion, `every` s apart, the end included.
 pub fn times(trajectory: &Trajectory, every: f64) -> Vec<f64> {
-    let end = trajectory.duration();
+    times_until(trajectory.duration(), every)
+}
+
+/// Returns times from 0 to `end` s, `every` s apart, the end included.
+pub fn times_until(end: f64, every: f64) -> Vec<f64> {
     let whole = (end / every + 1e-6).floor() as u64;
     let mut times: Vec<f64> = (0..=whole).map(|k| (k as f64 * every).min(end)).collect();
     if end - times[times.len() - 1] > 1e-6 * every {

@@ -106,6 +106,27 @@ fn setpoints_are_what_run_writes() {
     assert_eq!(setpoints.rows, again);
 }
 
+/// Torques of all joints at once are those of virtual work, and those of rigid links are not.
+#[test]
+fn an_arm_becomes_a_loop() {
+    let found = &STUDY.mechanisms;
+    assert!(found.open.apart() < 0.025, "{}", found.open.apart());
+    assert!(found.looped.apart() > 0.05, "{}", found.looped.apart());
+    let closing = &found.closing;
+    assert!(closing.apart() < 0.02, "{}", closing.apart());
+    for rows in [&closing.flexible, &closing.other] {
+        assert_eq!(rows.len(), 301);
+        // The row of closing is the last with the drives of joints 2 and 3.
+        let pin = rows[180].tip();
+        for row in &rows[181..] {
+            let apart = (row.tip()[0] - pin[0]).hypot(row.tip()[1] - pin[1]);
+            assert!(apart < 1e-5, "{}: {apart}", row.t);
+            assert_eq!(row.torques[1..], [0.0; 2], "{}", row.t);
+        }
+        assert!((rows[300].joints[0] - 2.0).abs() < 1e-6);
+    }
+}
+
 #[test]
 fn the_page_holds_every_figure_and_the_finding() {
     let titles = [
@@ -126,7 +147,7 @@ fn the_page_holds_every_figure_and_the_finding() {
     for title in titles {
         assert!(PAGE.contains(&format!("aria-label=\"{title}")), "{title}");
     }
-    for id in ["link-mass", "fig1", "fig2", "fig5", "fig6", "profiles", "setpoints"] {
+    for id in ["link-mass", "fig1", "fig2", "fig5", "fig6", "profiles", "setpoints", "mechanisms"] {
         assert!(PAGE.contains(&format!("id=\"{id}\"")), "{id}");
         assert!(PAGE.contains(&format!("href=\"#{id}\"")), "{id}");
     }
@@ -161,7 +182,7 @@ fn every_picture_is_well_formed() {
         assert!(count("text") > 6 && count("polyline") > 2, "{:?}", root.attribute("aria-label"));
         pictures += 1;
     }
-    assert_eq!(pictures, 1 + 4 + 3 + 8 + 1 + 6 + 2);
+    assert_eq!(pictures, 1 + 4 + 3 + 8 + 1 + 6 + 2 + 2 + 1 + 3 + 2);
 }
 
 fn program(folder: &Path, args: &[&str]) -> Output {
@@ -226,6 +247,9 @@ fn without_a_command_the_study_runs_and_a_second_run_is_the_same() {
         "fig5-steps.csv",
         "fig6-members.csv",
         "fig6-summary.csv",
+        "mechanisms-closing.csv",
+        "mechanisms-loop.csv",
+        "mechanisms-open.csv",
         "profiles.csv",
         REPORT,
         "setpoints.csv",
@@ -234,7 +258,8 @@ fn without_a_command_the_study_runs_and_a_second_run_is_the_same() {
     ];
     assert_eq!(names, expected);
     assert!(first == second, "the second run differs");
-    assert!(first[8].1 == PAGE.as_bytes(), "the report is not the page");
+    let report = first.iter().find(|file| file.0 == REPORT).expect("a report");
+    assert!(report.1 == PAGE.as_bytes(), "the report is not the page");
     for name in names.iter().filter(|name| name.ends_with(".csv")) {
         assert!(PAGE.contains(&format!("href=\"{name}\"")), "{name} is not linked");
     }

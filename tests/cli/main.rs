@@ -8,6 +8,7 @@ mod commands;
 mod export;
 mod identify;
 mod interruption;
+mod mechanisms;
 mod motions;
 mod notes;
 mod syntax;

@@ -9,6 +9,7 @@ mod exact;
 mod limits;
 mod links;
 mod measured;
+mod mechanisms;
 mod methods;
 mod motions;
 mod residual;

@@ -7,5 +7,6 @@ mod emulator;
 mod footprint;
 mod golden;
 mod instructions;
+mod mechanisms;
 mod no_panic;
 mod portability;

@@ -15,6 +15,11 @@ impl Display for Error {
             | Self::Buckles { .. }
             | Self::DegreesOfFreedom { .. }
             | Self::NotPrepared { .. } => value(self, f),
+            Self::PassiveJoint { .. }
+            | Self::OpenLoop { .. }
+            | Self::LeavesPin { .. }
+            | Self::StraightLoop { .. }
+            | Self::TickTooLong { .. } => mechanism(self, f),
             Self::LimitExceeded { .. }
             | Self::TooFast { .. }
             | Self::BendsTooFar { .. }
@@ -83,6 +88,41 @@ fn value(error: &Error, f: &mut Formatter<'_>) -> Result {
             f,
             "{parameter} = {found:#010x}: must be {needed:#010x} in an arm prepared for this \
              program; export it anew"
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// A chain of links is not accepted.
+fn mechanism(error: &Error, f: &mut Formatter<'_>) -> Result {
+    match *error {
+        Error::PassiveJoint { parameter, joint } => write!(
+            f,
+            "{parameter} = {joint}: must be a driven joint, this one is passive or released \
+             already; name another or give it a motor"
+        ),
+        Error::OpenLoop { gap } => write!(
+            f,
+            "closure.pin: the end of the chain stays {gap:.6} m from it, must reach it with the \
+             links straight; move the pin or let the passive joints begin at other angles"
+        ),
+        Error::LeavesPin { gap, time } => write!(
+            f,
+            "closure: {time:.3} s from now the end of the chain would be {gap:.6} m off its pin, \
+             must stay on it; the moves take the loop beyond its reach, use smaller ones"
+        ),
+        Error::StraightLoop { time } => write!(
+            f,
+            "closure: {time:.3} s from now the links lie in one line between joint 1 and the pin, \
+             must be bent, as the pin could hold any force there; close at another place or use \
+             smaller moves"
+        ),
+        Error::TickTooLong { tick, apart, time } => write!(
+            f,
+            "solver.tick = {tick}: {time:.3} s from now it would take the links {:.1} % of their \
+             length away from where half of it takes them, must be at most 2 %; use a shorter \
+             tick, longer moves or stiffer links",
+            100.0 * apart
         ),
         _ => Ok(()),
     }
@@ -187,7 +227,7 @@ mod tests {
     use crate::error::Mode;
 
     /// One error of every kind. The match is there to fail to compile when a kind is added.
-    fn every_kind() -> [Error; 20] {
+    fn every_kind() -> [Error; 25] {
         let (parameter, unit) = ("link.length", "m");
         let all = [
             Error::OutOfRange { parameter, value: -1.0, min: 1e-3, max: 1e3, unit },
@@ -209,6 +249,11 @@ mod tests {
             Error::Elsewhere { hub: 0.1, begins: 0.0 },
             Error::Buckles { gravity: 100.0 },
             Error::DegreesOfFreedom { given: 2, needed: 4 },
+            Error::PassiveJoint { parameter: "moves.joint", joint: 2 },
+            Error::OpenLoop { gap: 0.12 },
+            Error::LeavesPin { gap: 0.12, time: 0.7 },
+            Error::StraightLoop { time: 0.7 },
+            Error::TickTooLong { tick: 0.01, apart: 0.2, time: 0.7 },
             Error::WrongMode { mode: Mode::Stopped },
             Error::Moving,
             Error::Stale,
@@ -226,6 +271,9 @@ mod tests {
                 Error::NotStill { .. } | Error::DeflectsTooFar { .. } => {}
                 Error::Elsewhere { .. } | Error::Buckles { .. } => {}
                 Error::DegreesOfFreedom { .. } | Error::WrongMode { .. } => {}
+                Error::PassiveJoint { .. } | Error::OpenLoop { .. } => {}
+                Error::LeavesPin { .. } | Error::StraightLoop { .. } => {}
+                Error::TickTooLong { .. } => {}
                 Error::Moving | Error::Stale | Error::Starved | Error::NoMove => {}
                 Error::NotPrepared { .. } => {}
             }

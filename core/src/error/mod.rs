@@ -125,6 +125,39 @@ pub enum Error {
         /// Degrees of freedom that the scene needs.
         needed: usize,
     },
+    /// A motor is asked for at a joint that has none, or no longer.
+    PassiveJoint {
+        /// The field that names the joint, e.g. `moves.joint`.
+        parameter: &'static str,
+        /// The joint, counted from 1.
+        joint: usize,
+    },
+    /// The end of a chain does not reach the pin that is to close it.
+    OpenLoop {
+        /// Distance that is left between end and pin, m.
+        gap: f64,
+    },
+    /// The moves take a loop to where its end does not stay on the pin.
+    LeavesPin {
+        /// Distance of the end from the pin, m.
+        gap: f64,
+        /// Time from the latest tick, s.
+        time: f64,
+    },
+    /// The links of a loop lie in one line: its pin could hold any force along it.
+    StraightLoop {
+        /// Time from the latest tick, s.
+        time: f64,
+    },
+    /// The tick is too long for what a chain is to do.
+    TickTooLong {
+        /// The tick, s.
+        tick: f64,
+        /// Distance of a link's end from where half the tick takes it, of all lengths.
+        apart: f64,
+        /// Time from the latest tick, s.
+        time: f64,
+    },
     /// The axis takes no such request in its mode.
     WrongMode {
         /// The mode that it is in.

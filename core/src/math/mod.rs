@@ -4,6 +4,7 @@
 //! target run the same code and give the same bits.
 
 mod band;
+mod complex;
 mod gauss;
 mod jacobi;
 mod least_squares;
@@ -13,6 +14,7 @@ mod scalar;
 mod words;
 
 pub use band::{Band, HalfForm, Ldl};
+pub(crate) use complex::Complex;
 pub(crate) use gauss::{GAUSS_POINTS, gauss_points, polynomial};
 pub(crate) use jacobi::generalized_eigen;
 pub(crate) use least_squares::LeastSquares;

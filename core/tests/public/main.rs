@@ -3,6 +3,7 @@
 
 mod arms;
 mod carriage;
+mod chain;
 mod change;
 mod exact;
 mod follow;

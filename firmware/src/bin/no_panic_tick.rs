@@ -11,6 +11,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use panic_never as _;
 use stillbeam::Generator;
+use stillbeam::chain::ChainGenerator;
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 
 stillbeam_firmware::unused_interrupts!();
@@ -31,13 +32,32 @@ impl Visitor for Ticks {
     }
 }
 
+/// The ticks of a chain, those of a stop and of an impact included.
+#[inline(never)]
+fn visit_chain<const LINKS: usize, const W: usize, const C: usize, const Q: usize>(
+    memory: *mut u8,
+) {
+    let arm = memory.cast::<ChainGenerator<f32, LINKS, W, C, Q, 8>>();
+    // SAFETY: this program is linked, never run.
+    let arm = unsafe { &mut *arm };
+    black_box(arm.tick());
+    black_box(arm.setpoint());
+    let _ = black_box(arm.stop());
+}
+
 #[entry]
 fn main() -> ! {
     if option_env!("STILLBEAM_FAULT").is_some() {
         // The proof can fail: this index may be out of range.
         black_box([0; 4][black_box(0)]);
     }
-    visit_all(&mut Ticks(black_box(0x2000_0000 as *mut u8)));
+    let memory = black_box(0x2000_0000 as *mut u8);
+    visit_all(&mut Ticks(memory));
+    visit_chain::<1, 3, 3, 3>(memory);
+    visit_chain::<2, 3, 6, 3>(memory);
+    visit_chain::<3, 3, 9, 3>(memory);
+    visit_chain::<2, 4, 8, 5>(memory);
+    visit_chain::<3, 4, 12, 5>(memory);
     loop {
         cortex_m::asm::wfi();
     }

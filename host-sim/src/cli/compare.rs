@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use stillbeam::AxisKind;
 use stillbeam_sim::compare::{Comparison, Residual, compare};
 use stillbeam_sim::error::Error;
+use stillbeam_sim::mechanism;
 use stillbeam_sim::{axis_units, println, table};
 
 use super::motion::MotionArgs;
@@ -34,6 +35,10 @@ impl CompareArgs {
             return Err(Error::new(format_args!(
                 "--tolerance = {tolerance}: must be 0 to 10, a fraction of L"
             )));
+        }
+        if let Some(scene) = mechanism::scenes::open(&self.scene)? {
+            super::mechanism::refuse("--motion", self.motion.is_given())?;
+            return super::mechanism::compare(&scene, [&self.a, &self.b], self.tolerance);
         }
         let scene = self.motion.open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;

@@ -5,6 +5,7 @@ mod compare;
 mod drive;
 mod export;
 mod identify;
+mod mechanism;
 mod motion;
 mod plan;
 mod reference;
@@ -89,7 +90,8 @@ impl Cli {
             #[cfg(feature = "talk")]
             Some(Command::Talk(args)) => args.execute(),
             Some(Command::Scenes) => {
-                for (name, about) in scenes::list() {
+                for (name, about) in scenes::list().chain(stillbeam_sim::mechanism::scenes::list())
+                {
                     println!("{name:<20} {about}");
                 }
                 Ok(ExitCode::SUCCESS)

@@ -29,6 +29,11 @@ pub struct MotionArgs {
 }
 
 impl MotionArgs {
+    /// True if a file is to take the place of the scene's moves.
+    pub fn is_given(&self) -> bool {
+        self.motion.is_some()
+    }
+
     /// Opens the scene that the motion is for: with a file of motion, an arm without moves is one.
     pub fn open(&self, name_or_path: &str) -> Result<SceneFile, Error> {
         match self.motion {

@@ -6,6 +6,8 @@ use std::process::ExitCode;
 use stillbeam::Limits;
 use stillbeam_sim::console::open_arm;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::mechanism::limits::type_in;
+use stillbeam_sim::mechanism::{self, MechanismScene};
 use stillbeam_sim::plan::{Planned, Request, page};
 use stillbeam_sim::scene_file::angle_remark;
 use stillbeam_sim::{axis_units, println, progress};
@@ -14,27 +16,35 @@ use stillbeam_sim::{axis_units, println, progress};
 pub struct PlanArgs {
     /// Scene file, or the name of an embedded scene: its arm, first angle, limits and tick
     scene: String,
-    /// Hub angle at the end, rad (on a linear axis the position, m; likewise below)
-    #[arg(long, value_name = "RAD", allow_negative_numbers = true)]
-    to: f64,
+    /// Hub angle at the end, rad (on a linear axis the position, m; likewise below); of a mechanism
+    /// the angles of all joints, e.g. 1.0,1.3
+    #[arg(long, value_name = "RAD", allow_negative_numbers = true, required = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    to: Vec<f64>,
     /// Hub angle at the beginning, rad [default: the scene's]
-    #[arg(long, value_name = "RAD", allow_negative_numbers = true)]
-    from: Option<f64>,
+    #[arg(long, value_name = "RAD", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    from: Option<Vec<f64>>,
     /// Duration, s [default: the shortest within the limits]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Hub rate, rad/s [default: the scene's limit, as with the other limits]
-    #[arg(long, value_name = "RAD/S", allow_negative_numbers = true)]
-    max_rate: Option<f64>,
+    /// Hub rate, rad/s [default: the scene's limit, as with the other limits]; of a mechanism one
+    /// value for all joints, or one a joint, e.g. 3,5; likewise below
+    #[arg(long, value_name = "RAD/S", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    max_rate: Option<Vec<f64>>,
     /// Hub acceleration, rad/s²
-    #[arg(long, value_name = "RAD/S2", allow_negative_numbers = true)]
-    max_acceleration: Option<f64>,
+    #[arg(long, value_name = "RAD/S2", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    max_acceleration: Option<Vec<f64>>,
     /// Hub jerk, rad/s³
-    #[arg(long, value_name = "RAD/S3", allow_negative_numbers = true)]
-    max_jerk: Option<f64>,
+    #[arg(long, value_name = "RAD/S3", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    max_jerk: Option<Vec<f64>>,
     /// Hub torque, N m
-    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
-    max_torque: Option<f64>,
+    #[arg(long, value_name = "NM", allow_negative_numbers = true, num_args = 1)]
+    #[arg(value_delimiter = ',')]
+    max_torque: Option<Vec<f64>>,
     /// Bending moment at the clamp, N m
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     max_moment: Option<f64>,
@@ -49,8 +59,17 @@ pub struct PlanArgs {
 
 impl PlanArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
+        if let Some(scene) = mechanism::scenes::open(&self.scene)? {
+            super::mechanism::refuse("--robust", self.robust.is_some())?;
+            super::mechanism::refuse("--max-moment", self.max_moment.is_some())?;
+            let limits = self.limits_of_joints(&scene)?;
+            let Self { from, to, duration, out, .. } = self;
+            return super::mechanism::plan(&scene, from, to, duration, limits, &out);
+        }
         let scene = open_arm(&self.scene)?;
-        for (key, value) in [("--from", self.from), ("--to", Some(self.to))] {
+        let to = single("--to", &self.to)?;
+        let from = self.from.as_ref().map(|angles| single("--from", angles)).transpose()?;
+        for (key, value) in [("--from", from), ("--to", Some(to))] {
             let turns = !scene.arm.mount.is_linear();
             let value = value.filter(|_| turns);
             if let (Some(value), Some(text)) = (value, value.and_then(angle_remark)) {
@@ -58,17 +77,21 @@ impl PlanArgs {
             }
         }
         let limits = scene.limits;
+        let typed = |option, values: &Option<Vec<f64>>| {
+            values.as_ref().map(|values| single(option, values)).transpose()
+        };
         let request = Request {
             arm: scene.arm,
-            from: self.from.unwrap_or(scene.from),
-            to: self.to,
+            from: from.unwrap_or(scene.from),
+            to,
             duration: self.duration,
             limits: Limits {
-                rate: self.max_rate.or(limits.rate),
-                acceleration: self.max_acceleration.or(limits.acceleration),
+                rate: typed("--max-rate", &self.max_rate)?.or(limits.rate),
+                acceleration: typed("--max-acceleration", &self.max_acceleration)?
+                    .or(limits.acceleration),
                 deceleration: limits.deceleration,
-                jerk: self.max_jerk.or(limits.jerk),
-                torque: self.max_torque.or(limits.torque),
+                jerk: typed("--max-jerk", &self.max_jerk)?.or(limits.jerk),
+                torque: typed("--max-torque", &self.max_torque)?.or(limits.torque),
                 moment: self.max_moment.or(limits.moment),
             }
             .validate()?,
@@ -87,6 +110,33 @@ impl PlanArgs {
         print(&scene.name, &request, &planned);
         println!("  {}", file.display());
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+impl PlanArgs {
+    /// Returns the limits of a mechanism's joints: those that are typed, else the scene's.
+    fn limits_of_joints(&self, scene: &MechanismScene) -> Result<Vec<Limits>, Error> {
+        let mut all = scene.limits.clone();
+        let mut set = |option, values: &Option<Vec<f64>>, set| {
+            type_in(&mut all, option, values.as_deref(), set)
+        };
+        set("--max-rate", &self.max_rate, |limits, value| limits.rate = Some(value))?;
+        set("--max-acceleration", &self.max_acceleration, |limits, value| {
+            limits.acceleration = Some(value);
+        })?;
+        set("--max-jerk", &self.max_jerk, |limits, value| limits.jerk = Some(value))?;
+        set("--max-torque", &self.max_torque, |limits, value| limits.torque = Some(value))?;
+        Ok(all)
+    }
+}
+
+/// Returns the one value of an arm's hub.
+fn single(key: &str, values: &[f64]) -> Result<f64, Error> {
+    match values {
+        [value] => Ok(*value),
+        _ => Err(Error::new(format_args!(
+            "{key} = {values:?}: must be one value with an arm of one [link]"
+        ))),
     }
 }
 

@@ -5,9 +5,11 @@ use std::process::ExitCode;
 
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::mechanism;
 use stillbeam_sim::truth::{self, Reference};
 use stillbeam_sim::{axis_units, println, progress, run, table};
 
+use super::mechanism::Outputs;
 use super::motion::MotionArgs;
 
 #[derive(clap::Args)]
@@ -25,10 +27,19 @@ pub struct ReferenceArgs {
     /// Interval of the rows in s [default: the scene's tick]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     every: Option<f64>,
+    /// File for a page with the mechanism drawn, of a mechanism
+    #[arg(long, value_name = "OUT.html")]
+    page: Option<PathBuf>,
 }
 
 impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
+        if let Some(scene) = mechanism::scenes::open(&self.scene)? {
+            super::mechanism::refuse("--motion", self.motion.is_given())?;
+            let outputs = Outputs { csv: &self.csv, page: self.page.as_deref() };
+            return super::mechanism::reference(&scene, self.solver, self.every, &outputs);
+        }
+        super::mechanism::refuse_for_arm("--page", self.page.is_some())?;
         let scene = self.motion.open(&self.scene)?;
         let tick = scene.solver.resolve()?.tick;
         let (scene, mut notes) = self.motion.command(scene, tick)?;

@@ -6,10 +6,12 @@ use std::process::ExitCode;
 use stillbeam::select::Choice;
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::mechanism;
 use stillbeam_sim::solver::{Method, SolverKeys};
 use stillbeam_sim::table::Row;
 use stillbeam_sim::{advice, axis_units, println, run, table};
 
+use super::mechanism::Outputs;
 use super::motion::MotionArgs;
 
 #[derive(clap::Args)]
@@ -26,10 +28,26 @@ pub struct RunArgs {
     /// Leave out centrifugal stiffening and softening
     #[arg(long)]
     no_spin: bool,
+    /// Curvature coordinates a flexible link, 2 or 3, of a mechanism [default: 2]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    coordinates: Option<i64>,
+    /// File for a page with the mechanism drawn, of a mechanism
+    #[arg(long, value_name = "OUT.html")]
+    page: Option<PathBuf>,
 }
 
 impl RunArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
+        if let Some(scene) = mechanism::scenes::open(&self.scene)? {
+            super::mechanism::refuse("--motion", self.motion.is_given())?;
+            let spin = self.no_spin.then_some(false);
+            let keys = SolverKeys { spin, ..self.solver };
+            let keys = super::mechanism::typed(&keys, self.coordinates)?;
+            let outputs = Outputs { csv: &self.csv, page: self.page.as_deref() };
+            return super::mechanism::run(&scene, keys, &outputs);
+        }
+        super::mechanism::refuse_for_arm("--page", self.page.is_some())?;
+        super::mechanism::refuse_for_arm("--coordinates", self.coordinates.is_some())?;
         let scene = self.motion.open(&self.scene)?;
         let typed = SolverKeys { spin: self.no_spin.then_some(false), ..self.solver };
         let solver = typed.or(scene.solver).resolve()?;

@@ -13,6 +13,7 @@ use std::fmt;
 pub(crate) mod advance;
 mod carrying;
 pub mod fem;
+pub mod mechanism;
 pub mod rod;
 mod schedule;
 
@@ -66,6 +67,11 @@ pub enum ReferenceError {
         /// The first angle, rad.
         angle: f64,
     },
+    /// The loop of a mechanism cannot be closed at its pin.
+    OpenLoop {
+        /// The pin, m.
+        pin: [f64; 2],
+    },
     /// The integrator cannot go on.
     Integration {
         /// Time at which it stops, s.
@@ -89,6 +95,11 @@ impl fmt::Display for ReferenceError {
                 f,
                 "move.from = {angle} rad: the link has no stable equilibrium under gravity there; \
                  use less gravity, a stiffer link or a lighter payload"
+            ),
+            Self::OpenLoop { pin: [x, y] } => write!(
+                f,
+                "closure.pin = [{x}, {y}]: the chain cannot close there with its driven joints at \
+                 their first angles; must be within reach of the last passive joints"
             ),
             Self::Integration { time, reason } => {
                 write!(f, "the reference solver stopped at t = {time} s: {reason}")

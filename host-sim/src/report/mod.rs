@@ -5,6 +5,7 @@ mod fig2;
 mod fig5;
 mod fig6;
 mod findings;
+mod mechanisms;
 pub mod parts;
 mod profiles;
 mod setpoints;
@@ -40,6 +41,7 @@ pub fn render(study: &Study) -> Result<String, Error> {
         profiles::section(study)?,
         setpoints::section(study)?,
         stillness::section(study)?,
+        mechanisms::section(study)?,
     ];
     let body = html! {
         header { (findings::head(study)) (findings::in_short(study)) }

@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use stillbeam::AxisKind;
 
+use super::mechanisms::Pair;
 use super::{Run, Study};
 use crate::error::Error;
+use crate::mechanism;
 use crate::output::Files;
 use crate::plan::picture;
 use crate::table::Row;
@@ -69,6 +71,9 @@ impl Study {
             self.profile_columns(),
             self.stillness_columns(),
             self.swing_columns(),
+            pair_columns("mechanisms-open.csv", &self.mechanisms.open, "rod"),
+            pair_columns("mechanisms-closing.csv", &self.mechanisms.closing, "fine"),
+            pair_columns("mechanisms-loop.csv", &self.mechanisms.looped, "rigid"),
         ]
     }
 
@@ -195,6 +200,17 @@ fn residual_columns<'a>(
     };
     let shared = points().next().unwrap_or_default();
     Columns { file, header, rows: shared.iter().enumerate().map(row).collect() }
+}
+
+/// Returns the flexible run of a mechanism and the torques of the other one.
+fn pair_columns(file: &'static str, pair: &Pair, other: &str) -> Columns {
+    let count = pair.scene.mechanism.links.len();
+    let mut header = mechanism::table::columns(count);
+    header.extend((1..=count).map(|j| format!("torque{j}_{other}_nm")));
+    let row = |(own, other): (&mechanism::table::Row, &mechanism::table::Row)| {
+        own.values().into_iter().chain(other.torques.iter().copied()).collect()
+    };
+    Columns { file, header, rows: pair.flexible.iter().zip(&pair.other).map(row).collect() }
 }
 
 /// Converts a motion's name to a part of a column's name.

@@ -7,6 +7,7 @@ pub mod elements;
 mod files;
 mod findings;
 pub mod link_mass;
+pub mod mechanisms;
 pub mod members;
 pub mod profiles;
 pub mod setpoints;
@@ -43,6 +44,8 @@ pub struct Study {
     pub setpoints: setpoints::Setpoints,
     /// Moves that arrive still. The paper has none.
     pub stillness: stillness::Stillness,
+    /// Link systems, open and closed.
+    pub mechanisms: mechanisms::Mechanisms,
 }
 
 impl Study {
@@ -61,6 +64,7 @@ impl Study {
             profiles: profiles::Profiles::compute()?,
             setpoints: setpoints::Setpoints::compute()?,
             stillness: stillness::Stillness::compute(done)?,
+            mechanisms: mechanisms::Mechanisms::compute()?,
         })
     }
 }

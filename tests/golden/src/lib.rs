@@ -6,6 +6,7 @@
 //! comparison, the instruction table, the proof of no panic and the footprint all take it from
 //! there.
 
+pub mod mechanisms;
 pub mod motions;
 pub mod paths;
 pub mod record;

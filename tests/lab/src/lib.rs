@@ -18,6 +18,7 @@ pub mod faults;
 mod figures;
 pub mod identify;
 pub mod markers;
+pub mod mechanisms;
 pub mod pages;
 pub mod plant;
 pub mod reference;

@@ -22,7 +22,7 @@ const DEGREE: NonZeroUsize = NonZeroUsize::new(8).unwrap();
 /// Sources: Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1 (1991),
 /// section 7.4; Battini, Co-rotational beam elements (2002), shallow-arch strain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Element {
+pub(in crate::reference) struct Element {
     /// l₀, m.
     pub length: f64,
     /// EA, N.

@@ -18,7 +18,7 @@ const DEGREE: NonZeroUsize = NonZeroUsize::new(5).unwrap();
 /// and tangents the matrix is the same number for both global directions whatever the angle, so it
 /// stays constant; what turning adds, `ẗ = θ̈n − θ̇²t`, is exact.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Inertia {
+pub(in crate::reference) struct Inertia {
     matrix: SMatrix<f64, 4, 4>,
     alpha: f64,
 }
@@ -107,7 +107,7 @@ impl Inertia {
 /// Returns the force of a rigid body that is fixed to a node, as [`Inertia::force`] does: of `mass`
 /// kg and `inertia` kg m² about its own centre, which lies `offset` m ahead along the node's
 /// tangent.
-pub(super) fn body(
+pub(in crate::reference) fn body(
     [mass, inertia, offset]: [f64; 3],
     alpha: f64,
     node: &Node,

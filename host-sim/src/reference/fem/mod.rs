@@ -9,11 +9,11 @@
 //! second order in the step, of fourth in the element's length.
 
 mod block;
-mod element;
-mod inertia;
+pub(super) mod element;
+pub(super) mod inertia;
 mod model;
 mod newmark;
-mod node;
+pub(super) mod node;
 
 use model::Model;
 use newmark::March;

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 /// Displacement, velocity and acceleration of a node: global x, y (m) and rotation (rad). They are
 /// the sums of u_m and u_d.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Node {
+pub(in crate::reference) struct Node {
     /// Position x, y and rotation.
     pub q: Vector3<f64>,
     pub v: Vector3<f64>,
@@ -17,7 +17,7 @@ pub(super) struct Node {
 
 /// Factors by which a change of the unknowns enters displacements, velocities and accelerations.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Change {
+pub(in crate::reference) struct Change {
     pub displacement: f64,
     /// 1/s.
     pub rate: f64,

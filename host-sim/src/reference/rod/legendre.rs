@@ -50,13 +50,13 @@ struct Piece {
 }
 
 /// Gauss's rule with its running integrals on 0..1.
-struct Rule {
-    points: Vec<f64>,
-    weights: Vec<f64>,
+pub(in crate::reference) struct Rule {
+    pub points: Vec<f64>,
+    pub weights: Vec<f64>,
 }
 
 impl Rule {
-    fn new(points: usize) -> Self {
+    pub fn new(points: usize) -> Self {
         let degree = NonZeroUsize::new(points).expect("a piece has points");
         let mut pairs: Vec<(f64, f64)> =
             GaussLegendre::new(degree).iter().map(|&(x, w)| (0.5 * (1.0 + x), 0.5 * w)).collect();
@@ -67,7 +67,7 @@ impl Rule {
 
     /// Returns the weights of the integral from 0 to `x` of the interpolant
     /// `Σ (2k+1) P̃ₖ(ξ) Σ_q w_q P̃ₖ(ξ_q) f_q`: discrete orthogonality.
-    fn running(&self, x: f64) -> Vec<f64> {
+    pub fn running(&self, x: f64) -> Vec<f64> {
         let integrals = integrals(x, self.points.len());
         self.interpolated(&integrals)
     }
@@ -240,7 +240,7 @@ fn legendre(x: f64, n: usize) -> Vec<f64> {
 }
 
 /// Returns `∫₀^ξ P̃ₖ = (P̃ₖ₊₁ − P̃ₖ₋₁) / (2(2k + 1))`, k below n, and ξ for k = 0.
-fn integrals(x: f64, n: usize) -> Vec<f64> {
+pub(in crate::reference) fn integrals(x: f64, n: usize) -> Vec<f64> {
     let p = legendre(x, n);
     let of = |k: usize| match k {
         0 => x,

@@ -28,7 +28,7 @@ macro_rules! with_rod {
 
 mod driven;
 mod equations;
-mod legendre;
+pub(super) mod legendre;
 mod march;
 mod statics;
 

@@ -5,6 +5,7 @@ mod auto;
 mod docs;
 mod faults;
 mod identify;
+mod mechanisms;
 mod pareto;
 mod plant;
 mod reference;
@@ -58,6 +59,8 @@ enum Command {
     Shortest(shortest::ShortestArgs),
     /// Identify random arms from synthetic logs, and hold what is found against the truth
     Identify(identify::IdentifyArgs),
+    /// Compare the references and the core with the solutions of mechanisms
+    Mechanisms(mechanisms::MechanismsArgs),
     /// Let the two reference solvers converge to each other
     Reference(reference::ReferenceArgs),
     /// Print the tables of docs/accuracy.md
@@ -80,6 +83,7 @@ impl Cli {
             Command::Pareto(args) => args.execute(),
             Command::Shortest(args) => args.execute(),
             Command::Identify(args) => args.execute(),
+            Command::Mechanisms(args) => args.execute(),
             Command::Reference(args) => args.execute(),
             Command::Tables(args) => args.execute(),
         }

@@ -1,0 +1,243 @@
+//! The mass matrix, from composites that run from the tip to the base.
+
+use super::Model;
+use super::pose::{Pose, Vector, cross, plus, turned};
+use crate::math::Scalar;
+
+/// Mass matrix of all coordinates, joints included.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mass<T, const C: usize> {
+    /// Lower triangle, `matrix[i][p]` for `p ≤ i`. Coordinate `k` of link `j` is `jW + k`.
+    pub matrix: [[T; C]; C],
+}
+
+/// Momentum of all beyond a place per unit rate of a coordinate, and its moment about that place.
+#[derive(Clone, Copy, Debug)]
+struct Column<T> {
+    momentum: Vector<T>,
+    moment: T,
+}
+
+/// All beyond a place if it turned about it as one: first moment of mass about the place and
+/// inertia.
+#[derive(Clone, Copy, Debug)]
+struct Composite<T> {
+    first: Vector<T>,
+    inertia: T,
+}
+
+impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LINKS, W, Q> {
+    /// Mass matrix for that pose.
+    #[inline(always)]
+    pub(super) fn mass<const C: usize, const WHOLE: bool>(
+        &self,
+        pose: &[Pose<T, Q>; LINKS],
+    ) -> Mass<T, C> {
+        self.mass_and_whole::<C, WHOLE>(pose).0
+    }
+
+    /// The same, and with `WHOLE` the first moment of all mass about the first joint in the first
+    /// link's frame, kg m.
+    #[inline(never)]
+    pub(super) fn mass_and_whole<const C: usize, const WHOLE: bool>(
+        &self,
+        pose: &[Pose<T, Q>; LINKS],
+    ) -> (Mass<T, C>, Vector<T>) {
+        const { assert!(C == LINKS * W, "a coordinate a joint and curvature") }
+        let mut mass = Mass { matrix: [[T::ZERO; C]; C] };
+        let mut columns = [Column { momentum: [T::ZERO; 2], moment: T::ZERO }; C];
+        let mut beyond = self.load_composite(&pose[LINKS - 1]);
+        for j in (0..LINKS).rev() {
+            if j + 1 < LINKS {
+                let frame = pose[j + 1].frame;
+                beyond.first = turned(frame, beyond.first);
+                beyond.inertia += self.links[j].stator;
+                for column in columns.iter_mut().skip((j + 1) * W) {
+                    column.momentum = turned(frame, column.momentum);
+                }
+            }
+            self.past_offset(j, &pose[j], &mut beyond, &mut columns);
+            self.past_link::<C, WHOLE>(j, &pose[j], &mut beyond, &mut columns, &mut mass);
+        }
+        (mass, beyond.first)
+    }
+
+    /// The payload about the chain's end.
+    #[inline(always)]
+    fn load_composite(&self, pose: &Pose<T, Q>) -> Composite<T> {
+        let load = &self.load;
+        let arm = load.mass * load.offset;
+        Composite {
+            first: [arm * pose.end[0], arm * pose.end[1]],
+            inertia: load.inertia + arm * load.offset,
+        }
+    }
+
+    /// From the next joint, or the tip, to the end of the strip.
+    #[inline(always)]
+    fn past_offset<const C: usize>(
+        &self,
+        j: usize,
+        pose: &Pose<T, Q>,
+        beyond: &mut Composite<T>,
+        columns: &mut [Column<T>; C],
+    ) {
+        let (body, t) = (&self.links[j], pose.end);
+        let e = body.offset;
+        if e == T::ZERO {
+            return;
+        }
+        let outer = body.mass_beyond - body.mass;
+        let along = t[0] * beyond.first[0] + t[1] * beyond.first[1];
+        beyond.inertia += e * (T::TWO * along + outer * e);
+        beyond.first = plus(beyond.first, outer * e, t);
+        for column in columns.iter_mut().skip((j + 1) * W) {
+            column.moment += e * cross(t, column.momentum);
+        }
+    }
+
+    /// From the end of the strip to the link's joint: the rows of its own coordinates.
+    #[inline(always)]
+    fn past_link<const C: usize, const WHOLE: bool>(
+        &self,
+        j: usize,
+        pose: &Pose<T, Q>,
+        beyond: &mut Composite<T>,
+        columns: &mut [Column<T>; C],
+        mass: &mut Mass<T, C>,
+    ) {
+        let body = &self.links[j];
+        let mut own = self.own(j, pose, beyond);
+        if j + 1 < LINKS {
+            self.couple(j, pose, columns, mass);
+        }
+        // Of the first link only what its hub's radius and the whole chain need.
+        if j > 0 || WHOLE || body.radius != T::ZERO {
+            let momenta = self.momenta(j, pose, beyond);
+            own[0][0] += body.radius * (T::TWO * momenta[0][1] - body.mass_beyond * body.radius);
+            for k in 1..W {
+                own[k][0] += body.radius * momenta[k][1];
+            }
+            for k in 0..W {
+                columns[j * W + k].momentum = momenta[k];
+            }
+            beyond.first = [momenta[0][1], -momenta[0][0]];
+        }
+        own[0][0] += body.hub;
+        for k in 0..W {
+            columns[j * W + k].moment = own[k][0];
+            for p in 0..=k {
+                mass.matrix[j * W + k][j * W + p] = own[k][p];
+            }
+        }
+        // What turns with the joint as one has the joint's own column.
+        beyond.inertia = own[0][0];
+    }
+
+    /// Rows of all coordinates beyond the link in the columns of its own.
+    #[inline(always)]
+    fn couple<const C: usize>(
+        &self,
+        j: usize,
+        pose: &Pose<T, Q>,
+        columns: &mut [Column<T>; C],
+        mass: &mut Mass<T, C>,
+    ) {
+        let body = &self.links[j];
+        let mut moves = sum_of_normals(&body.length_slopes, pose);
+        moves[0][1] += body.radius;
+        for i in (j + 1) * W..C {
+            let Column { momentum, moment } = columns[i];
+            for k in 0..W {
+                let mut entry = moves[k][0] * momentum[0] + moves[k][1] * momentum[1];
+                // The joint and the first coordinate turn the link's end.
+                if k <= 1 {
+                    entry += moment;
+                }
+                mass.matrix[i][j * W + k] = entry;
+            }
+            // About the link's joint: the moment of a column is its row of that joint.
+            columns[i].moment = mass.matrix[i][j * W];
+        }
+    }
+
+    /// Lower triangle of the link's own coordinates about its clamp.
+    #[inline(always)]
+    fn own(&self, j: usize, pose: &Pose<T, Q>, beyond: &Composite<T>) -> [[T; W]; W] {
+        let (body, t) = (&self.links[j], &pose.tangents);
+        let mut kernel = body.second_beyond;
+        for q in 0..Q {
+            for p in 0..q {
+                let cos = t[q][0] * t[p][0] + t[q][1] * t[p][1];
+                kernel[q][p] = kernel[q][p] * cos;
+                kernel[p][q] = kernel[q][p];
+            }
+        }
+        let lever: [T; Q] = core::array::from_fn(|q| {
+            body.lengths[q] * (t[q][0] * beyond.first[0] + t[q][1] * beyond.first[1])
+        });
+        let mut own = [[T::ZERO; W]; W];
+        let mut levers = [T::ZERO; W];
+        for q in 0..Q {
+            // The joint turns all points alike: its factor is 1.
+            let mut row = kernel[q][0];
+            for p in 1..Q {
+                row += kernel[q][p];
+            }
+            own[0][0] += row;
+            levers[0] += lever[q];
+            for k in 1..W {
+                levers[k] += body.slopes[q][k] * lever[q];
+                let mut row = kernel[q][0] * body.slopes[0][k];
+                for p in 1..Q {
+                    row += kernel[q][p] * body.slopes[p][k];
+                }
+                own[k][0] += row;
+                for p in 1..=k {
+                    own[k][p] += body.slopes[q][p] * row;
+                }
+            }
+        }
+        own[0][0] = own[0][0] + T::TWO * levers[0] + beyond.inertia;
+        own[1][0] = own[1][0] + levers[0] + levers[1] + beyond.inertia;
+        own[1][1] = own[1][1] + T::TWO * levers[1] + beyond.inertia;
+        for k in 2..W {
+            own[k][0] += levers[k];
+            own[k][1] += levers[k];
+        }
+        own
+    }
+
+    /// Momentum of link and all beyond per unit rate of each of its coordinates.
+    #[inline(always)]
+    fn momenta(&self, j: usize, pose: &Pose<T, Q>, beyond: &Composite<T>) -> [Vector<T>; W] {
+        let body = &self.links[j];
+        let mut momenta = sum_of_normals(&body.first_slopes, pose);
+        for k in 0..2 {
+            momenta[k] = plus(momenta[k], T::ONE, [-beyond.first[1], beyond.first[0]]);
+        }
+        momenta[0][1] += body.mass_beyond * body.radius;
+        momenta
+    }
+}
+
+/// `Σ_q factor[q][k] n_q`, `n` the normals at the points.
+#[inline(always)]
+fn sum_of_normals<T: Scalar, const W: usize, const Q: usize>(
+    factors: &[[T; W]; Q],
+    pose: &Pose<T, Q>,
+) -> [Vector<T>; W] {
+    core::array::from_fn(|k| {
+        let mut sum = [T::ZERO; 2];
+        for q in 0..Q {
+            let [cos, sin] = pose.tangents[q];
+            let factor = factors[q][k];
+            sum = if q == 0 {
+                [-(factor * sin), factor * cos]
+            } else {
+                [sum[0] - factor * sin, sum[1] + factor * cos]
+            };
+        }
+        sum
+    })
+}

@@ -1,0 +1,187 @@
+//! The commanded motion of one joint: segments one behind the other.
+
+use heapless::Deque;
+
+use super::JointState;
+use crate::Error;
+use crate::hub::{Angle, HubState};
+use crate::math::Scalar;
+use crate::motion::{Limits, MoveSummary, Plannable, Segment};
+
+/// The moves of one joint, the one under way first.
+#[derive(Clone, Debug)]
+pub(super) struct JointQueue<T, const QUEUE: usize> {
+    current: Segment<T>,
+    /// Index in it of the latest tick.
+    k: u32,
+    waiting: Deque<Segment<T>, QUEUE>,
+    /// Holds the end of the queue.
+    tail: Segment<T>,
+    end: HubState<f64>,
+    limits: Limits,
+    /// True while no move is under way.
+    holds: bool,
+    /// Peak acceleration of the moves that wait or are under way, rad/s².
+    peak: f64,
+}
+
+impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
+    /// A joint that rests at `angle`.
+    pub fn new(angle: Angle<T>) -> Self {
+        let tail = Segment::rest(angle);
+        Self {
+            current: tail,
+            k: 0,
+            waiting: Deque::new(),
+            tail,
+            end: HubState::at_rest(angle.precise()),
+            limits: Limits::default(),
+            holds: true,
+            peak: 0.0,
+        }
+    }
+
+    /// Rests at `angle` from now on; no move waits.
+    pub fn rest_at(&mut self, angle: Angle<T>) {
+        *self = Self { limits: self.limits, ..Self::new(angle) };
+    }
+
+    pub fn limit(&mut self, limits: Limits) -> Result<(), Error> {
+        self.limits = limits.validate()?.of_motion()?;
+        Ok(())
+    }
+
+    pub fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// Start of a move that is pushed now.
+    pub fn next_start(&self) -> HubState<f64> {
+        if self.is_holding() {
+            let angle = self.current.hub_at(T::from_u32(self.k)).angle;
+            HubState::turning(angle.precise(), self.end.rate)
+        } else {
+            self.end
+        }
+    }
+
+    /// True if no move is under way or waiting.
+    pub fn is_holding(&self) -> bool {
+        self.holds && self.waiting.is_empty()
+    }
+
+    /// Peak acceleration of all that is commanded from now on, rad/s².
+    pub fn peak(&self) -> f64 {
+        if self.is_holding() { 0.0 } else { self.peak }
+    }
+
+    /// Plans a move behind the others, if `admit` takes its peak acceleration, rad/s². Either the
+    /// whole move is taken or nothing changes.
+    pub fn push(
+        &mut self,
+        motion: &impl Plannable,
+        tick: f64,
+        admit: impl FnOnce(f64) -> Result<(), Error>,
+    ) -> Result<MoveSummary, Error> {
+        let start = self.next_start();
+        let (mut needed, free) = (0, QUEUE - self.waiting.len());
+        let summary = motion.plan_segments(start, &self.limits, tick, &mut |segment| {
+            needed += 1;
+            // A full queue gives it back; told below.
+            let _ = self.waiting.push_back(*segment);
+        })?;
+        let peak = self.peak().max(summary.peaks.acceleration);
+        let fits = if needed > free { Err(Error::QueueFull { needed, free }) } else { Ok(()) };
+        if let Err(error) = fits.and_then(|()| admit(peak)) {
+            for _ in 0..needed.min(free) {
+                self.waiting.pop_back();
+            }
+            return Err(error);
+        }
+        self.peak = peak;
+        if self.holds {
+            // It begins where the latest tick is: a hold is as long as it has lasted.
+            self.current.cut(self.k);
+        }
+        self.end = summary.end;
+        self.tail = Segment::cruise(self.end.angle, self.end.rate, u32::MAX, tick);
+        Ok(summary)
+    }
+
+    /// The joint `ahead` ticks after the latest, 0 to 1; where two segments meet there, by the one
+    /// before.
+    #[inline(always)]
+    pub fn at(&self, ahead: T) -> JointState<T> {
+        let (k, count) = (T::from_u32(self.k), self.current.count());
+        if self.k < count && self.k + 1 < count {
+            return state(&self.current, k + ahead);
+        }
+        self.far(ahead)
+    }
+
+    /// The joint any number of ticks ahead.
+    #[inline(never)]
+    pub fn far(&self, ahead: T) -> JointState<T> {
+        let mut segment = &self.current;
+        let mut ticks = T::from_u32(self.k) + ahead;
+        for next in self.waiting.iter().chain(core::iter::once(&self.tail)) {
+            let count = T::from_u32(segment.count());
+            let border = count - next.ticks_before();
+            if ticks < border {
+                break;
+            }
+            if ticks == border {
+                // From the left, but exactly where the next one begins.
+                let (acceleration, begin) = (segment.end_acceleration(), next.hub(0));
+                let exact = next.ticks_before() == T::ZERO;
+                let mut at = if exact { joint(&begin) } else { state(segment, ticks) };
+                at.acceleration = acceleration;
+                return at;
+            }
+            ticks -= count;
+            segment = next;
+        }
+        state(segment, ticks)
+    }
+
+    /// Goes on by one tick.
+    #[inline(always)]
+    pub fn advance(&mut self) {
+        self.k = self.k.wrapping_add(1);
+        if self.k >= self.current.count() {
+            self.take_up_next();
+        }
+    }
+
+    /// Takes up what follows; segments without a tick are passed over.
+    #[inline(never)]
+    fn take_up_next(&mut self) {
+        for _ in 0..=QUEUE {
+            if self.k < self.current.count() {
+                break;
+            }
+            self.k -= self.current.count();
+            if let Some(next) = self.waiting.pop_front() {
+                self.current = next;
+                self.holds = false;
+            } else {
+                // A hold that has run out goes on from where it is.
+                if self.holds {
+                    self.tail = self.tail.moved(self.current.hub_at(T::from_u32(u32::MAX)).angle);
+                }
+                self.current = self.tail;
+                self.holds = true;
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn state<T: Scalar>(segment: &Segment<T>, ticks: T) -> JointState<T> {
+    joint(&segment.hub_at(ticks))
+}
+
+#[inline(always)]
+fn joint<T: Scalar>(hub: &HubState<T>) -> JointState<T> {
+    JointState { angle: hub.angle, rate: hub.rate, acceleration: hub.acceleration }
+}
