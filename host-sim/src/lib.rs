@@ -28,6 +28,7 @@ pub mod number;
 pub mod output;
 pub mod plan;
 pub mod plant;
+pub mod playground;
 pub mod plot;
 pub mod progress;
 pub mod reference;

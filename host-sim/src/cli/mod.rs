@@ -7,12 +7,14 @@ mod export;
 mod identify;
 mod motion;
 mod plan;
+mod playground;
 mod reference;
 mod run;
 mod study;
 #[cfg(feature = "talk")]
 mod talk;
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -33,6 +35,13 @@ fn with_limits_shown<T>(task: impl FnOnce(&dyn Fn(Progress)) -> T) -> T {
             search.turn(|| format!("trying {duration:.3} s"));
         }
     })
+}
+
+/// Shows a page in the browser. The page is written by then, so that a failure is a note.
+fn show(page: &Path) {
+    if let Err(cause) = open::that(page) {
+        note(&format!("--open: {cause}; open {} yourself", page.display()));
+    }
 }
 
 /// Feed-forward setpoints for flexible robot links, tried on the desktop.
@@ -57,6 +66,8 @@ enum Command {
     Identify(Box<identify::IdentifyArgs>),
     /// Plan a move that arrives still, judge it and draw it
     Plan(plan::PlanArgs),
+    /// Write the page in which an arm moves, with sliders for all that it is
+    Playground(playground::PlaygroundArgs),
     /// Let a drive and its machine follow a scene, with less and with more feed-forward
     Drive(drive::DriveArgs),
     /// Write a scene's stepper as constants, for a program without set-up
@@ -82,6 +93,7 @@ impl Cli {
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Identify(args)) => args.execute(),
             Some(Command::Plan(args)) => args.execute(),
+            Some(Command::Playground(args)) => args.execute(),
             Some(Command::Drive(args)) => args.execute(),
             Some(Command::Export(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
