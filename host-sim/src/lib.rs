@@ -40,6 +40,7 @@ pub mod scene_file;
 pub mod scenes;
 pub mod servo;
 pub mod solver;
+pub mod starter;
 pub mod step;
 pub mod study;
 pub mod table;

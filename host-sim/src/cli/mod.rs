@@ -6,6 +6,7 @@ mod drive;
 mod export;
 mod identify;
 mod motion;
+mod new;
 mod plan;
 mod playground;
 mod reference;
@@ -58,6 +59,8 @@ pub struct Cli {
 enum Command {
     /// Run the paper's study: tables and a report (also without a command)
     Study(study::StudyArgs),
+    /// Write a scene to start from; asks for what no flag gives
+    New(new::NewArgs),
     /// Say what a scene's arm is: masses, frequencies, damping, sag, and the method for it
     Arm(arm::ArmArgs),
     /// Run the core on a scene and write its setpoints
@@ -89,6 +92,7 @@ impl Cli {
         match self.command {
             None => study::StudyArgs::default().execute(),
             Some(Command::Study(args)) => args.execute(),
+            Some(Command::New(args)) => args.execute(),
             Some(Command::Arm(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Identify(args)) => args.execute(),
