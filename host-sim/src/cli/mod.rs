@@ -2,6 +2,7 @@
 
 mod arm;
 mod compare;
+mod completions;
 mod drive;
 mod export;
 mod identify;
@@ -84,6 +85,10 @@ enum Command {
     Talk(talk::TalkArgs),
     /// List the embedded scenes
     Scenes,
+    /// Print the words that a shell completes
+    Completions(completions::CompletionsArgs),
+    /// Write pages for `man`
+    Man(completions::ManArgs),
 }
 
 impl Cli {
@@ -98,6 +103,8 @@ impl Cli {
             Some(Command::Identify(args)) => args.execute(),
             Some(Command::Plan(args)) => args.execute(),
             Some(Command::Playground(args)) => args.execute(),
+            Some(Command::Completions(args)) => args.execute(),
+            Some(Command::Man(args)) => args.execute(),
             Some(Command::Drive(args)) => args.execute(),
             Some(Command::Export(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
