@@ -39,6 +39,7 @@ pub mod samples;
 pub mod scene_file;
 pub mod scenes;
 pub mod servo;
+pub mod sketch;
 pub mod solver;
 pub mod starter;
 pub mod step;

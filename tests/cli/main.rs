@@ -5,6 +5,7 @@ mod arm;
 mod bad_input;
 mod commands;
 mod export;
+mod first_hour;
 mod identify;
 mod interruption;
 mod motions;

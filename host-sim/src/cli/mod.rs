@@ -16,6 +16,7 @@ mod study;
 #[cfg(feature = "talk")]
 mod talk;
 
+use std::io::{IsTerminal, stdout};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -23,7 +24,7 @@ use clap::{Parser, Subcommand};
 use stillbeam_sim::console::note;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::limits::load::Progress;
-use stillbeam_sim::{println, progress, scenes};
+use stillbeam_sim::{println, progress, scenes, sketch};
 
 /// Runs a task that checks a scene's load limits and shows what it is at. The search for a duration
 /// that keeps them has no end that could be told beforehand.
@@ -37,6 +38,19 @@ fn with_limits_shown<T>(task: impl FnOnce(&dyn Fn(Progress)) -> T) -> T {
             search.turn(|| format!("trying {duration:.3} s"));
         }
     })
+}
+
+/// Draws quantities over time below a command's lines, if standard output is a terminal. Each is its
+/// title with unit, and its values at even times from 0 to `end` s.
+fn draw<'a>(quantities: impl IntoIterator<Item = (&'a str, Vec<f64>)>, end: f64) {
+    if !stdout().is_terminal() {
+        return;
+    }
+    for (title, values) in quantities {
+        if let Some(lines) = sketch::over_time(title, values.into_iter(), end) {
+            println!("\n{lines}");
+        }
+    }
 }
 
 /// Shows a page in the browser. The page is written by then, so that a failure is a note.
