@@ -9,5 +9,6 @@ mod model;
 mod motion;
 mod packages;
 mod pages;
+mod playground;
 mod run;
 mod stress;

@@ -2,6 +2,7 @@
 //! Code that the tests share: truth files and their scenes, building the firmware, running it in
 //! QEMU, comparing its stream, the table of instructions.
 
+pub mod browser;
 pub mod embedded;
 pub mod emulator;
 pub mod features;
@@ -10,6 +11,7 @@ pub mod firmware_page;
 pub mod image;
 pub mod instructions;
 pub mod page;
+pub mod playground;
 pub mod stream;
 
 use std::path::PathBuf;

@@ -31,7 +31,8 @@ impl ArmArgs {
     }
 }
 
-fn print(report: &ArmReport) {
+/// Prints what an arm is.
+pub fn print(report: &ArmReport) {
     println!("{}", report.scene);
     let shape = if report.is_uniform { "" } else { " as if uniform" };
     println!(

@@ -2,25 +2,30 @@
 
 mod arm;
 mod compare;
+mod completions;
 mod drive;
 mod export;
 mod identify;
 mod mechanism;
 mod motion;
+mod new;
 mod plan;
+mod playground;
 mod reference;
 mod run;
 mod study;
 #[cfg(feature = "talk")]
 mod talk;
 
+use std::io::{IsTerminal, stdout};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use stillbeam_sim::console::note;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::limits::load::Progress;
-use stillbeam_sim::{println, progress, scenes};
+use stillbeam_sim::{println, progress, scenes, sketch};
 
 /// Runs a task that checks a scene's load limits and shows what it is at. The search for a duration
 /// that keeps them has no end that could be told beforehand.
@@ -34,6 +39,26 @@ fn with_limits_shown<T>(task: impl FnOnce(&dyn Fn(Progress)) -> T) -> T {
             search.turn(|| format!("trying {duration:.3} s"));
         }
     })
+}
+
+/// Draws quantities over time below a command's lines, if standard output is a terminal. Each is its
+/// title with unit, and its values at even times from 0 to `end` s.
+fn draw<'a>(quantities: impl IntoIterator<Item = (&'a str, Vec<f64>)>, end: f64) {
+    if !stdout().is_terminal() {
+        return;
+    }
+    for (title, values) in quantities {
+        if let Some(lines) = sketch::over_time(title, values.into_iter(), end) {
+            println!("\n{lines}");
+        }
+    }
+}
+
+/// Shows a page in the browser. The page is written by then, so that a failure is a note.
+fn show(page: &Path) {
+    if let Err(cause) = open::that(page) {
+        note(&format!("--open: {cause}; open {} yourself", page.display()));
+    }
 }
 
 /// Feed-forward setpoints for flexible robot links, tried on the desktop.
@@ -50,6 +75,8 @@ pub struct Cli {
 enum Command {
     /// Run the paper's study: tables and a report (also without a command)
     Study(study::StudyArgs),
+    /// Write a scene to start from; asks for what no flag gives
+    New(new::NewArgs),
     /// Say what a scene's arm is: masses, frequencies, damping, sag, and the method for it
     Arm(arm::ArmArgs),
     /// Run the core on a scene and write its setpoints
@@ -58,6 +85,8 @@ enum Command {
     Identify(Box<identify::IdentifyArgs>),
     /// Plan a move that arrives still, judge it and draw it
     Plan(plan::PlanArgs),
+    /// Write the page in which an arm moves, with sliders for all that it is
+    Playground(playground::PlaygroundArgs),
     /// Let a drive and its machine follow a scene, with less and with more feed-forward
     Drive(drive::DriveArgs),
     /// Write a scene's stepper as constants, for a program without set-up
@@ -71,6 +100,10 @@ enum Command {
     Talk(talk::TalkArgs),
     /// List the embedded scenes
     Scenes,
+    /// Print the words that a shell completes
+    Completions(completions::CompletionsArgs),
+    /// Write pages for `man`
+    Man(completions::ManArgs),
 }
 
 impl Cli {
@@ -79,10 +112,14 @@ impl Cli {
         match self.command {
             None => study::StudyArgs::default().execute(),
             Some(Command::Study(args)) => args.execute(),
+            Some(Command::New(args)) => args.execute(),
             Some(Command::Arm(args)) => args.execute(),
             Some(Command::Run(args)) => args.execute(),
             Some(Command::Identify(args)) => args.execute(),
             Some(Command::Plan(args)) => args.execute(),
+            Some(Command::Playground(args)) => args.execute(),
+            Some(Command::Completions(args)) => args.execute(),
+            Some(Command::Man(args)) => args.execute(),
             Some(Command::Drive(args)) => args.execute(),
             Some(Command::Export(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),

@@ -1,8 +1,9 @@
 //! `plan`: plans a move without residual vibration, prints its figures and draws it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use serde::Serialize;
 use stillbeam::Limits;
 use stillbeam_sim::console::open_arm;
 use stillbeam_sim::error::Error;
@@ -55,6 +56,12 @@ pub struct PlanArgs {
     /// Folder for the page, its pictures and the run
     #[arg(long, value_name = "DIR", default_value = "plan")]
     out: PathBuf,
+    /// Print one JSON object, for programs
+    #[arg(long)]
+    json: bool,
+    /// Show the page in the browser
+    #[arg(long)]
+    open: bool,
 }
 
 impl PlanArgs {
@@ -62,6 +69,8 @@ impl PlanArgs {
         if let Some(scene) = mechanism::scenes::open(&self.scene)? {
             super::mechanism::refuse("--robust", self.robust.is_some())?;
             super::mechanism::refuse("--max-moment", self.max_moment.is_some())?;
+            super::mechanism::refuse("--json", self.json)?;
+            super::mechanism::refuse("--open", self.open)?;
             let limits = self.limits_of_joints(&scene)?;
             let Self { from, to, duration, out, .. } = self;
             return super::mechanism::plan(&scene, from, to, duration, limits, &out);
@@ -107,8 +116,17 @@ impl PlanArgs {
             super::note(&line);
         }
         let file = page::write(&self.out, &scene.name, &request, &planned)?;
-        print(&scene.name, &request, &planned);
-        println!("  {}", file.display());
+        if self.json {
+            let report = PlanReport::of(&scene.name, &request, &planned, &file);
+            println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+        } else {
+            print(&scene.name, &request, &planned);
+            println!("  {}", file.display());
+            draw(&request, &planned);
+        }
+        if self.open {
+            super::show(&file);
+        }
         Ok(ExitCode::SUCCESS)
     }
 }
@@ -137,6 +155,71 @@ fn single(key: &str, values: &[f64]) -> Result<f64, Error> {
         _ => Err(Error::new(format_args!(
             "{key} = {values:?}: must be one value with an arm of one [link]"
         ))),
+    }
+}
+
+/// Draws deflection and torque of the reference rod over time, if standard output is a terminal.
+fn draw(request: &Request, planned: &Planned) {
+    let samples = &planned.judgement.samples;
+    let end = samples.last().map_or(0.0, |sample| sample.t);
+    let rows = (0..=ROWS).map(|k| {
+        let at = samples.partition_point(|sample| sample.t < end * k as f64 / ROWS as f64);
+        &samples[at.min(samples.len() - 1)]
+    });
+    let (deflection, torque) = rows.map(|sample| (1e3 * sample.deflection, sample.torque)).unzip();
+    let end = (1e3 * end).round() / 1e3;
+    let units = axis_units::of(request.arm.mount.axis);
+    let effort = format!("{}, {}", units.effort, units.effort_unit);
+    super::draw([("deflection, mm", deflection), (effort.as_str(), torque)], end);
+}
+
+/// Even times of a small plot.
+const ROWS: usize = 120;
+
+/// What a plan says, for programs.
+#[derive(Serialize)]
+struct PlanReport {
+    scene: String,
+    from: f64,
+    to: f64,
+    duration_s: f64,
+    ticks: u32,
+    first_period_s: f64,
+    /// Peaks of the hub's motion: rad/s, rad/s², rad/s³; on a linear axis of m.
+    peak_rate: f64,
+    peak_acceleration: f64,
+    peak_jerk: f64,
+    /// Largest torque in the reference rod, N m; on a linear axis the largest force, N.
+    peak_effort: f64,
+    peak_moment_nm: f64,
+    peak_deflection_m: f64,
+    /// Residual vibration in the reference rod, fraction of L.
+    residual: f64,
+    /// Pairs of frequency error and residual, fractions.
+    sensitivity: Vec<(f64, f64)>,
+    page: PathBuf,
+}
+
+impl PlanReport {
+    fn of(scene: &str, request: &Request, planned: &Planned, page: &Path) -> Self {
+        let Planned { plan, prediction, judgement, loads, .. } = planned;
+        Self {
+            scene: scene.to_owned(),
+            from: request.from,
+            to: request.to,
+            duration_s: plan.duration(),
+            ticks: plan.ticks,
+            first_period_s: planned.first_period,
+            peak_rate: plan.peaks.rate,
+            peak_acceleration: plan.peaks.acceleration,
+            peak_jerk: plan.peaks.jerk,
+            peak_effort: loads.torque.value,
+            peak_moment_nm: loads.moment.value,
+            peak_deflection_m: prediction.deflection,
+            residual: judgement.residual,
+            sensitivity: planned.sensitivity.clone(),
+            page: page.to_owned(),
+        }
     }
 }
 

@@ -12,13 +12,16 @@ pub struct StudyArgs {
     /// Folder for the report and the CSVs
     #[arg(long, value_name = "DIR", default_value = FOLDER)]
     out: PathBuf,
+    /// Show the report in the browser
+    #[arg(long)]
+    open: bool,
 }
 
 const FOLDER: &str = "stillbeam-study";
 
 impl Default for StudyArgs {
     fn default() -> Self {
-        Self { out: FOLDER.into() }
+        Self { out: FOLDER.into(), open: false }
     }
 }
 
@@ -34,6 +37,9 @@ impl StudyArgs {
         if let Some((report, tables)) = files.split_first() {
             println!("\nreport: {}", report.display());
             println!("data:   {} CSV files beside it", tables.len());
+            if self.open {
+                super::show(report);
+            }
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use maud::html;
+use maud::{PreEscaped, html};
 
-use super::judge::Motion;
-use super::{Planned, Request};
+use super::judge::{Judgement, Motion};
+use super::{Planned, Request, moving};
 use crate::axis_units;
 use crate::error::Error;
 use crate::output::Files;
@@ -16,7 +16,8 @@ use crate::table;
 
 use stillbeam::{Move, Profile};
 
-/// Writes `index.html`, a picture for each chart, and `plan.csv` into a folder. Returns the page's
+/// Writes `index.html`, a picture for each chart, the one that moves (`moving.svg`, of an arm that
+/// turns and bends by no more than two modes follow), and `plan.csv` into a folder. Returns the page's
 /// path.
 pub fn write(
     folder: &Path,
@@ -24,7 +25,10 @@ pub fn write(
     request: &Request,
     planned: &Planned,
 ) -> Result<PathBuf, Error> {
-    let charts = charts(request, planned)?;
+    let quintic = quintic(request, planned)?;
+    let charts = charts(request, planned, &quintic);
+    let left = [quintic.residual, planned.judgement.residual];
+    let moving = moving::picture(request, &planned.plan, left)?;
     let caption = html! {
         "The commanded motion, what the tip of the reference rod does with it and after it, and what \
          is left where the arm's frequency is not what the plan was made for. Dashed: a quintic of \
@@ -33,6 +37,15 @@ pub fn write(
     let named: Vec<Chart> = charts.iter().map(|(_, chart)| chart.clone()).collect();
     let body = html! {
         header { h1 { "A move that arrives still" } p.lead { (name) } }
+        @if let Some(moving) = &moving {
+            figure {
+                (PreEscaped(moving))
+                figcaption {
+                    "Both arms in real time, over and over: what a quintic of the same duration leaves, and \
+                     what the still move does. Dashed: where the arm shall rest."
+                }
+            }
+        }
         (figure(&named, &caption, "plan.csv")?)
     };
     let mut files = Files::default();
@@ -40,6 +53,9 @@ pub fn write(
         let svg = chart.svg()?;
         let path = folder.join(file).with_extension("svg");
         files.add(&path, |file| file.write_all(svg.as_bytes()))?;
+    }
+    if let Some(moving) = &moving {
+        files.add(&folder.join("moving.svg"), |file| file.write_all(moving.as_bytes()))?;
     }
     let rows: Vec<Vec<f64>> = planned
         .judgement
@@ -58,17 +74,18 @@ pub fn write(
     Ok(path)
 }
 
-/// Returns the charts of motion, acceleration, deflection and sensitivity, each with its file's
-/// name.
-fn charts(request: &Request, planned: &Planned) -> Result<Vec<(&'static str, Chart)>, Error> {
+/// Judges a quintic of the same duration.
+fn quintic(request: &Request, planned: &Planned) -> Result<Judgement, Error> {
+    let duration = planned.plan.duration();
+    let motion = Move::To { profile: Profile::Quintic, duration, to: request.to };
+    Motion::of(request.from, motion, request.tick).judge(&request.arm, 0.0)
+}
+
+/// Returns the charts of motion, acceleration, deflection, torque and sensitivity, each with its
+/// file's name.
+fn charts(request: &Request, planned: &Planned, other: &Judgement) -> Vec<(&'static str, Chart)> {
     let units = axis_units::of(request.arm.mount.axis);
     let duration = planned.plan.duration();
-    let quintic = Motion::of(
-        request.from,
-        Move::To { profile: Profile::Quintic, duration, to: request.to },
-        request.tick,
-    );
-    let other = quintic.judge(&request.arm, 0.0)?;
     let length = request.arm.link.length;
     let line = |label: &str, samples: &[Sample], of: &dyn Fn(&Sample) -> f64| {
         Series::line(label, samples.iter().map(|s| (s.t, of(s))).collect::<Vec<_>>())
@@ -87,10 +104,11 @@ fn charts(request: &Request, planned: &Planned) -> Result<Vec<(&'static str, Cha
         Axis::linear("residual, % of L"),
     )
     .with(Series::line("still", curve).colour(Colour::Blue));
-    Ok(vec![
+    vec![
         (units.name, pair(&format!("Hub {}", units.name), units.position, &|s| s.angle)),
         ("acceleration", pair("Hub acceleration", units.acceleration, &|s| s.acceleration)),
         ("deflection", pair("Tip deflection", "% of L", &|s| 100.0 * s.deflection / length)),
+        (units.effort, pair(&format!("Hub {}", units.effort), units.effort_unit, &|s| s.torque)),
         ("sensitivity", sensitivity),
-    ])
+    ]
 }

@@ -1,0 +1,182 @@
+//! A scene to start from: its text with comments, and what to measure first.
+
+mod measure;
+
+pub use measure::{Doubt, doubts};
+
+use crate::error::Error;
+use crate::reference::rod;
+use crate::scene_file::SceneFile;
+
+/// Setpoint interval of the scene, s.
+pub const TICK: f64 = 0.01;
+
+/// Duration of a move that is not given, first periods.
+const PERIODS: f64 = 2.0;
+
+/// A strip on a motor, and a move, as they are asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Starter {
+    /// From the clamp to the tip, m.
+    pub length: f64,
+    /// Name of the material.
+    pub material: String,
+    /// Size across the plane of motion, m.
+    pub width: f64,
+    /// Size in the plane of motion, m.
+    pub thickness: f64,
+    /// At the tip, kg.
+    pub payload: f64,
+    /// First frequency as measured, Hz. `None` leaves it to the material.
+    pub frequency: Option<f64>,
+    /// Damping ratio of the first mode as measured.
+    pub damping: Option<f64>,
+    /// Hub angle at the end of the move, rad.
+    pub to: f64,
+    /// Duration, s. `None` takes two first periods.
+    pub duration: Option<f64>,
+}
+
+impl Starter {
+    /// Returns the arm, without a move.
+    ///
+    /// # Errors
+    /// What a scene file refuses.
+    pub fn arm(&self) -> Result<SceneFile, Error> {
+        SceneFile::parse_arm("the arm", &self.arm_text(""))
+    }
+
+    /// Returns the text of the scene file, which is accepted by `run`.
+    ///
+    /// # Errors
+    /// What a scene file refuses, as a line of the file called `name`.
+    pub fn text(&self, name: &str) -> Result<String, Error> {
+        let period = rod::first_period(&self.arm()?.arm)?;
+        let duration = self.duration.unwrap_or_else(|| whole_ticks(PERIODS * period));
+        let text = format!(
+            "# A flexible arm, written by `stillbeam-sim new`. SI units: m, kg, s, N m, rad.\n\n{}\n\
+             {}\n{LIMITS}\n[solver]\ntick = {TICK:?}\n",
+            self.arm_text(&format!("{:.4}", 1.0 / period)),
+            self.move_text(duration, period)
+        );
+        SceneFile::parse(name, &text)?;
+        Ok(text)
+    }
+
+    fn arm_text(&self, expected: &str) -> String {
+        let Self { length, material, width, thickness, payload, .. } = self;
+        let frequency = match self.frequency {
+            Some(frequency) => {
+                format!(
+                    "# Measured with the payload on and the hub held.\nfrequency = {frequency:?}"
+                )
+            }
+            None => format!(
+                "# The first frequency as measured, with the payload on and the hub held, stands in\n\
+                 # for the material's stiffness. By this file it is {expected} Hz.\n\
+                 # frequency = {expected}\n\
+                 # The link's own mass as weighed, kg, stands in for the material's density.\n\
+                 # mass ="
+            ),
+        };
+        let damping = match self.damping {
+            Some(ratio) => format!("ratio = {ratio:?}\nfrom = \"beta\""),
+            None => "# The ratio of the first mode as measured: 0.01 is 1 % of critical damping.\n\
+                     # ratio = 0.01\n# from = \"beta\""
+                .to_owned(),
+        };
+        format!(
+            "[link]\n# The part that bends, from the clamp to the tip.\nlength = {length:?}\n\
+             # Or youngs_modulus (Pa) and density (kg/m^3).\nmaterial = \"{material}\"\n\
+             # A strip; the thickness is its size in the plane of motion. A tube has diameter and \
+             wall.\nwidth = {width:?}\nthickness = {thickness:?}\n{frequency}\n\n[payload]\n\
+             mass = {payload:?}\n\n[damping]\n{damping}\n"
+        )
+    }
+
+    fn move_text(&self, duration: f64, period: f64) -> String {
+        let Self { to, .. } = self;
+        format!(
+            "[move]\n# A move after which the arm is at rest. Others: cubic, quintic, cycloid, \
+             trapezoid, s-curve.\nprofile = \"still\"\n# {:.2} first periods. Without it: the shortest \
+             within the limits.\nduration = {duration:?}\nfrom = 0.0\nto = {to:?}  # {:.1} degrees\n\
+             settle = {:?}\n",
+            duration / period,
+            to.to_degrees(),
+            whole_ticks(f64::max(0.5, period))
+        )
+    }
+}
+
+/// The drive's limits, which a new user looks up later.
+const LIMITS: &str = "[limits]\n# Of the drive. A move that exceeds one is refused, with what would \
+    do.\n# torque = 2.0        # N m\n# rate = 20.0         # rad/s\n# acceleration = 100.0  # rad/s^2\n";
+
+/// Rounds a time up to whole ticks, and to the digits that name them.
+fn whole_ticks(time: f64) -> f64 {
+    (time / TICK - 1e-9).ceil() / (1.0 / TICK)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn strip() -> Starter {
+        Starter {
+            length: 0.5,
+            material: "aluminium".to_owned(),
+            width: 0.02,
+            thickness: 0.002,
+            payload: 0.05,
+            frequency: None,
+            damping: None,
+            to: 1.5,
+            duration: None,
+        }
+    }
+
+    #[test]
+    fn the_text_is_a_scene_with_what_was_asked_for() {
+        let text = strip().text("arm.toml").expect("a scene");
+        let scene = SceneFile::parse("arm.toml", &text).expect("a scene");
+        assert_eq!(scene.arm.link.length, 0.5);
+        assert_eq!(scene.arm.payload.mass, 0.05);
+        assert!((scene.arm.link.bending_stiffness - 0.92).abs() < 1e-12);
+        // Two first periods of 336 ms, in whole ticks.
+        let duration = scene.moves[0].motion.duration();
+        assert!((duration - 0.68).abs() < 1e-12, "{duration}");
+        assert!(text.lines().all(|line| line.len() <= 100), "{text}");
+    }
+
+    #[test]
+    fn a_comment_that_is_made_a_line_is_accepted() {
+        let text = strip().text("arm.toml").expect("a scene");
+        for line in ["# frequency = ", "# torque = ", "# rate = ", "# acceleration = "] {
+            assert!(text.contains(line), "{line} is not in {text}");
+            let changed = text.replace(line, &line[2..]);
+            SceneFile::parse("arm.toml", &changed)
+                .unwrap_or_else(|error| panic!("{line}: {error}"));
+        }
+        let changed = text.replace("# ratio = ", "ratio = ").replace("# from = ", "from = ");
+        SceneFile::parse("arm.toml", &changed).expect("damping");
+    }
+
+    #[test]
+    fn what_is_measured_stands_in_the_file() {
+        let measured = Starter { frequency: Some(3.1), damping: Some(0.004), ..strip() };
+        let scene =
+            measured.text("a").and_then(|text| SceneFile::parse("a", &text)).expect("a scene");
+        let period = rod::first_period(&scene.arm).expect("a period");
+        assert!((1.0 / period - 3.1).abs() < 1e-4, "{period}");
+        assert!(scene.arm.damping.beta > 0.0);
+    }
+
+    #[test]
+    fn what_no_scene_may_hold_is_refused() {
+        let error = Starter { thickness: -1.0, ..strip() }.text("arm.toml").expect_err("no strip");
+        assert!(error.to_string().contains("link.thickness = -1: must be"), "{error}");
+        let error =
+            Starter { duration: Some(0.01), ..strip() }.text("arm.toml").expect_err("short");
+        assert!(error.to_string().contains("must be at least"), "{error}");
+    }
+}
