@@ -86,6 +86,14 @@ fn the_example_is_no_larger_than_in_rust_by_more_than_a_tenth() {
     let (c, rust) = (size(&example()), size(&in_rust()));
     println!("C {c:?}, Rust {rust:?}");
     assert!(10 * c.flash <= 11 * rust.flash, "C {c:?}, Rust {rust:?}");
+    // The page tells both, to a hundredth.
+    let page = std::fs::read_to_string(root().join("docs/c.md")).expect("docs/c.md");
+    for (row, flash) in [("the example in C", c.flash), ("the same in Rust", rust.flash)] {
+        let told = page.lines().find_map(|line| line.strip_prefix(&format!("| {row} | ")));
+        let told = told.unwrap_or_else(|| panic!("docs/c.md: no row of {row}"));
+        let told: u64 = told.replace([',', '|', ' '], "").parse().expect("bytes");
+        assert!(told.abs_diff(flash) * 100 <= flash, "docs/c.md: {row} = {told}, is {flash}");
+    }
 }
 
 /// A program that only ticks: what `sb_tick`, `sb_follow` and `sb_missed` can reach.
