@@ -32,7 +32,7 @@
 /**
  * Words of 8 bytes in `sb_planner`.
  */
-#define SB_PLANNER_WORDS 800
+#define SB_PLANNER_WORDS 320
 
 /**
  * Words of 8 bytes in `sb_path`.

@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use crate::setup::Setup;
 
 /// Words of 8 bytes in `sb_planner`.
-pub const SB_PLANNER_WORDS: usize = 800;
+pub const SB_PLANNER_WORDS: usize = 320;
 
 /// Storage of a planner of still moves.
 #[repr(C)]
