@@ -12,6 +12,9 @@ use stillbeam_golden::scenes::SCENES;
 /// Where the application's boards are, one file each.
 const BOARDS: &str = "src/bin/application/boards";
 
+/// The exported arm of the example in C, which the program `prepared_axis` has too.
+const EXPORTED: &str = "../bindings/c/examples/arm.h";
+
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=../memory.x");
@@ -33,6 +36,8 @@ fn main() {
     println!("cargo:rerun-if-env-changed=STILLBEAM_METHOD");
     let method = env::var("STILLBEAM_METHOD").unwrap_or_else(|_| "Newmark1Nodal".into());
     fs::write(folder.join("prepared.rs"), prepared(&method)).expect("the build folder is writable");
+    println!("cargo:rerun-if-changed={EXPORTED}");
+    fs::write(folder.join("exported.rs"), exported()).expect("the build folder is writable");
     let method = format!("pub use stillbeam_golden::methods::{method} as Chosen;\n");
     fs::write(folder.join("method.rs"), method).expect("the build folder is writable");
     if let Some(board) = &chosen {
@@ -83,6 +88,16 @@ fn prepared(method: &str) -> String {
     chosen.text.unwrap_or_else(|| {
         format!("compile_error!(\"STILLBEAM_METHOD = {method}: must be a name in methods/src/lib.rs\");\n")
     })
+}
+
+/// The exported arm of the example in C as constants of Rust: its tick and its words.
+fn exported() -> String {
+    let text = fs::read_to_string(EXPORTED).unwrap_or_else(|error| panic!("{EXPORTED}: {error}"));
+    let tick = text.split("STILLBEAM_TICK ").nth(1).and_then(|rest| rest.lines().next());
+    let tick = tick.unwrap_or_else(|| panic!("{EXPORTED}: STILLBEAM_TICK"));
+    let words: Vec<&str> = text.split("0x").skip(1).map(|rest| &rest[..8]).collect();
+    let list: String = words.iter().map(|digits| format!("0x{digits}, ")).collect();
+    format!("const TICK: f64 = {tick};\nstatic ARM: [u32; {}] = [{list}];\n", words.len())
 }
 
 /// The board whose feature is on, by its file's name.

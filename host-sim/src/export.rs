@@ -198,9 +198,11 @@ impl PreparedArm {
         let mut text: String = self.remarks().map(|line| format!("/* {line} */\n")).concat();
         text += &format!(
             "#ifndef STILLBEAM_ARM_H\n#define STILLBEAM_ARM_H\n\n#include <stdint.h>\n\n\
-             #define STILLBEAM_ARMS {}\n\n/* Masses of the payload, kg. */\n\
+             #define STILLBEAM_ARMS {}\n\n/* Control period, s. */\n\
+             #define STILLBEAM_TICK {:?}\n\n/* Masses of the payload, kg. */\n\
              static const double stillbeam_payloads[STILLBEAM_ARMS] = {{{}}};\n",
             self.payloads.len(),
+            self.tick,
             self.masses()
         );
         text += &c_table("arm", &self.arms);

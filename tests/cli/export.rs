@@ -84,6 +84,18 @@ fn a_build_script_writes_what_the_command_writes() {
     assert!(error.is_err_and(|error| error.to_string().contains("none.toml")));
 }
 
+/// The constants of the examples in C are those of their scene file.
+#[test]
+fn the_arm_of_the_examples_in_c_is_up_to_date() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../bindings/c/examples");
+    let folder = tempfile::tempdir().expect("folder");
+    fs::copy(examples.join("arm.toml"), folder.path().join("arm.toml")).expect("arm.toml");
+    let (code, out, err) = export(folder.path(), &["arm.toml", "--c", "arm.h"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    let written = fs::read_to_string(folder.path().join("arm.h")).expect("arm.h");
+    assert_eq!(written, fs::read_to_string(examples.join("arm.h")).expect("arm.h"));
+}
+
 /// The choice of `auto` is written as the stepper that it is.
 #[test]
 fn an_automatic_choice_is_loaded_by_its_own_type() {

@@ -3,6 +3,7 @@
 
 mod application;
 mod boards;
+mod c;
 mod emulator;
 mod footprint;
 mod golden;

@@ -47,6 +47,15 @@ fn the_core_compiles_everywhere_with_every_feature_alone() {
     }
 }
 
+/// The archive's processors; the Cortex-M4F is built and run.
+#[test]
+fn the_c_binding_compiles_everywhere_with_every_method() {
+    for target in TARGETS.into_iter().chain([firmware::SOFT_TARGET]) {
+        require_target(target).unwrap_or_else(|error| panic!("{error}"));
+        check(&["--package", "stillbeam-c", "--lib", "--all-features", "--target", target]);
+    }
+}
+
 #[test]
 fn the_bench_compiles_for_a_board() {
     require_target(firmware::TARGET).unwrap_or_else(|error| panic!("{error}"));

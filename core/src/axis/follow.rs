@@ -84,8 +84,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     pub fn follow(&mut self, hub: Option<&HubState<S::Scalar>>) -> Tick<S::Scalar> {
         self.listen();
         if self.mode != Mode::Enabled {
-            let setpoint = self.generator.tick();
-            return self.done(setpoint);
+            return self.tick_without_state();
         }
         let from = *self.generator.hub();
         let next = match hub {
@@ -98,13 +97,21 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
                 self.reach.carried_on(&from)
             }
         };
-        let setpoint = if self.unfollowed > self.policy.missed {
+        if self.unfollowed > self.policy.missed {
             self.stop(Cause::FollowLost);
-            self.generator.tick()
-        } else {
-            self.moves.clear();
-            self.generator.follow(&next)
-        };
+            return self.tick_without_state();
+        }
+        self.moves.clear();
+        let setpoint = self.generator.follow(&next);
+        self.done(setpoint)
+    }
+
+    /// Makes a tick of the axis' own motion. Apart, because behind a stop the compiler takes the code
+    /// for cold: it would leave the stepper's closures out of line, and there the checks of their
+    /// indices.
+    #[inline(never)]
+    fn tick_without_state(&mut self) -> Tick<S::Scalar> {
+        let setpoint = self.generator.tick();
         self.done(setpoint)
     }
 }
