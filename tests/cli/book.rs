@@ -12,7 +12,7 @@ use crate::sim;
 
 /// Commands that other tests run, or that need what no test has. Those with a blank at the end are
 /// beginnings of commands.
-const ELSEWHERE: [(&str, &str); 11] = [
+const ELSEWHERE: [(&str, &str); 14] = [
     ("cargo install --path host-sim", "builds what is tested here"),
     ("cargo build ", "the image and the program are built for the other tests"),
     ("cargo run --release", "the study, in tests/study.rs"),
@@ -21,6 +21,9 @@ const ELSEWHERE: [(&str, &str); 11] = [
     ("cargo lab ", "tested in the lab; its pages by `cargo lab docs --check`"),
     ("sh tests/all", "the tests themselves"),
     ("pip install ", "the package is loaded from cargo's build in tests/python"),
+    ("rustup target add ", "the set-up"),
+    ("bindings/c/build ", "tests/target/c.rs builds the same archive"),
+    ("arm-none-eabi-gcc ", "tests/target/c.rs links an example"),
     ("probe-rs run ", "needs a board"),
     ("stillbeam-sim drive d-tip30-quick", "`cargo lab docs --check`"),
     (

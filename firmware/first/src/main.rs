@@ -26,13 +26,11 @@ fn main() -> ! {
     let mut timer = Peripherals::take().expect("taken once").SYST;
     let mut arm = arm().expect("a link, a tick and a move within their ranges");
     timer.set_reload(1_680_000 - 1); // 10 ms of 168 MHz
-    timer.clear_current();
     timer.enable_counter();
     loop {
         if timer.has_wrapped() {
-            let setpoint = arm.tick();
-            // To your drive: setpoint.angle, rate, acceleration, torque.
-            core::hint::black_box(setpoint);
+            // Angle, rate, acceleration and torque, to your drive.
+            core::hint::black_box(arm.tick());
         }
     }
 }

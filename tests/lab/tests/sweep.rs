@@ -169,27 +169,28 @@ fn pareto_draws_and_answers() {
 #[test]
 fn a_page_that_is_no_longer_true_is_found() {
     let bench = Bench::new();
-    let text = "# Read me\n<!-- lab:accuracy -->\n| solver | d-fast |\n<!-- /lab -->\n";
-    fs::write(bench.path("README.md"), text).unwrap();
-    let output = bench.run(&["docs", "README.md", "--check"]);
+    fs::create_dir(bench.path("docs")).unwrap();
+    let text = "# Accuracy\n<!-- lab:accuracy -->\n| solver | d-fast |\n<!-- /lab -->\n<!-- lab:torque -->\n<!-- /lab -->\n";
+    fs::write(bench.path("docs/accuracy.md"), text).unwrap();
+    let output = bench.run(&["docs", "docs/accuracy.md", "--check"]);
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(said.contains("README.md:3: | solver | d-fast | is now | solver"), "{said}");
-    assert!(said.contains("`cargo lab docs README.md`"), "{said}");
-    assert_eq!(fs::read_to_string(bench.path("README.md")).unwrap(), text);
+    assert!(said.contains("docs/accuracy.md:3: | solver | d-fast | is now | solver"), "{said}");
+    assert!(said.contains("`cargo lab docs docs/accuracy.md`"), "{said}");
+    assert_eq!(fs::read_to_string(bench.path("docs/accuracy.md")).unwrap(), text);
 
-    bench.succeed(&["docs", "README.md"]);
-    let said = bench.succeed(&["docs", "README.md", "--check"]);
-    assert_eq!(said, "README.md: true\n");
+    bench.succeed(&["docs", "docs/accuracy.md"]);
+    let said = bench.succeed(&["docs", "docs/accuracy.md", "--check"]);
+    assert_eq!(said, "docs/accuracy.md: true\n");
     // A line that is lost from the end of a table.
-    let written = fs::read_to_string(bench.path("README.md")).unwrap();
+    let written = fs::read_to_string(bench.path("docs/accuracy.md")).unwrap();
     let end = written.rfind("<!-- /lab").unwrap();
     let last = written[..end - 1].rfind('\n').unwrap() + 1;
-    fs::write(bench.path("README.md"), written[..last].to_owned() + &written[end..]).unwrap();
-    assert_eq!(bench.run(&["docs", "README.md", "--check"]).status.code(), Some(1));
+    fs::write(bench.path("docs/accuracy.md"), written[..last].to_owned() + &written[end..]).unwrap();
+    assert_eq!(bench.run(&["docs", "docs/accuracy.md", "--check"]).status.code(), Some(1));
 
-    fs::write(bench.path("README.md"), "no markers").unwrap();
-    let line = bench.refuse(&["docs", "README.md", "--check"]);
+    fs::write(bench.path("docs/accuracy.md"), "no markers").unwrap();
+    let line = bench.refuse(&["docs", "docs/accuracy.md", "--check"]);
     assert!(line.contains("lab:accuracy"), "{line}");
     bench.refuse(&["docs", "docs/styl.md"]);
 }
