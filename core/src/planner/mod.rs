@@ -20,6 +20,7 @@
 //! ```
 
 mod curve;
+mod fastest;
 mod least_effort;
 mod linear;
 mod loads;
@@ -38,6 +39,7 @@ mod solve;
 mod still_move;
 mod stop;
 
+pub use fastest::{FastestMove, ShortestMove};
 pub use objective::Objective;
 pub(crate) use path::Path;
 pub use prediction::Prediction;

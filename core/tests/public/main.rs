@@ -5,6 +5,7 @@ mod arms;
 mod carriage;
 mod change;
 mod exact;
+mod fastest;
 mod follow;
 mod generator;
 mod motor;
