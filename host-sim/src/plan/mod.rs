@@ -7,6 +7,7 @@ pub mod kept;
 pub mod page;
 pub mod picture;
 pub mod request;
+pub mod shortest;
 
 pub use judge::Judgement;
 pub use request::{Planned, Request};

@@ -4,7 +4,8 @@
 //!
 //! [`sweep`] measures run time against error, beside [`baseline`]; [`stress`] runs random scenes
 //! and long runs; [`stability`] maps where the methods are stable; [`choice`] tries `auto` on
-//! random arms; [`still`] judges moves that arrive still; [`faults`] injects what can go wrong
+//! random arms; [`still`] judges moves that arrive still; [`fastest`] holds
+//! their durations against other motions'; [`faults`] injects what can go wrong
 //! around an axis; [`plant`] lets random axes turn random machines; [`identify`] finds random arms in
 //! synthetic logs; [`shortest`] holds time-optimal motions against Ruckig's; [`mod@reference`] lets
 //! the two reference solvers converge to each other. All of them run their cases in [`campaign`].
@@ -13,6 +14,7 @@
 pub mod baseline;
 pub mod campaign;
 pub mod choice;
+pub mod fastest;
 pub mod faults;
 pub mod identify;
 pub mod markers;

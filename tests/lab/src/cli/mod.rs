@@ -3,6 +3,7 @@
 
 mod auto;
 mod docs;
+mod fastest;
 mod faults;
 mod identify;
 mod pareto;
@@ -55,6 +56,9 @@ enum Command {
     Pareto(pareto::ParetoArgs),
     /// Plan random time-optimal motions, and hold their durations against Ruckig's
     Shortest(shortest::ShortestArgs),
+    /// Compare the fastest still moves with other motions within the same limits; fill their part of
+    /// docs/still.md
+    Fastest(fastest::FastestArgs),
     /// Identify random arms from synthetic logs, and hold what is found against the truth
     Identify(identify::IdentifyArgs),
     /// Let the two reference solvers converge to each other
@@ -78,6 +82,7 @@ impl Cli {
             Command::Sweep(args) => args.execute(),
             Command::Pareto(args) => args.execute(),
             Command::Shortest(args) => args.execute(),
+            Command::Fastest(args) => args.execute(),
             Command::Identify(args) => args.execute(),
             Command::Reference(args) => args.execute(),
             Command::Tables(args) => args.execute(),
