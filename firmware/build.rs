@@ -1,5 +1,6 @@
-//! Link arguments, and the prepared arm of the program `prepared`. The arguments stand here because a member's own `.cargo/config.toml` is not read when
-//! cargo runs in the workspace root, and the image would come out empty.
+//! Link arguments, and the prepared arm of the program `prepared`. The arguments stand here because
+//! a member's own `.cargo/config.toml` is not read when cargo runs in the workspace root, and the
+//! image would come out empty.
 
 use std::path::Path;
 use std::{env, fs};
@@ -51,8 +52,8 @@ fn main() {
     }
 }
 
-/// The arm of the program `prepared` as constants: what set-up on the target would have computed, to
-/// the bit. Other names than those of methods are for other programs.
+/// The arm of the program `prepared` as constants: what set-up on the target would have computed,
+/// to the bit. Other names than those of methods are for other programs.
 fn prepared(method: &str) -> String {
     struct Chosen<'a> {
         method: &'a str,

@@ -49,8 +49,8 @@ const HEADER: usize = 7;
 /// Without a table, which would take a kilobyte: words are checked once.
 const CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 
-/// A stepper or planner whose numbers can be written as words. The type that loads them may be known
-/// only when the program runs, as that of [`Auto`](crate::select::Auto).
+/// A stepper or planner whose numbers can be written as words. The type that loads them may be
+/// known only when the program runs, as that of [`Auto`](crate::select::Auto).
 pub trait Prepare {
     /// Returns the type that loads the words: see [`Prepared::KIND`].
     fn kind(&self) -> [u32; 2];

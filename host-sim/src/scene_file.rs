@@ -89,7 +89,7 @@ struct File {
     solver: SolverKeys,
 }
 
-/// What a file must have that is to be run.
+/// Requirement named where a file cannot be run.
 const MOVES: &str = "move: must be either [move] or one or more [[moves]]";
 
 #[derive(Default, Deserialize)]

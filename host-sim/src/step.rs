@@ -13,7 +13,7 @@ pub struct Step {
     pub settle: f64,
 }
 
-/// What the hub is asked to do: a move, or a path through waypoints.
+/// Motion asked of the hub: a move, or a path through waypoints.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Motion {
     /// A move, as a generator's queue takes it.
@@ -39,8 +39,8 @@ impl Motion {
         }
     }
 
-    /// Returns the same motion in another duration, s. A path passes the same angles at times, rates
-    /// and accelerations that are stretched alike.
+    /// Returns the same motion in another duration, s. A path passes the same angles at times,
+    /// rates and accelerations that are stretched alike.
     pub fn lasting(&self, duration: f64) -> Self {
         match self {
             Self::Move(motion) => Self::Move(motion.lasting(duration)),

@@ -81,7 +81,7 @@ impl Trajectory {
     /// Appends a motion, held against no limit.
     ///
     /// # Errors
-    /// What the core refuses; of a path with the place of the row.
+    /// Refusals of the core; of a path with the place of the row.
     pub fn append(&mut self, motion: &Motion) -> Result<(), Error> {
         match motion {
             Motion::Move(motion) => Ok(self.append_move(motion, &Limits::default())?),

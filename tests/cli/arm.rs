@@ -145,7 +145,7 @@ fn the_words_name_every_figure() {
     }
 }
 
-/// What `auto` takes and what `arm` says it takes are the same.
+/// `auto` takes what `arm` says it takes.
 #[test]
 fn the_method_is_the_one_that_a_run_takes() {
     let folder = tempfile::tempdir().expect("folder");
@@ -182,7 +182,7 @@ fn what_is_no_arm_is_refused_in_a_line() {
     assert!(String::from_utf8_lossy(&output.stderr).contains("must be a scene file or one of"));
 }
 
-/// What was deduced is noted by a run, and the payload's centre has its columns.
+/// Deduced values are noted by a run, and the payload's centre has its columns.
 #[test]
 fn a_run_notes_what_was_deduced() {
     let folder = tempfile::tempdir().expect("folder");

@@ -67,7 +67,8 @@ impl Node {
     }
 
     fn status(&self) -> Status {
-        // Bits of no concern to the state are set at random in real drives; here voltage and remote.
+        // Bits of no concern to the state are set at random in real drives; here voltage and
+        // remote.
         Status { statusword: self.state | 0x0210, position: self.position, mode: self.mode }
     }
 }

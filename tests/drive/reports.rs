@@ -1,4 +1,4 @@
-//! What ODrive and moteus report of themselves, against other crates' encoders and decoders.
+//! Reports of ODrive and moteus, against other crates' encoders and decoders.
 
 use embedded_can::Frame as _;
 use moteus_protocol::CanFdFrame;

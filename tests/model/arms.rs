@@ -97,7 +97,7 @@ fn error(file: &SceneFile) -> f64 {
     rows.iter().zip(&truth).map(apart).fold(0.0, f64::max) / file.arm.link.length
 }
 
-/// What a joint's own damping couples of two modes is left out of the ticks of `elastica`.
+/// The coupling of two modes by a joint's own damping is left out of the ticks of `elastica`.
 #[test]
 fn ticks_follow_every_feature_as_they_do_the_plain_arm() {
     let mut failed = Vec::new();

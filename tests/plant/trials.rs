@@ -1,4 +1,4 @@
-//! What feed-forward is worth: the figures that are promised, and the order that is explained.
+//! Worth of feed-forward: the figures that are promised, and the order that is explained.
 
 use stillbeam_sim::scenes;
 use stillbeam_sim::servo::bench::{Bench, Feed};

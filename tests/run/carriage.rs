@@ -1,6 +1,7 @@
-//! Arms on a linear axis: the two references and the methods against each other, tables and refusals
-//! in metres.
+//! Arms on a linear axis: the two references and the methods against each other, tables and
+//! refusals in metres.
 
+use stillbeam_lab::reference::truth::{Apart, difference};
 use stillbeam_sim::compare::{Comparison, compare};
 use stillbeam_sim::reference::{fem, rod};
 use stillbeam_sim::run::run;
@@ -40,24 +41,44 @@ fn against_rod(scene: &SceneFile, solver: &Solver) -> Comparison {
     compare(&rows, &rod, scene).expect("common times")
 }
 
+/// Differences of the two references every `interval` s.
+fn references(scene: &SceneFile, interval: f64) -> Apart {
+    let trajectory = scene.trajectory(0.01).expect("a motion");
+    let times = truth::times(&trajectory, interval);
+    let rod = rod::solve(&scene.arm, &trajectory, &times, &rod::Options::default());
+    let fem = fem::solve(&scene.arm, &trajectory, &times, &fem::Options::default());
+    let (rod, fem) = (rod.expect("the rod"), fem.expect("the elements"));
+    difference(&scene.arm, &trajectory, &fem, &rod)
+}
+
+/// Residual of a still move in two periods, of L, by the rod.
+fn left_of_a_still_move(scene: impl Fn(&str) -> SceneFile, to: f64) -> f64 {
+    let duration = 2.0 * rod::first_period(&scene("").arm).expect("a period");
+    let motion = format!("profile = \"still\"\nduration = {duration}\nto = {to}\nsettle = 0.2\n");
+    let scene = scene(&motion);
+    let trajectory = scene.trajectory(0.01).expect("a motion");
+    let times = truth::times(&trajectory, 0.002);
+    let rows = truth::solve(Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("the rod");
+    let left = stillbeam_sim::compare::residual(&rows, &scene, 0.01).expect("a rest");
+    left.value().expect("at rest")
+}
+
+/// Elastica with two modes, as exact as it is.
+const FINE: Solver = Solver {
+    method: Method::Elastica,
+    modes: 2,
+    quality: Quality::Fine,
+    scalar: Scalar::F32,
+    ..Solver::PAPER
+};
+
 /// The two references share no method: the one follows shapes in the frame of the carriage, the
 /// other nodes in the global frame.
 #[test]
 fn both_references_agree_on_a_carriage() {
     for head in ["", HEAVY, LIFTED, HANGING] {
-        let scene = scene(head, "");
-        let trajectory = scene.trajectory(0.01).expect("a motion");
-        let times = truth::times(&trajectory, 0.02);
-        let rod = rod::solve(&scene.arm, &trajectory, &times, &rod::Options::default());
-        let fem = fem::solve(&scene.arm, &trajectory, &times, &fem::Options::default());
-        let (rod, fem) = (rod.expect("the rod"), fem.expect("the elements"));
-        let peak = rod.iter().map(|sample| sample.torque.abs()).fold(0.0, f64::max);
-        for (a, b) in rod.iter().zip(&fem) {
-            let apart = (a.tip[0] - b.tip[0]).hypot(a.tip[1] - b.tip[1]) / 0.4;
-            assert!(apart < 2e-4, "{head}: {apart} of L at {} s", a.t);
-            let force = (a.torque - b.torque).abs() / peak;
-            assert!(force < 0.01, "{head}: {force} of the peak at {} s", a.t);
-        }
+        let apart = references(&scene(head, ""), 0.02);
+        assert!(apart.tip < 2e-4 && apart.torque < 0.01, "{head}: {apart:?}");
     }
 }
 
@@ -69,14 +90,7 @@ const SHAPED: &str = "gravity.acceleration = 9.81\npayload.mass = 0.03\nshaper.k
 #[test]
 fn elastica_follows_the_rod_on_a_carriage() {
     for head in ["", HEAVY, LIFTED, HANGING, SHAPED] {
-        let solver = Solver {
-            method: Method::Elastica,
-            modes: 2,
-            quality: Quality::Fine,
-            scalar: Scalar::F32,
-            ..Solver::PAPER
-        };
-        let found = against_rod(&scene(head, ""), &solver);
+        let found = against_rod(&scene(head, ""), &FINE);
         println!("{head:?}: {:.1e} of L, {:.1e} of the force", found.tip_max, found.torque);
         assert!(found.tip_max < 4e-5, "{head}: {} of L", found.tip_max);
         assert!(found.torque < 0.012, "{head}: {} of the force", found.torque);
@@ -100,17 +114,7 @@ fn small_deflections_follow_the_rod_on_a_carriage() {
 #[test]
 fn a_still_move_on_a_carriage_arrives_still() {
     for head in ["", HEAVY, LIFTED, HANGING] {
-        let arm = scene(head, "").arm;
-        let duration = 2.0 * rod::first_period(&arm).expect("a period");
-        let motion =
-            format!("profile = \"still\"\nduration = {duration}\nto = 0.3\nsettle = 0.2\n");
-        let scene = scene(head, &motion);
-        let trajectory = scene.trajectory(0.01).expect("a motion");
-        let times = truth::times(&trajectory, 0.002);
-        let rows =
-            truth::solve(Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("the rod");
-        let left = stillbeam_sim::compare::residual(&rows, &scene, 0.01).expect("a rest");
-        let left = left.value().expect("at rest");
+        let left = left_of_a_still_move(|motion| scene(head, motion), 0.3);
         println!("{head:?}: {:.5} % of L", 100.0 * left);
         let bound = if head.is_empty() { 5e-4 } else { 2e-4 };
         assert!(left < bound, "{head}: {left} of L");
@@ -211,37 +215,21 @@ fn on_carrier(head: &str, motion: &str) -> SceneFile {
 fn both_references_and_elastica_agree_on_a_carrier_that_turns() {
     let motion = "profile = \"quintic\"\nduration = 0.4\nto = 1.0\nsettle = 0.1\n";
     let scene = on_carrier("payload.mass = 0.02\n", motion);
-    let trajectory = scene.trajectory(0.01).expect("a motion");
-    let times = truth::times(&trajectory, 0.02);
-    let rod = rod::solve(&scene.arm, &trajectory, &times, &rod::Options::default());
-    let fem = fem::solve(&scene.arm, &trajectory, &times, &fem::Options::default());
-    let (rod, fem) = (rod.expect("the rod"), fem.expect("the elements"));
-    let peak = rod.iter().map(|sample| sample.torque.abs()).fold(0.0, f64::max);
-    for (a, b) in rod.iter().zip(&fem) {
-        let apart = (a.tip[0] - b.tip[0]).hypot(a.tip[1] - b.tip[1]) / 0.4;
-        assert!(apart < 2e-4, "{apart} of L at {} s", a.t);
-        assert!((a.torque - b.torque).abs() < 0.01 * peak, "torque at {} s", a.t);
-    }
+    let apart = references(&scene, 0.02);
+    assert!(apart.tip < 2e-4 && apart.torque < 0.01, "{apart:?}");
     let resting = SceneFile { arm: resting(&scene), ..scene.clone() };
-    let solver = Solver {
-        method: Method::Elastica,
-        modes: 2,
-        quality: Quality::Fine,
-        scalar: Scalar::F32,
-        ..Solver::PAPER
-    };
-    let found = against_rod(&scene, &solver);
+    let found = against_rod(&scene, &FINE);
     println!("{:.1e} of L, {:.1e} of the torque", found.tip_max, found.torque);
     assert!(found.tip_max < 2e-4 && found.torque < 0.01, "{found:?}");
-    let modal = Solver { method: Method::Modal, modes: 2, elements: 8, ..solver };
+    let modal = Solver { method: Method::Modal, modes: 2, elements: 8, ..FINE };
     let found = against_rod(&scene, &modal);
     assert!(found.tip_max < 0.02, "{found:?}");
     // What the carrier does is far more than these errors.
-    let without = run(&resting, &solver).expect("a run");
-    let with = run(&scene, &solver).expect("a run");
+    let without = run(&resting, &FINE).expect("a run");
+    let with = run(&scene, &FINE).expect("a run");
     let change = compare(&with, &without, &scene).expect("common times");
     assert!(change.tip_max > 5e-3, "{change:?}");
-    let newmark = Solver { method: Method::Newmark, ..solver };
+    let newmark = Solver { method: Method::Newmark, ..FINE };
     let error = run(&scene, &newmark).expect_err("no such stepper").to_string();
     assert!(error.contains("newmark") && error.contains("carrier.rate = 8"), "{error}");
 }
@@ -253,15 +241,7 @@ fn resting(scene: &SceneFile) -> stillbeam::Scene {
 
 #[test]
 fn a_still_move_on_a_carrier_that_turns_arrives_still() {
-    let arm = on_carrier("payload.mass = 0.02\n", "").arm;
-    let duration = 2.0 * rod::first_period(&arm).expect("a period");
-    let motion = format!("profile = \"still\"\nduration = {duration}\nto = 1.0\nsettle = 0.2\n");
-    let scene = on_carrier("payload.mass = 0.02\n", &motion);
-    let trajectory = scene.trajectory(0.01).expect("a motion");
-    let times = truth::times(&trajectory, 0.002);
-    let rows = truth::solve(Reference::Rod, &scene, &trajectory, &times, &|_| ()).expect("the rod");
-    let left = stillbeam_sim::compare::residual(&rows, &scene, 0.01).expect("a rest");
-    let left = left.value().expect("at rest");
+    let left = left_of_a_still_move(|motion| on_carrier("payload.mass = 0.02\n", motion), 1.0);
     assert!(left < 2e-4, "{left} of L");
 }
 
@@ -295,27 +275,14 @@ fn a_carriage_is_described_by_the_mass_that_it_moves() {
 #[test]
 fn every_link_rides_on_a_carriage() {
     let plain = scene(LIFTED, "");
-    let solver = Solver {
-        method: Method::Elastica,
-        modes: 2,
-        quality: Quality::Fine,
-        scalar: Scalar::F32,
-        ..Solver::PAPER
-    };
     let all = featured(&plain.arm);
     for (feature, arm) in &all {
-        let found = against_rod(&SceneFile { arm: *arm, ..plain.clone() }, &solver);
+        let found = against_rod(&SceneFile { arm: *arm, ..plain.clone() }, &FINE);
         println!("{feature}: {:.1e} of L, {:.1e} of the force", found.tip_max, found.torque);
         assert!(found.tip_max < 4e-4, "{feature}: {} of L", found.tip_max);
         assert!(found.torque < 0.015, "{feature}: {} of the force", found.torque);
     }
     let (feature, arm) = all[all.len() - 1];
-    let trajectory = plain.trajectory(0.01).expect("a motion");
-    let times = truth::times(&trajectory, 0.05);
-    let rod = rod::solve(&arm, &trajectory, &times, &rod::Options::default()).expect("the rod");
-    let fem = fem::solve(&arm, &trajectory, &times, &fem::Options::default()).expect("elements");
-    for (a, b) in rod.iter().zip(&fem) {
-        let apart = (a.tip[0] - b.tip[0]).hypot(a.tip[1] - b.tip[1]) / 0.4;
-        assert!(apart < 2e-4, "{feature}: {apart} of L at {} s", a.t);
-    }
+    let apart = references(&SceneFile { arm, ..plain.clone() }, 0.05);
+    assert!(apart.tip < 2e-4, "{feature}: {apart:?}");
 }

@@ -46,6 +46,39 @@ fn along<S: Stepper<Scalar = f64>>(
     imbalance(&stretches[..stretches.len() - 1], TICK)
 }
 
+/// The imbalance of four elements, balanced by the energy of small deflections.
+fn newmark(scene: &SceneFile) -> f64 {
+    let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
+    let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
+    along(scene, stepper, |arm| {
+        let state = arm.state();
+        let q_dot = arm.stepper().deflection_rate(state);
+        energy::small(&model, arm.hub(), &state.deflection, &q_dot)
+    })
+}
+
+/// The same of two modes.
+fn modal(scene: &SceneFile) -> f64 {
+    let model = EightElements::consistent(&scene.arm).expect("model");
+    let modes = Modes::of(&model);
+    let stepper = Modal::<f64, 2>::new(&model, TICK).expect("stepper");
+    along(scene, stepper, |arm| {
+        let ModalState { coordinate, rate, .. } = arm.state();
+        let [q, q_dot] = [coordinate, rate].map(|modal| energy::nodal(&modes, modal));
+        energy::small(&model, arm.hub(), &q, &q_dot)
+    })
+}
+
+/// The imbalance of exact kinematics, whose tip turns by up to `bend` rad.
+fn elastica<const K: usize>(scene: &SceneFile, quality: Quality, bend: f64) -> f64 {
+    let rod = Rod::<K>::new(&scene.arm).expect("rod");
+    let stepper = Elastica::new(&rod, TICK, quality, bend).expect("stepper");
+    along(scene, stepper, |arm| {
+        let flex = arm.stepper().arm_state(arm.state(), arm.hub());
+        energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
+    })
+}
+
 /// Every truth scene's imbalance with a stepper that is set up for its scene, in the order of the
 /// list.
 fn all(mut of: impl FnMut(&SceneFile) -> f64) -> Vec<(&'static str, f64)> {
@@ -68,55 +101,25 @@ fn assert_below(bound: f64, found: &[(&'static str, f64)]) {
 /// the exact one does. What is left is the step's: 7e-5 on d-fast, 2e-6 elsewhere.
 #[test]
 fn newmark_balances_its_own_energy() {
-    assert_below(
-        1e-4,
-        &all(|scene| {
-            let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
-            let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
-            along(scene, stepper, |arm| {
-                let state = arm.state();
-                let q_dot = arm.stepper().deflection_rate(state);
-                energy::small(&model, arm.hub(), &state.deflection, &q_dot)
-            })
-        }),
-    );
+    assert_below(1e-4, &all(newmark));
 }
 
 /// The same of steps that are exact but for the spin coupling: 2e-7 at most.
 #[test]
 fn modal_balances_its_own_energy() {
-    assert_below(
-        1e-5,
-        &all(|scene| {
-            let model = EightElements::consistent(&scene.arm).expect("model");
-            let modes = Modes::of(&model);
-            let stepper = Modal::<f64, 2>::new(&model, TICK).expect("stepper");
-            along(scene, stepper, |arm| {
-                let ModalState { coordinate, rate, .. } = arm.state();
-                let [q, q_dot] = [coordinate, rate].map(|modal| energy::nodal(&modes, modal));
-                energy::small(&model, arm.hub(), &q, &q_dot)
-            })
-        }),
-    );
+    assert_below(1e-5, &all(modal));
 }
 
-fn elastica<const K: usize>(quality: Quality) -> Vec<(&'static str, f64)> {
-    all(|scene| {
-        let rod = Rod::<K>::new(&scene.arm).expect("rod");
-        let stepper = Elastica::new(&rod, TICK, quality, 0.5).expect("stepper");
-        along(scene, stepper, |arm| {
-            let flex = arm.stepper().arm_state(arm.state(), arm.hub());
-            energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
-        })
-    })
+fn all_elastica<const K: usize>(quality: Quality) -> Vec<(&'static str, f64)> {
+    all(|scene| elastica::<K>(scene, quality, 0.5))
 }
 
 #[test]
 fn exact_kinematics_balance_to_a_ten_thousandth() {
     for quality in [Quality::Fast, Quality::Fine] {
-        assert_below(1e-4, &elastica::<1>(quality));
-        assert_below(1e-4, &elastica::<2>(quality));
-        assert_below(1e-4, &elastica::<3>(quality));
+        assert_below(1e-4, &all_elastica::<1>(quality));
+        assert_below(1e-4, &all_elastica::<2>(quality));
+        assert_below(1e-4, &all_elastica::<3>(quality));
     }
 }
 
@@ -145,34 +148,10 @@ fn all_mounted(bound: f64, mut of: impl FnMut(&SceneFile) -> f64) {
 
 #[test]
 fn the_force_on_a_carriage_balances_the_energy() {
-    all_mounted(1e-4, |scene| {
-        let model = Model::<8, 4>::consistent(&scene.arm).expect("model");
-        let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
-        along(scene, stepper, |arm| {
-            let state = arm.state();
-            let q_dot = arm.stepper().deflection_rate(state);
-            energy::small(&model, arm.hub(), &state.deflection, &q_dot)
-        })
-    });
-    all_mounted(1e-5, |scene| {
-        let model = EightElements::consistent(&scene.arm).expect("model");
-        let modes = Modes::of(&model);
-        let stepper = Modal::<f64, 2>::new(&model, TICK).expect("stepper");
-        along(scene, stepper, |arm| {
-            let ModalState { coordinate, rate, .. } = arm.state();
-            let [q, q_dot] = [coordinate, rate].map(|modal| energy::nodal(&modes, modal));
-            energy::small(&model, arm.hub(), &q, &q_dot)
-        })
-    });
+    all_mounted(1e-4, newmark);
+    all_mounted(1e-5, modal);
     for quality in [Quality::Fast, Quality::Fine] {
-        all_mounted(1e-4, |scene| {
-            let rod = Rod::<2>::new(&scene.arm).expect("rod");
-            let stepper = Elastica::new(&rod, TICK, quality, 0.7).expect("stepper");
-            along(scene, stepper, |arm| {
-                let flex = arm.stepper().arm_state(arm.state(), arm.hub());
-                energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
-            })
-        });
+        all_mounted(1e-4, |scene| elastica::<2>(scene, quality, 0.7));
     }
 }
 
@@ -183,19 +162,8 @@ fn every_feature_balances() {
         let (plain, _) = truth(name);
         for (feature, arm) in featured(&plain.arm) {
             let scene = SceneFile { arm, ..plain.clone() };
-            let model = Model::<8, 4>::consistent(&arm).expect("model");
-            let stepper = Newmark::<f64, 8, 4>::new(&model, TICK).expect("stepper");
-            let newmark = along(&scene, stepper, |arm| {
-                let state = arm.state();
-                let q_dot = arm.stepper().deflection_rate(state);
-                energy::small(&model, arm.hub(), &state.deflection, &q_dot)
-            });
-            let rod = Rod::<2>::new(&arm).expect("rod");
-            let stepper = Elastica::new(&rod, TICK, Quality::Fast, 1.2).expect("stepper");
-            let elastica = along(&scene, stepper, |arm| {
-                let flex = arm.stepper().arm_state(arm.state(), arm.hub());
-                energy::exact(&rod, arm.hub(), &flex.coordinate, &flex.rate)
-            });
+            let newmark = newmark(&scene);
+            let elastica = elastica::<2>(&scene, Quality::Fast, 1.2);
             println!("{name}, {feature}: {newmark:.1e} {elastica:.1e}");
             assert!(
                 newmark < 1e-4 && elastica < 1e-4,

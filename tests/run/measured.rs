@@ -150,8 +150,8 @@ fn one_frequency_gives_the_joint_of_a_known_link() {
     assert!(error.contains(&format!("must be less than {clamped:.4} Hz")), "{error}");
 }
 
-/// Two frequencies may be those of a stiff link behind a soft joint and of a soft link behind a stiff
-/// one; three tell them apart.
+/// Two frequencies may be those of a stiff link behind a soft joint and of a soft link behind a
+/// stiff one; three tell them apart.
 #[test]
 fn two_or_three_frequencies_give_link_and_joint() {
     let hub = "[hub]\nstiffness = \"deduced\"\n";
@@ -197,8 +197,8 @@ fn elsewhere(error: &str) -> [f64; 2] {
     [other[0], other[1]]
 }
 
-/// Sizes say how the stiffness is spread, the frequency how much there is of it; and how far that is
-/// from the material's own is said.
+/// Sizes say how the stiffness is spread, the frequency how much there is of it; and how far that
+/// is from the material's own is said.
 #[test]
 fn a_frequency_scales_a_tapered_link() {
     let taper = |keys: &str| {

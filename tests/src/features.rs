@@ -1,4 +1,4 @@
-//! What arms may have beyond a clamped uniform link, each put on an arm of one's choice.
+//! Features of arms beyond a clamped uniform link, each put on an arm of one's choice.
 
 use stillbeam::scene::{PointMass, Section, Varied};
 use stillbeam::{Damping, Scene};

@@ -150,8 +150,8 @@ fn still_moves_are_planned_on_the_target_while_ticks_and_drives_go_on() {
     assert_eq!([status.missed, status.overruns, status.dropped], [0; 3], "{status:?}");
 }
 
-/// A plan takes many ticks on this board; a stop that comes meanwhile acts at once, and the plan that
-/// it makes stale is refused.
+/// A plan takes many ticks on this board; a stop that comes meanwhile acts at once, and the plan
+/// that it makes stale is refused.
 #[test]
 fn a_stop_does_not_wait_for_a_plan() {
     let mut session = begin_with("mps2,still");

@@ -1,4 +1,4 @@
-//! What the smallest useful programs take: set-up or a prepared arm, one move and its ticks.
+//! Sizes of the smallest useful programs: set-up or a prepared arm, one move and its ticks.
 
 use stillbeam_tests::instructions;
 use stillbeam_tests::instructions::Minimal;

@@ -3,9 +3,9 @@
 //! 0x607A target position i32, 0x60B1 velocity offset i32, 0x60B2 torque offset i16 in ‰ of the
 //! rated torque, 0x60C2 interpolation period `value × 10^index` s. Positions are encoder
 //! increments. Velocities are increments per second, the unit of a drive whose factor group is left
-//! alone, or what [`VelocityUnit`] says. [`PowerDrive`] is the state machine behind 0x6040 and 0x6041.
-//! Source: CiA 402-2 / IEC 61800-7-201; object descriptions as in Beckhoff's AX8000 and Elmo's DSP
-//! 402 manuals.
+//! alone, or what [`VelocityUnit`] says. [`PowerDrive`] is the state machine behind 0x6040 and
+//! 0x6041. Source: CiA 402-2 / IEC 61800-7-201; object descriptions as in Beckhoff's AX8000 and
+//! Elmo's DSP 402 manuals.
 //!
 //! One PDO of ten bytes over EtherCAT or CAN FD; over classic CAN two, of eight and of two bytes,
 //! which take effect together at the SYNC after them.
@@ -78,7 +78,7 @@ impl Drive {
         Ok(Self { velocity_counts, ..self })
     }
 
-    /// What the PDO holds.
+    /// Contents of the PDO.
     pub fn range(&self) -> Range {
         // The greatest f32 below 2³¹.
         let most = 2_147_483_520.0;

@@ -1,6 +1,6 @@
 //! The condition of a drive, in one word for every protocol.
 
-/// What a drive reports of itself.
+/// A drive's report of itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Condition {

@@ -20,7 +20,7 @@ use crate::motor::Demand;
 /// Payload length: 23 bytes of subframes, filled up.
 pub const BYTES: usize = 24;
 
-/// What a payload holds: values in f32.
+/// Values of a payload, in f32.
 pub const RANGE: Range = Range { position: WHOLE_TURNS, velocity: f32::MAX, torque: f32::MAX };
 
 const WRITE_INT8: u8 = 0x01;

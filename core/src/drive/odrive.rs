@@ -21,7 +21,7 @@ use crate::motor::Demand;
 /// N m a count of the torque feed-forward.
 pub const TORQUE_STEP: f32 = 0.001;
 
-/// What a Set_Input_Pos frame holds.
+/// Values of a Set_Input_Pos frame.
 pub const RANGE: Range = Range { position: WHOLE_TURNS, velocity: 32.767, torque: 32.767 };
 
 const SET_AXIS_STATE: u16 = 0x07;

@@ -141,8 +141,8 @@ pub enum Error {
     /// The words that a stepper is loaded from are not those of a prepared stepper of its type and
     /// version, or have changed: see [`Prepared`](crate::prepared::Prepared).
     NotPrepared {
-        /// What differs: `arm.magic`, `arm.format`, `arm.method`, `arm.sizes`, `arm.length`,
-        /// `arm.checksum` or `arm.words`.
+        /// The field that differs: `arm.magic`, `arm.format`, `arm.method`, `arm.sizes`,
+        /// `arm.length`, `arm.checksum` or `arm.words`.
         parameter: &'static str,
         /// Word that was found.
         found: u32,

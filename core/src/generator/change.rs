@@ -8,7 +8,7 @@ use crate::math::Scalar;
 use crate::motion::{Move, Segment, admit};
 use crate::stepper::Stepper;
 
-/// What a new target takes the place of.
+/// The moves that a new target replaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Replaced {
     /// The move under way and all that wait.

@@ -15,7 +15,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// on at the last one's rate.
     ///
     /// The bits are those of a queue that commands the same states, as long as it takes no fast
-    /// path for a linear acceleration and its segments begin at ticks: see [`Self::follow_exactly`].
+    /// path for a linear acceleration and its segments begin at ticks: see
+    /// [`Self::follow_exactly`].
     #[inline(always)]
     pub fn follow(&mut self, hub: &HubState<S::Scalar>) -> Setpoint<S::Scalar> {
         self.follow_exactly(hub, hub.acceleration, false)

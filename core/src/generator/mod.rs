@@ -48,8 +48,8 @@ impl<T: Scalar> Setpoint<T> {
         self.tip[1]
     }
 
-    /// The tip in the global frame `(x, y)` of a hub that turns, m: the hub's angle turns it, by sine and cosine that
-    /// a tick has no need of.
+    /// The tip in the global frame `(x, y)` of a hub that turns, m: the hub's angle turns it, by
+    /// sine and cosine that a tick has no need of.
     #[inline(always)]
     pub fn global_tip(&self) -> [T; 2] {
         let ([x, y], (sin, cos)) = (self.tip, self.angle.sin_cos());

@@ -1,6 +1,7 @@
 //! Values as 32-bit words, written and read back to the bit.
 
-/// A value that is written as 32-bit words and read back to the bit: what a prepared arm is made of.
+/// A value that is written as 32-bit words and read back to the bit: what a prepared arm is made
+/// of.
 pub trait Words: Sized {
     /// Hands the words of the value to `sink`, first to last.
     fn put(&self, sink: &mut dyn FnMut(u32));
@@ -76,7 +77,7 @@ impl<A: Words, B: Words> Words for (A, B) {
     }
 }
 
-/// Whether there is one, and the value or as many zeros.
+/// A flag, and the value or as many zeros.
 impl Words for Option<f64> {
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (self.is_some(), self.unwrap_or(0.0)).put(sink);

@@ -2,6 +2,7 @@
 
 use super::optimal::{Bounds, TimeOptimal};
 use super::pass::Pass;
+use super::plain::Kind;
 use super::profile::whole_ticks;
 use super::{Limits, Move, MoveSummary, PlainMove, Profile, Segment, admit};
 use crate::Error;
@@ -45,22 +46,15 @@ impl Plannable for Move {
         tick: f64,
         sink: &mut dyn FnMut(&Segment<T>),
     ) -> Result<MoveSummary, Error> {
-        let plain = match *self {
-            Self::Pass { profile, duration, to, rate } => {
-                return plan_pass(profile, [duration, to, rate], start, limits, tick, sink);
+        match self.kind() {
+            Kind::Plain(plain) => plain.plan_segments(start, limits, tick, sink),
+            Kind::Pass { profile, duration, to, rate } => {
+                plan_pass(profile, [duration, to, rate], start, limits, tick, sink)
             }
-            Self::Reach { to, rate, bounds } => {
-                return plan_shortest(Some(to), rate, &bounds, start, limits, tick, sink);
+            Kind::Shortest { to, rate, bounds } => {
+                plan_shortest(to, rate, &bounds, start, limits, tick, sink)
             }
-            Self::Ramp { rate, bounds } => {
-                return plan_shortest(None, rate, &bounds, start, limits, tick, sink);
-            }
-            Self::To { profile, duration, to } => PlainMove::To { profile, duration, to },
-            Self::SpinUp { duration, rate } => PlainMove::SpinUp { duration, rate },
-            Self::Still { duration, to, bulge } => PlainMove::Still { duration, to, bulge },
-            Self::Dwell { duration } => PlainMove::Dwell { duration },
-        };
-        plain.plan_segments(start, limits, tick, sink)
+        }
     }
 
     fn keeps_rate(&self) -> bool {

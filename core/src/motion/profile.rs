@@ -4,6 +4,7 @@ use core::f64::consts::TAU;
 use core::fmt;
 
 use super::optimal::Bounds;
+use super::plain::Kind;
 use super::{BULGE, Peaks};
 use crate::Error;
 use crate::error::MAX_TICKS;
@@ -149,13 +150,10 @@ pub enum Move {
 impl Move {
     /// Returns T, s, as asked for; 0 if the move takes the shortest time within its bounds.
     pub fn duration(&self) -> f64 {
-        match *self {
-            Self::To { duration, .. }
-            | Self::SpinUp { duration, .. }
-            | Self::Still { duration, .. }
-            | Self::Dwell { duration }
-            | Self::Pass { duration, .. } => duration,
-            Self::Reach { .. } | Self::Ramp { .. } => 0.0,
+        match self.kind() {
+            Kind::Plain(plain) => plain.duration(),
+            Kind::Pass { duration, .. } => duration,
+            Kind::Shortest { .. } => 0.0,
         }
     }
 
@@ -194,20 +192,17 @@ pub(super) fn whole_ticks(duration: f64, tick: f64) -> Result<u32, Error> {
 
 impl fmt::Display for Move {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::To { profile, duration, to } => {
-                write!(f, "{profile} to {to} rad in {duration} s")
-            }
-            Self::SpinUp { duration, rate } => write!(f, "spin-up to {rate} rad/s in {duration} s"),
-            Self::Still { duration, to, .. } => write!(f, "still to {to} rad in {duration} s"),
-            Self::Dwell { duration } => write!(f, "dwell for {duration} s"),
-            Self::Pass { profile, duration, to, rate } => {
+        match self.kind() {
+            Kind::Plain(plain) => plain.fmt(f),
+            Kind::Pass { profile, duration, to, rate } => {
                 write!(f, "{profile} to {to} rad at {rate} rad/s in {duration} s")
             }
-            Self::Reach { to, rate, .. } => {
+            Kind::Shortest { to: Some(to), rate, .. } => {
                 write!(f, "reach {to} rad at {rate} rad/s in the shortest time")
             }
-            Self::Ramp { rate, .. } => write!(f, "ramp to {rate} rad/s in the shortest time"),
+            Kind::Shortest { to: None, rate, .. } => {
+                write!(f, "ramp to {rate} rad/s in the shortest time")
+            }
         }
     }
 }

@@ -30,8 +30,8 @@ pub struct Request<T, const K: usize> {
     pub arm: Option<ArmState<T, K>>,
     /// End of the move.
     pub target: Target,
-    /// Rate with which the hub turns on from the end, rad/s; the arm is at rest relative to it. 0 by
-    /// default. Under gravity it must be 0, as a turning arm never rests then.
+    /// Rate with which the hub turns on from the end, rad/s; the arm is at rest relative to it. 0
+    /// by default. Under gravity it must be 0, as a turning arm never rests then.
     pub rate: f64,
     /// Duration in s, rounded to whole ticks. `None`: the shortest that the planner finds.
     pub duration: Option<f64>,

@@ -1,4 +1,4 @@
-//! What the link is clamped to, and what it carries.
+//! The mount that the link is clamped to, and its payload.
 
 use super::AxisKind;
 use crate::Error;
@@ -30,8 +30,8 @@ pub struct Payload<T = f64> {
     pub offset: T,
 }
 
-/// Damping. Rayleigh's, `C = αM + βK`: α on absolute velocity, β on the deformation rate of link and
-/// joint. And the joint's own.
+/// Damping. Rayleigh's, `C = αM + βK`: α on absolute velocity, β on the deformation rate of link
+/// and joint. And the joint's own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Damping<T = f64> {
@@ -47,9 +47,9 @@ pub struct Damping<T = f64> {
 
 impl Damping {
     /// `β_J = 2ζ/ω` of a joint that, as the only spring of a vibration at `omega` rad/s, would damp
-    /// it with the ratio `ζ`. In a mode of the arm at that frequency the joint's share of the strain
-    /// energy times `ζ` is left of it. For a measured ratio take `omega` as the arm's first angular
-    /// frequency.
+    /// it with the ratio `ζ`. In a mode of the arm at that frequency the joint's share of the
+    /// strain energy times `ζ` is left of it. For a measured ratio take `omega` as the arm's first
+    /// angular frequency.
     pub fn joint_of_ratio(ratio: f64, omega: f64) -> f64 {
         2.0 * ratio / omega
     }

@@ -6,9 +6,9 @@ use crate::math::{Scalar, words};
 
 /// A link in cubic Bernoulli-Euler bending in the plane of motion, described as a uniform one.
 ///
-/// Where the scene's [shape](super::LinkShape) varies along the link, these are its scale: `mass` is
-/// that of all sections, and `bending_stiffness` that of the uniform link that a force at the tip
-/// bends as far.
+/// Where the scene's [shape](super::LinkShape) varies along the link, these are its scale: `mass`
+/// is that of all sections, and `bending_stiffness` that of the uniform link that a force at the
+/// tip bends as far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Link<T = f64> {

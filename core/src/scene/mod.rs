@@ -130,7 +130,7 @@ impl<T: Scalar> Scene<T> {
 }
 
 impl<T: Scalar> Scene<T, Uniform> {
-    /// What [`Scene::new`] makes, of the type that is for uniform links only.
+    /// The result of [`Scene::new`], of the type that is for uniform links only.
     pub const fn uniform(link: Link<T>) -> Self {
         Self::bare(link, Uniform)
     }

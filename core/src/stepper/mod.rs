@@ -61,9 +61,9 @@ pub trait Stepper {
     /// Tick length h, s.
     fn tick(&self) -> f64;
 
-    /// Direction of gravity in the hub frame. The hubs that [`Self::step`] and [`Self::response`] are
-    /// given hold sine and cosine of its angle χ; without gravity, or on a carriage, these do not
-    /// change and cost nothing.
+    /// Direction of gravity in the hub frame. The hubs that [`Self::step`] and [`Self::response`]
+    /// are given hold sine and cosine of its angle χ; without gravity, or on a carriage, these do
+    /// not change and cost nothing.
     fn gravity(&self) -> &GravityDirection<Self::Scalar>;
 
     /// True if the ticks of a segment with linear acceleration in which `|θ̇|` is at most `rate`
@@ -94,7 +94,8 @@ pub trait Stepper {
         hub: &HubState<Self::Scalar>,
     ) -> Response<Self::Scalar>;
 
-    /// Angle of the link's tangent at the tip against the hub's x axis, rad. The payload's centre is
+    /// Angle of the link's tangent at the tip against the hub's x axis, rad. The payload's centre
+    /// is
     /// [`Payload::offset`](crate::Payload) beyond the tip in that direction: see
     /// [`Setpoint::payload_centre`](crate::Setpoint::payload_centre). Costs nothing where it is not
     /// called.

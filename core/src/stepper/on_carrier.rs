@@ -11,8 +11,8 @@ use crate::scene::{LinkShape, Mount, Scene};
 /// the motor.
 ///
 /// The hub's motion, its moves and setpoints, are relative to the carrier. The link feels the sum:
-/// it spins with `θ̇ + Ω`, and is in equilibrium with that at the beginning. The torque acts between
-/// carrier and hub.
+/// it spins with `θ̇ + Ω`, and is in equilibrium with that at the beginning. The torque acts
+/// between carrier and hub.
 ///
 /// A type of its own, because an arm without a carrier then ticks as if there were none. Ticks of a
 /// hub at rest are ticks of one that turns here.

@@ -145,7 +145,7 @@ fn hold_and_cancel() {
     assert_eq!(run(&mut axis, 3).angle, radians(0.5));
 }
 
-/// What cannot be kept is refused, and the motion goes on as it was, to the bit.
+/// A change that cannot be kept is refused, and the motion goes on as it was, to the bit.
 #[test]
 fn a_refused_change_changes_nothing() {
     let mut axis = axis();

@@ -141,8 +141,8 @@ fn constants_out_of_range_are_named() {
     assert_eq!(error, "motor.ratio.motor = 0: must be 1 to 65535 turns");
 }
 
-/// A carriage on a screw of 5 mm: half a metre is a hundred turns, and the work of the motor is that
-/// of the force.
+/// A carriage on a screw of 5 mm: half a metre is a hundred turns, and the work of the motor is
+/// that of the force.
 #[test]
 fn a_screw_turns_metres_into_turns() {
     let ratio = Ratio::of_lead(0.005).expect("a lead");

@@ -170,9 +170,9 @@ proptest! {
         }
     }
 
-    /// Between any two ticks the segments turn the hub as the motion does, and tell the stepper what
-    /// the borders inside a tick are worth: the excess of ∫(1 − s)θ̈ ds over that of a parabola with
-    /// the same mean and ends.
+    /// Between any two ticks the segments turn the hub as the motion does, and tell the stepper
+    /// what the borders inside a tick are worth: the excess of ∫(1 − s)θ̈ ds over that of a
+    /// parabola with the same mean and ends.
     #[test]
     fn segments_follow_the_motion(
         [v0, a0] in state(), v1 in -2.0..2.0_f64, to in -3.0..3.0_f64, jumps in any::<bool>(),

@@ -221,7 +221,7 @@ fn a_starved_path_stops_within_its_limits() {
     assert_eq!(arm.feed(&mut path, &mut rows.into_iter()), Ok(true));
 }
 
-/// What is wrong with a row is named, with its number; the rows before it stay.
+/// A faulty row is named, with its number; the rows before it stay.
 #[test]
 fn a_bad_row_is_named() {
     let bad = |row: Waypoint, spline: Spline| {

@@ -91,7 +91,7 @@ fn a_planner_comes_back_to_the_bit() {
     }
 }
 
-/// What auto chose is loaded by the type of the stepper that it stands for.
+/// The choice of auto is loaded by the type of the stepper that it stands for.
 #[test]
 fn an_automatic_choice_is_prepared_as_the_stepper_itself() {
     let auto = Auto::<f32>::new(&scene(), TICK, Rung::Elastica(2, Quality::Fast), 1.0).unwrap();

@@ -16,7 +16,7 @@ const TAKEN: u32 = 7;
 
 type Arm = Generator<Rigid<f32>, 8>;
 
-/// What is asked of an arm on its way.
+/// Requests to an arm on its way.
 type Change = fn(&mut Arm) -> Result<(), Error>;
 
 /// Changes to be counted, each of a hub that turns: name, change.

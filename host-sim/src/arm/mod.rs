@@ -1,5 +1,5 @@
-//! What a scene's arm is: masses, frequencies, damping, sag, what the tick resolves, and the method
-//! that `auto` takes.
+//! Description of a scene's arm: masses, frequencies, damping, sag, what the tick resolves, and the
+//! method that `auto` takes.
 
 mod method;
 pub mod natural;

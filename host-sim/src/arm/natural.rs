@@ -13,9 +13,9 @@ pub const MODES: usize = 3;
 /// Relative change of the joint's stiffness in a central difference.
 const DIFFERENCE: f64 = 1e-3;
 
-/// Returns the frequencies of the first modes, Hz, ascending: the straight arm with its payload, hub
-/// held, without gravity and damping. Eight elements; the error of a uniform clamped link is 5e-6 of
-/// the first, 1e-4 of the second and 1e-3 of the third, all of them too high.
+/// Returns the frequencies of the first modes, Hz, ascending: the straight arm with its payload,
+/// hub held, without gravity and damping. Eight elements; the error of a uniform clamped link is
+/// 5e-6 of the first, 1e-4 of the second and 1e-3 of the third, all of them too high.
 pub fn frequencies(arm: &Scene) -> Result<[f64; MODES], Error> {
     let modes = Modes::of(&EightElements::consistent(arm)?);
     Ok(std::array::from_fn(|i| modes.frequency[i] / TAU))

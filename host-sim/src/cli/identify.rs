@@ -41,7 +41,7 @@ pub struct IdentifyArgs {
     /// Column of the sensor [default: the only other one, or tip_…, deflection…, strain…]
     #[arg(long, value_name = "COLUMN")]
     sensor: Option<String>,
-    /// What the sensor measures [default: as the ending of the column's name says]
+    /// Quantity that the sensor measures [default: as the ending of the column's name says]
     #[arg(long, value_enum)]
     kind: Option<Kind>,
     /// Direction of the sensor: - if it counts against the hub's angle
@@ -71,8 +71,8 @@ pub struct IdentifyArgs {
     /// Mass of that sensor, kg
     #[arg(long, value_name = "KG", allow_negative_numbers = true)]
     sensor_mass: Option<f64>,
-    /// What of the scene is fitted to the frequencies, as many as there are modes at most [default:
-    /// stiffness]
+    /// Parameters of the scene that are fitted to the frequencies, as many as there are modes at
+    /// most [default: stiffness]
     #[arg(long, value_enum, value_delimiter = ',')]
     free: Vec<Free>,
 }

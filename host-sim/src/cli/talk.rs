@@ -18,8 +18,8 @@ pub struct TalkArgs {
     /// A board's serial port, instead of QEMU
     #[arg(long, value_name = "PORT")]
     serial: Option<String>,
-    /// The reference rod behind motor, gear and friction on every drive, in QEMU; the steps may then
-    /// be "jump A TURNS" of the encoder, "fault A" and "clear A" of the drive too
+    /// The reference rod behind motor, gear and friction on every drive, in QEMU; the steps may
+    /// then be "jump A TURNS" of the encoder, "fault A" and "clear A" of the drive too
     #[arg(long, conflicts_with = "serial")]
     plant: bool,
     /// Baud rate of the serial port

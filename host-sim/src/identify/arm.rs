@@ -14,7 +14,7 @@ use super::warning::Warning;
 use crate::arm::natural;
 use crate::error::Error;
 
-/// What the frequencies tell.
+/// Parameters that the frequencies tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Free {
     /// EI of the whole link, by one factor.

@@ -1,4 +1,4 @@
-//! What was identified, as one page: log and fit, residual, spectrum, what to trust.
+//! Identified arms as one page: log and fit, residual, spectrum, what to trust.
 
 use maud::{Markup, PreEscaped, html};
 

@@ -1,4 +1,4 @@
-//! What was identified, in numbers. Field names carry their units, as they stand in JSON.
+//! Identified arms in numbers. Field names carry their units, as they stand in JSON.
 
 use serde::Serialize;
 
@@ -25,7 +25,7 @@ pub struct ModeReport {
     pub large_damping_ratio: Option<f64>,
 }
 
-/// What was identified from logs.
+/// Result of an identification from logs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
     /// `ring-down` or `forced`.
@@ -51,14 +51,14 @@ pub struct Report {
     pub delay_s: Option<f64>,
     /// Gain from the hub's angle to the sensor, sensor units per rad. Absent without a hub's angle.
     pub scale: Option<f64>,
-    /// What the sensor shows at rest.
+    /// Reading of the sensor at rest.
     pub offset: f64,
     /// Frequencies of vibrations beside the modes that were fitted too, Hz.
     pub other_frequencies_hz: Vec<f64>,
-    /// What the modes say of the arm. Absent without a scene.
+    /// The arm's parameters by its modes. Absent without a scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arm: Option<ArmFit>,
-    /// What a person should know before trusting it.
+    /// Warnings to read before trusting it.
     pub warnings: Vec<String>,
 }
 
@@ -84,7 +84,7 @@ impl Fitted {
     }
 }
 
-/// What the modes say of a scene's arm.
+/// Parameters of a scene's arm by its modes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ArmFit {
     /// The scene.

@@ -36,7 +36,7 @@ const DISAGREE: f64 = 5e-4;
 /// Ratio of the gain to its theory that is worth a warning, either way.
 const GAIN: f64 = 1.3;
 
-/// What is to be identified, and from what.
+/// An identification: its logs and the parameters asked for.
 #[derive(Clone, Debug, Default)]
 pub struct Request {
     /// The logs. Of several the last is held out for validation.
@@ -55,7 +55,7 @@ pub struct Request {
     pub lowpass: Option<Lowpass>,
     /// Sensor on the arm that is not in the scene.
     pub sensor: Option<Sensor>,
-    /// What the frequencies tell of the scene. Empty stands for the stiffness.
+    /// Parameters of the scene that the frequencies tell. Empty stands for the stiffness.
     pub free: Vec<Free>,
     /// Name of the scene, and its arm.
     pub scene: Option<(String, Scene)>,
@@ -74,7 +74,7 @@ pub struct Panel {
     pub fitted: Vec<f64>,
 }
 
-/// What was identified.
+/// Result of an identification.
 #[derive(Clone, Debug)]
 pub struct Identified {
     /// The figures.
@@ -88,7 +88,7 @@ pub struct Identified {
 /// Logs as prepared.
 struct Prepared {
     logs: Vec<Log>,
-    /// What was clipped in each.
+    /// Clipping of each.
     clipped: Vec<Option<Clipping>>,
     warnings: Vec<Warning>,
 }

@@ -1,4 +1,4 @@
-//! What a person should know before trusting what was identified.
+//! Warnings to read before trusting an identified arm.
 
 use std::fmt;
 

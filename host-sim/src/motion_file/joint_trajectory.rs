@@ -103,7 +103,7 @@ fn row(name: &str, k: usize, point: &Point, column: usize) -> Result<Row, Error>
     })
 }
 
-/// What a file must be that is not read.
+/// Requirement named where a file cannot be read.
 const WANTED: &str = "must be a trajectory_msgs/JointTrajectory with joint_names and points, each \
                       with positions and time_from_start { sec, nanosec }";
 

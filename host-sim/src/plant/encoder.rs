@@ -1,4 +1,4 @@
-//! What a drive sees of its motor's shaft.
+//! A drive's view of its motor's shaft.
 
 use std::collections::VecDeque;
 

@@ -1,4 +1,5 @@
-//! The machine that the setpoints are for: motor, gear, friction, hub, and the arm that pushes back.
+//! The machine that the setpoints are for: motor, gear, friction, hub, and the arm that pushes
+//! back.
 //!
 //! The arm is the reference rod ([`crate::reference::rod`]) on a hub that a torque drives. In the
 //! hub's units, with the motor's angle `θ_M` over the gear ratio and `J_M = n² J_m`:

@@ -36,10 +36,10 @@ pub struct Gear {
 /// Friction at the hub: Coulomb, Stribeck and viscous.
 ///
 /// The level is `τ_C + (τ_S − τ_C) exp(−(θ̇/θ̇_S)²)`. A bristle's relative deflection z follows the
-/// hub, `ż = (θ̇ − |θ̇| z)/x₀`, and the torque is the level times z, with `bθ̇` and a damping of the
-/// bristle added. Reversals take a turn of a few x₀ ("presliding"), as measured friction does; at
-/// an even rate z is ±1 and the friction that of the textbook. After Dahl (1968) and Canudas de Wit
-/// et al. (1995).
+/// hub, `ż = (θ̇ − |θ̇| z)/x₀`, and the torque is the level times z, with `bθ̇` and a damping of
+/// the bristle added. Reversals take a turn of a few x₀ ("presliding"), as measured friction does;
+/// at an even rate z is ±1 and the friction that of the textbook. After Dahl (1968) and Canudas de
+/// Wit et al. (1995).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
     /// τ_C, N m.

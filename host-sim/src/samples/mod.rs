@@ -84,9 +84,9 @@ pub fn smoothed(
     Ok(motion(&fit, level, ends))
 }
 
-/// Returns knots at whole ticks that are about as far apart as the samples, or a tick. A method sees
-/// the acceleration at ticks only: with eight knots a tick, one that jumps in d-fast costs 2.4e-3 L
-/// of the tip, with one 9e-4 L.
+/// Returns knots at whole ticks that are about as far apart as the samples, or a tick. A method
+/// sees the acceleration at ticks only: with eight knots a tick, one that jumps in d-fast costs
+/// 2.4e-3 L of the tip, with one 9e-4 L.
 fn knots(times: &[f64], tick: f64) -> Result<Knots, Error> {
     let count = times.len();
     if count < FEWEST {

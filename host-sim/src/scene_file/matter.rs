@@ -1,4 +1,4 @@
-//! What a link or a section is made of.
+//! Material of a link or a section.
 
 use stillbeam::material::{MATERIALS, Material};
 
@@ -15,8 +15,8 @@ pub(super) struct Matter {
 }
 
 impl Matter {
-    /// Reads the keys `material`, `youngs_modulus` and `density` of the table at `place`. A material
-    /// gives both numbers; one's own material is the two of them.
+    /// Reads the keys `material`, `youngs_modulus` and `density` of the table at `place`. A
+    /// material gives both numbers; one's own material is the two of them.
     pub fn of(
         place: &str,
         material: Option<&str>,

@@ -20,7 +20,7 @@ const DIFFERENCE: f64 = 1e-4;
 /// Largest relative error of a frequency that a fit may leave.
 const MISFIT: f64 = 0.2;
 
-/// What is deduced.
+/// Deduced values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unknown {
     /// EI of the whole link, by one factor.
@@ -247,7 +247,8 @@ impl Problem<'_> {
         ))
     }
 
-    /// The error of frequencies that no link reaches behind this joint, or no joint below this link.
+    /// The error of frequencies that no link reaches behind this joint, or no joint below this
+    /// link.
     fn not_stiffer(&self) -> Result<Error, Error> {
         let hinged = self.logarithms(Some(self.unit() * (-JOINT).exp()))?;
         Ok(match (self.unknown, self.arm.hub.stiffness) {

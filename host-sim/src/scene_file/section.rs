@@ -10,8 +10,8 @@ use super::sizes::{Sizes, located};
 use super::values::Ends;
 use crate::error::Error;
 
-/// A stretch of the link: the sizes of its cross-section and its material, or stiffness and mass per
-/// length. A single number is of both ends.
+/// A stretch of the link: the sizes of its cross-section and its material, or stiffness and mass
+/// per length. A single number is of both ends.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SectionTable {

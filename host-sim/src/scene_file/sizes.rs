@@ -15,8 +15,8 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    /// Returns the cross-section at both ends, in range, or `None` if no size is given. Errors begin
-    /// with `place`.
+    /// Returns the cross-section at both ends, in range, or `None` if no size is given. Errors
+    /// begin with `place`.
     pub fn cross_section(&self, place: &str) -> Result<Option<CrossSection<[f64; 2]>>, Error> {
         let [width, thickness, diameter, wall] =
             [self.width, self.thickness, self.diameter, self.wall].map(|ends| ends.map(|e| e.0));

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::plant::{Effort, Encoder, Options, Plant, Shown};
 use stillbeam::Scene;
 
-/// What of a setpoint is sent.
+/// Parts of a setpoint that are sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Feed {
     /// Velocity feed-forward.
@@ -52,7 +52,7 @@ pub struct Bench {
     plant: Plant,
     servo: Box<dyn Servo>,
     encoder: Encoder,
-    /// What the drive receives, one a tick.
+    /// Setpoints as the drive receives them, one a tick.
     targets: Vec<Target>,
     tick: f64,
     /// Torque that the motor gives, N m.
@@ -60,8 +60,8 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// Puts the arm of `scene` on the machine at rest at the first setpoint, and turns the setpoints
-    /// into the frames of its drive.
+    /// Puts the arm of `scene` on the machine at rest at the first setpoint, and turns the
+    /// setpoints into the frames of its drive.
     ///
     /// # Errors
     /// A machine or an arm out of range, or a setpoint that its frame does not hold.

@@ -1,4 +1,4 @@
-//! What a drive does between two setpoints.
+//! A drive's motion between two setpoints.
 
 /// Position, velocity and torque that a drive's loops are to follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,8 +22,8 @@ pub enum Between {
     Extrapolate,
     /// `x₀ + (x₁ − x₀) s/h`, and so on for velocity and torque, a period late.
     Linear,
-    /// The cubic from `x₀` at velocity `v₀` to `x₁` at `v₁` and its velocity, a period late; torque as
-    /// in [`Self::Linear`].
+    /// The cubic from `x₀` at velocity `v₀` to `x₁` at `v₁` and its velocity, a period late; torque
+    /// as in [`Self::Linear`].
     Hermite,
 }
 
@@ -69,6 +69,16 @@ impl Interpolator {
         Self { between, period, before: rest, latest: rest, at: 0.0 }
     }
 
+    /// Holds still at `position` turns again.
+    pub fn rest_at(&mut self, position: f64) {
+        *self = Self::resting(self.between, self.period, position);
+    }
+
+    /// Returns the time by which the way lags behind the setpoints, s.
+    pub fn lag(&self) -> f64 {
+        self.between.lag(self.period)
+    }
+
     /// Takes a setpoint at time `t`, s.
     pub fn push(&mut self, t: f64, target: Target) {
         (self.before, self.latest, self.at) = (self.latest, target, t);
@@ -108,7 +118,8 @@ impl Interpolator {
 mod tests {
     use super::*;
 
-    /// x = t³ in setpoints 0.1 s apart: the cubic is exact a period late, the others have their order.
+    /// x = t³ in setpoints 0.1 s apart: the cubic is exact a period late, the others have their
+    /// order.
     #[test]
     fn each_way_has_its_order() {
         let exact = |t: f64| Target { position: t.powi(3), velocity: 3.0 * t * t, torque: t };

@@ -2,17 +2,17 @@
 //!
 //! The target position (0x607A) is interpolated in a straight line over the interpolation period
 //! (0x60C2), so that the drive follows a period late. The velocity offset (0x60B1) is added to the
-//! output of the position loop, the torque offset (0x60B2) to that of the velocity loop; the profile
-//! does not say that offsets are interpolated, and they are held unless `offsets` says otherwise.
-//! Source: CiA 402-2 / IEC 61800-7-201, cyclic synchronous position mode. The gains are the maker's:
-//! the profile has none.
+//! output of the position loop, the torque offset (0x60B2) to that of the velocity loop; the
+//! profile does not say that offsets are interpolated, and they are held unless `offsets` says
+//! otherwise. Source: CiA 402-2 / IEC 61800-7-201, cyclic synchronous position mode. The gains are
+//! the maker's: the profile has none.
 
 use super::between::Interpolator;
-use super::tracker::Tracker;
-use super::{Between, Servo, Target};
+use super::{Between, Inputs, Servo, Target};
 
 /// Settings.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Config {
     /// Position loop, 1/s.
     pub position_gain: f64,
@@ -26,10 +26,12 @@ pub struct Config {
     pub rate: f64,
     /// Updates of the velocity loop in one of the position loop.
     pub divider: u32,
-    /// What comes between two target positions.
+    /// Motion between two target positions.
     pub between: Between,
-    /// What comes between two offsets of velocity and torque.
+    /// Course between two offsets of velocity and torque.
     pub offsets: Between,
+    /// Rated torque (0x6076), N m.
+    pub rated_torque: f64,
 }
 
 impl Default for Config {
@@ -44,6 +46,7 @@ impl Default for Config {
             divider: 4,
             between: Between::Linear,
             offsets: Between::Hold,
+            rated_torque: 2.0,
         }
     }
 }
@@ -53,10 +56,9 @@ impl Default for Config {
 pub struct Csp {
     config: Config,
     torque_limit: f64,
-    period: f64,
-    positions: Interpolator,
+    /// Target positions, and the encoder.
+    inputs: Inputs,
     offsets: Interpolator,
-    tracker: Tracker,
     /// Output of the position loop, turns/s.
     wanted: f64,
     /// Updates until the position loop's next.
@@ -71,10 +73,8 @@ impl Csp {
         Self {
             config,
             torque_limit,
-            period,
-            positions: Interpolator::resting(config.between, period, 0.0),
+            inputs: Inputs::resting(config.between, period, config.bandwidth, config.rate),
             offsets: Interpolator::resting(config.offsets, period, 0.0),
-            tracker: Tracker::resting(0.0, config.bandwidth, 1.0 / config.rate),
             wanted: 0.0,
             countdown: 0,
             integrator: 0.0,
@@ -83,27 +83,31 @@ impl Csp {
 }
 
 impl Servo for Csp {
-    fn interval(&self) -> f64 {
-        1.0 / self.config.rate
+    fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    fn inputs_mut(&mut self) -> &mut Inputs {
+        &mut self.inputs
     }
 
     fn enable(&mut self, reading: f64) {
-        *self = Self::new(self.config, self.torque_limit, self.period);
-        self.positions = Interpolator::resting(self.config.between, self.period, reading);
-        self.tracker = Tracker::resting(reading, self.config.bandwidth, self.interval());
+        self.inputs.rest_at(reading);
+        self.offsets.rest_at(0.0);
+        (self.wanted, self.countdown, self.integrator) = (0.0, 0, 0.0);
     }
 
     fn command(&mut self, t: f64, target: Target) {
-        self.positions.push(t, target);
+        self.inputs.command(t, target);
         self.offsets.push(t, target);
     }
 
     fn update(&mut self, t: f64, reading: f64) -> f64 {
-        let (position, velocity) = self.tracker.update(reading);
+        let (position, velocity) = self.inputs.read(reading);
         let offsets = self.offsets.target(t);
         if self.countdown == 0 {
             self.countdown = self.config.divider.max(1);
-            let set = self.positions.target(t).position;
+            let set = self.inputs.target(t).position;
             self.wanted = self.config.position_gain * (set - position);
         }
         self.countdown -= 1;
@@ -114,9 +118,5 @@ impl Servo for Csp {
             self.integrator += self.config.integrator_gain * self.interval() * error;
         }
         limited
-    }
-
-    fn lag(&self, period: f64) -> f64 {
-        self.config.between.lag(period)
     }
 }

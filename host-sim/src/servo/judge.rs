@@ -23,7 +23,7 @@ pub struct Commanded {
     period: f64,
 }
 
-/// What came of a run.
+/// Outcome of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
     /// Largest difference of the hub's angle from the command, later by the drive's lag, rad.
@@ -48,7 +48,7 @@ impl Commanded {
     /// Solves the arm along the trajectory with its hub on the command.
     ///
     /// # Errors
-    /// What the reference rod refuses.
+    /// Refusals of the reference rod.
     pub fn of(arm: &Scene, trajectory: &Trajectory) -> Result<Self, Error> {
         let every = trajectory.tick() / f64::from(SAMPLES);
         let count = (trajectory.duration() / every).round() as u64;
@@ -65,7 +65,7 @@ impl Commanded {
     /// Returns the residual of the arm `actual`, whose hub follows exactly, fraction of L.
     ///
     /// # Errors
-    /// What the reference rod refuses.
+    /// Refusals of the reference rod.
     pub fn exact_residual(actual: &Scene, trajectory: &Trajectory) -> Result<f64, Error> {
         let own = Self::of(actual, trajectory)?;
         let deflections = own.samples.iter().map(|sample| (sample.t, sample.deflection));

@@ -5,15 +5,14 @@
 //! τ    = τ_ff + k_p (x_c − x̂) + k_d (v_c − v̂) + ∫ k_i (x_c − x̂) dt, the integral within ± ilimit
 //! ```
 //!
-//! The drive runs at 15 to 30 kHz. Here it runs at 8 kHz by default, at which its torque is held for
-//! 0.125 ms. Source: moteus documentation, "Theory of operation" and `servo.pid_position`.
+//! The drive runs at 15 to 30 kHz. Here it runs at 8 kHz by default, at which its torque is held
+//! for 0.125 ms. Source: moteus documentation, "Theory of operation" and `servo.pid_position`.
 
-use super::between::Interpolator;
-use super::tracker::Tracker;
-use super::{Between, Servo, Target};
+use super::{Between, Inputs, Servo};
 
 /// Settings, by their names in `servo.pid_position`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Config {
     /// `kp`, N m/turn.
     pub kp: f64,
@@ -27,7 +26,7 @@ pub struct Config {
     pub bandwidth: f64,
     /// Rate of the loops, Hz.
     pub rate: f64,
-    /// What comes between two setpoints: the drive extrapolates.
+    /// Motion between two setpoints: the drive extrapolates.
     pub between: Between,
 }
 
@@ -51,47 +50,39 @@ impl Default for Config {
 pub struct Moteus {
     config: Config,
     torque_limit: f64,
-    period: f64,
-    input: Interpolator,
-    tracker: Tracker,
+    inputs: Inputs,
     integral: f64,
 }
 
 impl Moteus {
     /// A drive with setpoints every `period` s, whose motor gives up to `torque_limit` N m.
     pub fn new(config: Config, torque_limit: f64, period: f64) -> Self {
-        let input = Interpolator::resting(config.between, period, 0.0);
-        let tracker = Tracker::resting(0.0, config.bandwidth, 1.0 / config.rate);
-        Self { config, torque_limit, period, input, tracker, integral: 0.0 }
+        let inputs = Inputs::resting(config.between, period, config.bandwidth, config.rate);
+        Self { config, torque_limit, inputs, integral: 0.0 }
     }
 }
 
 impl Servo for Moteus {
-    fn interval(&self) -> f64 {
-        1.0 / self.config.rate
+    fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    fn inputs_mut(&mut self) -> &mut Inputs {
+        &mut self.inputs
     }
 
     fn enable(&mut self, reading: f64) {
-        *self = Self::new(self.config, self.torque_limit, self.period);
-        self.input = Interpolator::resting(self.config.between, self.period, reading);
-        self.tracker = Tracker::resting(reading, self.config.bandwidth, self.interval());
-    }
-
-    fn command(&mut self, t: f64, target: Target) {
-        self.input.push(t, target);
+        self.inputs.rest_at(reading);
+        self.integral = 0.0;
     }
 
     fn update(&mut self, t: f64, reading: f64) -> f64 {
-        let (position, velocity) = self.tracker.update(reading);
-        let set = self.input.target(t);
+        let (position, velocity) = self.inputs.read(reading);
+        let set = self.inputs.target(t);
         let Config { kp, kd, ki, ilimit, .. } = self.config;
         let error = set.position - position;
         self.integral = (self.integral + ki * error * self.interval()).clamp(-ilimit, ilimit);
         let torque = set.torque + kp * error + kd * (set.velocity - velocity) + self.integral;
         torque.clamp(-self.torque_limit, self.torque_limit)
-    }
-
-    fn lag(&self, period: f64) -> f64 {
-        self.config.between.lag(period)
     }
 }

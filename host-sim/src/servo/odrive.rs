@@ -5,15 +5,14 @@
 //! τ     = τ_set + k_v (v_des − v̂) + ∫ k_i (v_des − v̂) dt
 //! ```
 //!
-//! The integrator decays by 1 % an update while the torque is limited. Source: ODrive documentation,
-//! Control, and firmware 0.5.6, `MotorControl/controller.cpp`.
+//! The integrator decays by 1 % an update while the torque is limited. Source: ODrive
+//! documentation, Control, and firmware 0.5.6, `MotorControl/controller.cpp`.
 
-use super::between::Interpolator;
-use super::tracker::Tracker;
-use super::{Between, Servo, Target};
+use super::{Between, Inputs, Servo, Target};
 
 /// Settings, by their names in ODrive's `controller.config`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct Config {
     /// `pos_gain`, (turn/s)/turn.
     pub position_gain: f64,
@@ -27,20 +26,14 @@ pub struct Config {
     pub bandwidth: f64,
     /// Rate of the loops, Hz.
     pub rate: f64,
-    /// What comes between two setpoints; `INPUT_MODE_PASSTHROUGH` holds.
+    /// Motion between two setpoints; `INPUT_MODE_PASSTHROUGH` holds.
     pub between: Between,
-    /// `INPUT_MODE_POS_FILTER`, if it is on.
-    pub filter: Option<Filter>,
-}
-
-/// `INPUT_MODE_POS_FILTER`: a critically damped second-order filter on position and velocity. The
-/// torque is the filter's acceleration times `inertia`; the setpoint's own torque is not used.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Filter {
-    /// `input_filter_bandwidth`, 1/s.
-    pub bandwidth: f64,
+    /// `input_filter_bandwidth`, 1/s, if `INPUT_MODE_POS_FILTER` is on: a critically damped
+    /// second-order filter on position and velocity. The torque is then the filter's acceleration
+    /// times `filter_inertia`; the setpoint's own torque is not used.
+    pub filter_bandwidth: Option<f64>,
     /// `inertia`, N m/(turn/s²).
-    pub inertia: f64,
+    pub filter_inertia: f64,
 }
 
 impl Default for Config {
@@ -55,7 +48,8 @@ impl Default for Config {
             bandwidth: 1000.0,
             rate: 8000.0,
             between: Between::Hold,
-            filter: None,
+            filter_bandwidth: None,
+            filter_inertia: 0.0,
         }
     }
 }
@@ -66,9 +60,7 @@ pub struct Odrive {
     config: Config,
     /// Largest torque, N m.
     torque_limit: f64,
-    period: f64,
-    input: Interpolator,
-    tracker: Tracker,
+    inputs: Inputs,
     filtered: Target,
     integrator: f64,
 }
@@ -76,30 +68,21 @@ pub struct Odrive {
 impl Odrive {
     /// A drive with setpoints every `period` s, whose motor gives up to `torque_limit` N m.
     pub fn new(config: Config, torque_limit: f64, period: f64) -> Self {
-        let mut drive = Self {
-            config,
-            torque_limit,
-            period,
-            input: Interpolator::resting(config.between, period, 0.0),
-            tracker: Tracker::resting(0.0, config.bandwidth, 1.0 / config.rate),
-            filtered: Target::default(),
-            integrator: 0.0,
-        };
-        drive.enable(0.0);
-        drive
+        let inputs = Inputs::resting(config.between, period, config.bandwidth, config.rate);
+        Self { config, torque_limit, inputs, filtered: Target::default(), integrator: 0.0 }
     }
 
     /// Returns the setpoint behind the input mode.
     fn setpoint(&mut self, t: f64) -> Target {
-        let input = self.input.target(t);
-        let Some(filter) = self.config.filter else { return input };
+        let input = self.inputs.target(t);
+        let Some(bandwidth) = self.config.filter_bandwidth else { return input };
         let interval = self.interval();
-        let ki = 2.0 * filter.bandwidth;
+        let ki = 2.0 * bandwidth;
         let kp = 0.25 * ki * ki;
         let now = &mut self.filtered;
         let acceleration =
             kp * (input.position - now.position) + ki * (input.velocity - now.velocity);
-        now.torque = acceleration * filter.inertia;
+        now.torque = acceleration * self.config.filter_inertia;
         now.velocity += interval * acceleration;
         now.position += interval * now.velocity;
         *now
@@ -107,23 +90,22 @@ impl Odrive {
 }
 
 impl Servo for Odrive {
-    fn interval(&self) -> f64 {
-        1.0 / self.config.rate
+    fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    fn inputs_mut(&mut self) -> &mut Inputs {
+        &mut self.inputs
     }
 
     fn enable(&mut self, reading: f64) {
-        self.input = Interpolator::resting(self.config.between, self.period, reading);
-        self.tracker = Tracker::resting(reading, self.config.bandwidth, self.interval());
+        self.inputs.rest_at(reading);
         self.filtered = Target { position: reading, ..Target::default() };
         self.integrator = 0.0;
     }
 
-    fn command(&mut self, t: f64, target: Target) {
-        self.input.push(t, target);
-    }
-
     fn update(&mut self, t: f64, reading: f64) -> f64 {
-        let (position, velocity) = self.tracker.update(reading);
+        let (position, velocity) = self.inputs.read(reading);
         let set = self.setpoint(t);
         let Config { position_gain, velocity_gain, integrator_gain, velocity_limit, .. } =
             self.config;
@@ -140,9 +122,5 @@ impl Servo for Odrive {
             self.integrator *= 0.99;
         }
         limited
-    }
-
-    fn lag(&self, period: f64) -> f64 {
-        self.config.between.lag(period)
     }
 }

@@ -30,7 +30,7 @@ impl Setpoints {
     /// Runs the scene's method along its moves.
     ///
     /// # Errors
-    /// What a run is refused for; a shaper, which no generator has.
+    /// Refusals of a run; a shaper, which no generator has.
     pub fn of(scene: &SceneFile) -> Result<Self, Error> {
         let solver = scene.solver.resolve()?;
         let list = with_stepper(scene, &solver, Ticks { scene })?;

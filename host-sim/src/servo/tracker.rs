@@ -18,6 +18,16 @@ impl Tracker {
         Self { position, velocity: 0.0, bandwidth, interval }
     }
 
+    /// Rests at `position` turns again.
+    pub fn rest_at(&mut self, position: f64) {
+        (self.position, self.velocity) = (position, 0.0);
+    }
+
+    /// Returns the time between two readings, s.
+    pub fn interval(&self) -> f64 {
+        self.interval
+    }
+
     /// Takes a reading, turns. Returns position, turns, and velocity, turns/s.
     pub fn update(&mut self, reading: f64) -> (f64, f64) {
         let Self { bandwidth, interval, .. } = *self;

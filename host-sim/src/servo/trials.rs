@@ -1,4 +1,4 @@
-//! What the setpoints are worth: one machine, with less and with more of them.
+//! Worth of the setpoints: one machine, with less and with more of them.
 
 use rayon::prelude::*;
 use stillbeam::{Limits, Move, Scene};
@@ -32,13 +32,13 @@ pub enum Unknown {
 /// One row of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
-    /// What of the setpoints is sent.
+    /// Parts of the setpoints that are sent.
     pub feed: Feed,
     /// Way between setpoints, if it is not the drive's own.
     pub between: Option<Between>,
     /// True if the moves are planned to arrive still.
     pub still: bool,
-    /// What is not known.
+    /// The error of the model.
     pub unknown: Unknown,
 }
 
@@ -161,7 +161,7 @@ impl Report {
     /// Runs all trials. `done` is called after each.
     ///
     /// # Errors
-    /// What a scene or a machine is refused for. A scene whose moves have no still counterpart is
+    /// Refusals of a scene or a machine. A scene whose moves have no still counterpart is
     /// not refused: its still rows are left out.
     pub fn of(
         scene: &SceneFile,
@@ -233,7 +233,7 @@ impl Commands {
         let Self { scene, setpoints, commanded } = self;
         let arm = trial.arm(&scene.arm);
         let (machine, feed) = trial.machine(machine);
-        let lag = machine.servo(setpoints.tick)?.lag(setpoints.tick);
+        let lag = machine.servo(setpoints.tick)?.lag();
         let trace = Bench::new(&arm, &machine, setpoints, feed, &OPTIONS)?.run()?;
         let judged = commanded.judge(&arm, &trace, lag)?;
         let exact = Commanded::exact_residual(&arm, &scene.trajectory(setpoints.tick)?)?;

@@ -19,7 +19,7 @@ pub enum Wire {
 }
 
 impl Wire {
-    /// What a frame holds.
+    /// Contents of a frame.
     pub fn range(&self) -> Range {
         match self {
             Self::Odrive => odrive::RANGE,

@@ -70,7 +70,8 @@ impl Body {
             bandwidth: 1500.0,
             rate: 4000.0,
             between: Between::Linear,
-            filter: None,
+            filter_bandwidth: None,
+            filter_inertia: 0.0,
         };
         let servo = Odrive::new(config, f64::INFINITY, tick);
         let encoder = Encoder::new(COUNTS, 0.0, servo.interval())?;

@@ -40,8 +40,8 @@ pub(super) struct Axis {
 }
 
 impl Comparison {
-    /// Adds an axis. Its emulated arm stands at 0.05, 0.1, … turns. With `loaded`, its drive turns a
-    /// machine.
+    /// Adds an axis. Its emulated arm stands at 0.05, 0.1, … turns. With `loaded`, its drive turns
+    /// a machine.
     ///
     /// # Errors
     /// An axis that is no machine.

@@ -1,5 +1,5 @@
-//! Emulated drives on the bus. They follow at once and report their position, or they turn a machine
-//! and report its encoder.
+//! Emulated drives on the bus. They follow at once and report their position, or they turn a
+//! machine and report its encoder.
 
 use stillbeam::Angle;
 use stillbeam::drive::ClassicFrame;

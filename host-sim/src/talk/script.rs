@@ -100,7 +100,7 @@ pub const FAULTS: [&str; 13] = [
     "status 0",
 ];
 
-/// What a machine behind the drives brings about: a move, a stop, a cut link, an encoder that jumps, a
+/// Faults around a machine behind its drives: a move, a stop, a cut link, an encoder that jumps, a
 /// drive that faults on its way and is cleared.
 pub const MACHINE: [&str; 20] = [
     "enable 0",

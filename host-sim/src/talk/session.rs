@@ -283,8 +283,8 @@ impl Session {
         })
     }
 
-    /// Of an axis with a machine: the greatest angle of its hub behind the latest setpoint, rad, and
-    /// the error of its energy balance over work and losses.
+    /// Of an axis with a machine: the greatest angle of its hub behind the latest setpoint, rad,
+    /// and the error of its energy balance over work and losses.
     pub fn followed(&self, axis: u8) -> Option<[f64; 2]> {
         let body = self.comparison.axes().get(usize::from(axis))?.drive.body()?;
         Some([body.behind(), body.energy_error()])

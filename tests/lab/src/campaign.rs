@@ -43,6 +43,26 @@ pub fn each<R: Send>(
     })
 }
 
+/// Runs the cases 0 to `count` as [`each`] does, and adds up what comes of them.
+///
+/// # Errors
+/// The first case that fails.
+pub fn total<R: Default + Send>(
+    what: &str,
+    count: u64,
+    done: &(dyn Fn() + Sync),
+    one: impl Fn(u64) -> Result<R, Error> + Sync,
+    add: impl Fn(&mut R, R),
+) -> Result<R, Error> {
+    let mut total = R::default();
+    for numbers in chunks(0, count) {
+        for outcome in each(what, numbers, done, &one) {
+            add(&mut total, outcome?);
+        }
+    }
+    Ok(total)
+}
+
 /// Cuts the numbers from `from` to `to` at every multiple of [`CHUNK`].
 pub fn chunks(from: u64, to: u64) -> impl Iterator<Item = Range<u64>> {
     let begins = std::iter::successors(Some(from), |at| Some((at / CHUNK + 1) * CHUNK));

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use stillbeam_sim::error::Error;
 use stillbeam_sim::output::Files;
+use stillbeam_sim::println;
 
 use crate::campaign::with_bar;
 use crate::markers::{self, Block, Difference};
@@ -71,34 +72,62 @@ pub fn named(path: &str) -> Result<Page, Error> {
 ///
 /// # Errors
 /// An error is returned if the file cannot be read.
-pub fn read(path: &Path) -> Result<String, Error> {
+fn read(path: &Path) -> Result<String, Error> {
     std::fs::read_to_string(path).map_err(|cause| {
         Error::file(path, format_args!("{cause}; must be a text file that can be read"))
     })
 }
 
-/// Refuses a page without a place for these blocks. This is checked before a campaign runs for
-/// them.
-///
-/// # Errors
-/// An error is returned if the markers of a block are missing. It names the block.
-pub fn has_places<'a>(
+/// A page that a campaign fills.
+#[derive(Clone, Debug)]
+pub struct Target {
+    path: PathBuf,
+    text: String,
+}
+
+impl Target {
+    /// Opens the page of a campaign, if it is to fill one. A page without a place for these blocks
+    /// is refused before the campaign runs for them.
+    ///
+    /// # Errors
+    /// An error is returned if the file cannot be read or the markers of a block are missing. It
+    /// names the block.
+    pub fn open<'a>(
+        path: Option<PathBuf>,
+        names: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Option<Self>, Error> {
+        let Some(path) = path else { return Ok(None) };
+        let text = read(&path)?;
+        has_places(&path, &text, names)?;
+        Ok(Some(Self { path, text }))
+    }
+
+    /// Writes the page with its blocks filled, and says so.
+    ///
+    /// # Errors
+    /// An error is returned if the path cannot be written.
+    pub fn fill(&self, blocks: &[Block]) -> Result<(), Error> {
+        let filled = filled(&self.path, &self.text, blocks)?;
+        stillbeam_sim::output::write_whole(&self.path, |f| f.write_all(filled.as_bytes()))?;
+        println!("{}: filled", self.path.display());
+        Ok(())
+    }
+}
+
+/// Refuses a page without a place for these blocks.
+fn has_places<'a>(
     path: &Path,
     text: &str,
-    mut names: impl Iterator<Item = &'a str>,
+    names: impl IntoIterator<Item = &'a str>,
 ) -> Result<(), Error> {
     names
+        .into_iter()
         .try_for_each(|name| markers::block(text, name).map(drop))
         .map_err(|error| error.within(path.display()))
 }
 
-/// Writes a page whose blocks a campaign has found.
-///
-/// # Errors
-/// An error is returned if a block has no place or the path cannot be written.
-pub fn write(path: &Path, text: &str, blocks: &[Block]) -> Result<(), Error> {
-    let filled = markers::fill(text, blocks).map_err(|error| error.within(path.display()))?;
-    stillbeam_sim::output::write_whole(path, |file| file.write_all(filled.as_bytes()))
+fn filled(path: &Path, text: &str, blocks: &[Block]) -> Result<String, Error> {
+    markers::fill(text, blocks).map_err(|error| error.within(path.display()))
 }
 
 /// The pages below a root, with the data from which several of them are written.
@@ -159,7 +188,7 @@ impl Pages {
         let text = read(&path)?;
         has_places(&path, &text, page.blocks.iter().copied())?;
         let blocks = self.blocks(page, &text)?;
-        let filled = markers::fill(&text, &blocks).map_err(|error| error.within(path.display()))?;
+        let filled = filled(&path, &text, &blocks)?;
         Ok((text, filled))
     }
 

@@ -25,7 +25,7 @@ pub enum State {
     Fault,
 }
 
-/// What the state machine is to reach.
+/// The state that the state machine is to reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// Operation enabled. A fault is left as it is.
@@ -52,7 +52,7 @@ pub struct PowerDrive {
     resetting: bool,
 }
 
-/// What is to be sent in one cycle.
+/// The frames of one cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step {
     /// 0x6040.
@@ -92,8 +92,8 @@ impl State {
 impl PowerDrive {
     /// Returns what is to be sent in answer to a status. One transition is asked for at a time.
     ///
-    /// Operation is not enabled before 0x6061 says that the drive is in cyclic synchronous position:
-    /// in another mode it would take the target for something else.
+    /// Operation is not enabled before 0x6061 says that the drive is in cyclic synchronous
+    /// position: in another mode it would take the target for something else.
     pub fn step(&mut self, status: &Status, wanted: Wanted) -> Step {
         let state = State::of(status.statusword);
         let in_mode = status.mode == CYCLIC_SYNCHRONOUS_POSITION;

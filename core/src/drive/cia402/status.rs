@@ -1,4 +1,4 @@
-//! What a CiA 402 drive sends: status, position and mode in a TPDO, emergencies, answers to SDOs.
+//! Reports of a CiA 402 drive: status, position and mode in a TPDO, emergencies, answers to SDOs.
 
 use embedded_can::Frame;
 

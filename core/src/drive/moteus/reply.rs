@@ -1,4 +1,4 @@
-//! What a moteus answers, and the frames beside the setpoint's.
+//! Answers of a moteus, and the frames beside the setpoint's.
 
 use super::{NOP, Servo, WRITE_FLOAT, WRITE_INT8};
 use crate::drive::Condition;
@@ -19,7 +19,7 @@ const FAULT: u32 = 0x00f;
 /// "Set output exact": the position in effect from now on.
 const OUTPUT_EXACT: [u8; 3] = [WRITE_FLOAT | 1, 0xb1, 0x02];
 
-/// What a servo says of itself.
+/// A servo's report of itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reply {
@@ -47,8 +47,8 @@ impl Reply {
         }
     }
 
-    /// The reply in a payload. `None` if it lacks one of mode, position, velocity, torque and fault,
-    /// as f32 but for mode and fault, or holds a number that is not finite.
+    /// The reply in a payload. `None` if it lacks one of mode, position, velocity, torque and
+    /// fault, as f32 but for mode and fault, or holds a number that is not finite.
     pub fn decode(payload: &[u8]) -> Option<Self> {
         let mut reply = Self::default();
         let mut found = 0_u8;

@@ -1,4 +1,4 @@
-//! What an ODrive reports of itself, and how its errors are cleared.
+//! Reports of an ODrive, and the frame that clears its errors.
 
 use embedded_can::Frame;
 

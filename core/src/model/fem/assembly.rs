@@ -10,8 +10,8 @@ pub(crate) const CHAIN: usize = 4;
 
 /// Matrices and vectors over the `D = 2 × elements` free degrees of freedom `w₁ φ₁ … w_E φ_E`.
 /// The clamped node is left out; the hub is rigid and needs no element: its radius only enters
-/// `spin`, `coupling` and the axial force. Where the joint gives, the root's angle is eliminated: it
-/// has no inertia, and follows the first element.
+/// `spin`, `coupling` and the axial force. Where the joint gives, the root's angle is eliminated:
+/// it has no inertia, and follows the first element.
 pub(crate) struct Assembly<T, const D: usize> {
     /// `M`, payload included.
     pub mass: Band<T, D, CHAIN>,

@@ -6,9 +6,9 @@ use super::{POINTS, rule, slopes};
 use crate::math::Band;
 use crate::scene::{LinkShape, Scene};
 
-/// `N` angles along the link: those that a bending moment `EI/L P_j(2ξ − 1)` makes, `P_j` Legendre's
-/// polynomials. A joint that gives adds the angle `φ₀ = M(0)/k` of the root to each, so that it has
-/// no unknown of its own: the root has no inertia.
+/// `N` angles along the link: those that a bending moment `EI/L P_j(2ξ − 1)` makes, `P_j`
+/// Legendre's polynomials. A joint that gives adds the angle `φ₀ = M(0)/k` of the root to each, so
+/// that it has no unknown of its own: the root has no inertia.
 pub(super) struct Basis<const N: usize> {
     pub at_points: [[f64; N]; POINTS],
     pub root: [f64; N],

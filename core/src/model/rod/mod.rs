@@ -195,7 +195,8 @@ impl<const K: usize> Rod<K> {
     }
 
     /// Largest tip angle relative to the hub to expect of a motion with accelerations up to that
-    /// many rad/s² (a carriage's: m/s²), rad: twice the quasi-static one, and the sag under gravity; first mode.
+    /// many rad/s² (a carriage's: m/s²), rad: twice the quasi-static one, and the sag under
+    /// gravity; first mode.
     pub fn bend(&self, acceleration: f64) -> f64 {
         let rest = self.kinetics(&[0.0; K]);
         let compliance = self.tip_slope[0] / (self.frequency[0] * self.frequency[0]);

@@ -23,7 +23,7 @@ pub(crate) struct NextPiece {
     pub(super) joiner: Joiner,
 }
 
-/// What the hub does behind a row as long as no other is known.
+/// The hub's motion behind a row as long as no other is known.
 pub(crate) struct Rest {
     /// Stop from the row on. None if the hub rests at the row, or if it is the last.
     pub stop: Option<Segment<f64>>,

@@ -32,8 +32,8 @@ impl Waypoint {
         Self { rate: Some(rate), ..self }
     }
 
-    /// Returns the waypoint `time` s later and `angle` rad further on: rows that are repeated, as in
-    /// a cycle.
+    /// Returns the waypoint `time` s later and `angle` rad further on: rows that are repeated, as
+    /// in a cycle.
     #[must_use]
     pub fn shifted(self, time: f64, angle: f64) -> Self {
         Self { time: self.time + time, angle: self.angle + angle, ..self }
@@ -53,8 +53,8 @@ pub enum Spline {
     /// Cubics. θ̈ is a straight line between two rows. It is continuous at rows without a rate, and
     /// jumps at rows with one and at the path's ends. Its ticks are the cheapest.
     Cubic,
-    /// Quintics. θ̈ is continuous everywhere: it begins with the hub's and ends with 0, or with that
-    /// of the last row.
+    /// Quintics. θ̈ is continuous everywhere: it begins with the hub's and ends with 0, or with
+    /// that of the last row.
     Quintic,
 }
 
@@ -88,7 +88,7 @@ impl fmt::Display for Spline {
 pub struct RowError {
     /// Number of the row, from 0.
     pub row: u32,
-    /// What is wrong with it, or with the way to it from the row before.
+    /// The fault of the row, or of the way to it from the row before.
     pub error: Error,
 }
 

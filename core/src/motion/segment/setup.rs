@@ -52,9 +52,9 @@ impl<T: Scalar> Segment<T> {
         Self::steady(start.cast(), T::from_f64(rate), step, count)
     }
 
-    /// The quintic from the state `hub` through `turn` turns to `rate` (rad/s) without acceleration,
-    /// in `count` ticks of `tick` s, and its peaks. Its tick 0 is the hub's own. Planned in the
-    /// precision of the tick.
+    /// The quintic from the state `hub` through `turn` turns to `rate` (rad/s) without
+    /// acceleration, in `count` ticks of `tick` s, and its peaks. Its tick 0 is the hub's own.
+    /// Planned in the precision of the tick.
     pub(crate) fn from_hub(
         hub: &HubState<T>,
         turn: T,

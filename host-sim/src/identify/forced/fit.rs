@@ -32,12 +32,12 @@ const DRIVEN: f64 = 0.8;
 /// Share of a single log that is fitted; the rest is held out.
 const SHARE: f64 = 0.6;
 
-/// What is asked of forced logs.
+/// Request for forced logs.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// Modes.
     pub modes: usize,
-    /// What the sensor measures.
+    /// Quantity that the sensor measures.
     pub kind: Kind,
     /// Known low-pass of the sensor.
     pub lowpass: Option<Lowpass>,
@@ -301,7 +301,7 @@ impl Forced {
         self.solution.c[0]
     }
 
-    /// What the first record's sensor shows at rest.
+    /// Reading of the first record's sensor at rest.
     pub fn offset(&self) -> f64 {
         self.solution.c[self.structure.gains()]
     }

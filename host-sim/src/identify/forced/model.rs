@@ -76,7 +76,7 @@ impl Record {
 /// Structure of the model.
 #[derive(Clone, Copy, Debug)]
 pub struct Structure {
-    /// What the sensor measures.
+    /// Quantity that the sensor measures.
     pub kind: Kind,
     /// Number of modes.
     pub modes: usize,

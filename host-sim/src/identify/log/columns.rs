@@ -13,11 +13,11 @@ pub struct Columns {
     pub hub: Option<String>,
     /// Sensor.
     pub sensor: Option<String>,
-    /// What the sensor measures.
+    /// Quantity that the sensor measures.
     pub kind: Option<Kind>,
 }
 
-/// What a sensor measures.
+/// Quantity that a sensor measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Kind {
     /// Deflection of the tip in the hub's frame, m, or in rad as seen from the clamp.

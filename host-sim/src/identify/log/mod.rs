@@ -18,11 +18,11 @@ pub struct Log {
     pub time: Vec<f64>,
     /// Hub angle, rad, if there is a column of it.
     pub hub: Option<Vec<f64>>,
-    /// What the sensor shows, in `unit`.
+    /// Readings of the sensor, in `unit`.
     pub sensor: Vec<f64>,
     /// Name of the sensor's column.
     pub column: String,
-    /// What the sensor measures.
+    /// Quantity that the sensor measures.
     pub kind: Kind,
     /// SI unit of the sensor's numbers, or the name of one that is none.
     pub unit: String,

@@ -10,6 +10,13 @@ use crate::identify::warning::Warning;
 /// have.
 const EXCITED: f64 = 2.5;
 
+/// Samples of a window of the envelope at least.
+const SAMPLES: f64 = 8.0;
+
+/// Share of the largest envelope from which a window may be that of the excitation: noise makes a
+/// later one the largest where the damping is light.
+const STRONG: f64 = 0.8;
+
 /// Share of the largest envelope below which a rise is noise.
 const LOUD: f64 = 0.1;
 
@@ -45,9 +52,11 @@ impl Excerpt {
         clipped: Option<Clipping>,
         warnings: &mut Vec<Warning>,
     ) -> Self {
+        // Fewer samples do not show how large a vibration is.
+        let period = period.max(SAMPLES * log.interval());
         let windows = envelope(log, period);
         let loudest = windows.iter().map(|window| window.1).fold(0.0, f64::max);
-        let peak = windows.iter().position(|window| window.1 >= 0.999 * loudest).unwrap_or(0);
+        let peak = windows.iter().position(|window| window.1 >= STRONG * loudest).unwrap_or(0);
         let mut begin = onset(log, period, windows[peak].0);
         let late = log.time[0] + 0.5 * (log.time[log.time.len() - 1] - log.time[0]);
         // Clipping that goes on is no excitation.
@@ -135,4 +144,59 @@ fn envelope(log: &Log, period: f64) -> Vec<(f64, f64)> {
         windows.push((first + (index + 0.5) * period, 0.5 * (high - low)));
     }
     windows
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use rand::{Rng, SeedableRng, rngs::StdRng};
+
+    use super::*;
+    use crate::identify::log::Kind;
+
+    /// Five periods of a vibration that hardly decays, with noise.
+    fn log(seed: u64, begin: f64) -> Log {
+        let mut random = StdRng::seed_from_u64(seed);
+        let time: Vec<f64> = (0..1200).map(|k| 0.005 * f64::from(k)).collect();
+        let clean = |t: f64| if t < begin { 0.0 } else { (TAU * (t - begin)).sin() };
+        let sensor = time
+            .iter()
+            .map(|t| clean(*t) * (-0.02 * (t - begin)).exp() + random.random_range(-0.2..0.2))
+            .collect();
+        Log {
+            name: String::new(),
+            time,
+            hub: None,
+            sensor,
+            column: String::new(),
+            kind: Kind::Deflection,
+            unit: "m".to_owned(),
+            same_time: 0,
+            empty: 0,
+        }
+    }
+
+    /// Noise makes one of the later windows the largest. It is not taken for the excitation.
+    #[test]
+    fn noise_does_not_shorten_a_record() {
+        for seed in 0..20 {
+            let begin = |log: &Log| Excerpt::of(log, 1.0, None, &mut Vec::new()).begin;
+            assert_eq!(begin(&log(seed, 0.0)), 0.0, "{seed}");
+            let late = begin(&log(seed, 1.3));
+            assert!((2.3..3.4).contains(&late), "{seed}: {late}");
+        }
+    }
+
+    /// Windows of two samples beat with a vibration of 2.2 samples a period: the first of them may
+    /// show next to none of it.
+    #[test]
+    fn few_samples_a_period_do_not_shorten_a_record() {
+        for phase in 0..8 {
+            let mut log = log(0, 0.0);
+            let angle = |t: f64| TAU * (t / 0.011 + 0.125 * f64::from(phase));
+            log.sensor = log.time.iter().map(|t| angle(*t).sin() * (-0.02 * t).exp()).collect();
+            assert_eq!(Excerpt::of(&log, 0.011, None, &mut Vec::new()).begin, 0.0, "{phase}");
+        }
+    }
 }

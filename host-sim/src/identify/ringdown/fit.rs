@@ -21,14 +21,14 @@ const LINES: usize = 10;
 /// Fewest periods of a first mode.
 pub const PERIODS: f64 = 2.0;
 
-/// What is asked of a ring-down.
+/// Request for a ring-down.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// Modes at most.
     pub modes: usize,
     /// True if the user asked for that many, and is told if there are fewer.
     pub is_explicit: bool,
-    /// What the sensor measures.
+    /// Quantity that the sensor measures.
     pub kind: Kind,
     /// Frequencies that the scene gives, Hz.
     pub theory: Option<&'a [f64]>,
@@ -54,7 +54,7 @@ pub struct Estimate {
     pub line: Line,
     /// Standard errors of ln ω and ln ζ.
     pub error: [f64; 2],
-    /// What the parts of the record say.
+    /// Findings in the parts of the record.
     pub spread: Spread,
     /// ω and ζ at the largest amplitude, if they differ.
     pub large: Option<Line>,

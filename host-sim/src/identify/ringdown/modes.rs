@@ -20,7 +20,7 @@ pub struct Found {
     pub amplitude: f64,
 }
 
-/// What is made of multiples of the first frequency.
+/// Treatment of multiples of the first frequency.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Harmonics {
     /// They are no modes.

@@ -17,7 +17,7 @@ const FAINT: f64 = 0.1;
 /// Standard error of ln ζ above which a part says nothing.
 const BLIND: f64 = 0.5;
 
-/// What the parts of a record say of one line.
+/// Findings of one line in the parts of a record.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spread {
     /// Standard deviation of ln ω and ln ζ between the parts beyond that of their noise.

@@ -14,8 +14,9 @@ const DEGREE: NonZeroUsize = NonZeroUsize::new(8).unwrap();
 ///
 /// The frame is the chord; θ̄ᵢ are the end rotations against it and `ε = (l − l₀)/l₀ + (2θ̄₁² −
 /// θ̄₁θ̄₂ + 2θ̄₂²)/30` is the mean stretch of the cubic (second order in slope), which a chord that
-/// shortens by bending does not change. Energy `½ EA l₀ ε² + ½ EI/l₀ (4θ̄₁² + 4θ̄₁θ̄₂ + 4θ̄₂²)` where
-/// EI is constant; else the end moments bend it as its compliance `∫ξ²/EI` has it. Stiffness-proportional damping adds β times the rates of ε and θ̄ to them, so that rigid motion
+/// shortens by bending does not change. Energy `½ EA l₀ ε² + ½ EI/l₀ (4θ̄₁² + 4θ̄₁θ̄₂ + 4θ̄₂²)`
+/// where EI is constant; else the end moments bend it as its compliance `∫ξ²/EI` has it.
+/// Stiffness-proportional damping adds β times the rates of ε and θ̄ to them, so that rigid motion
 /// is not damped.
 ///
 /// Sources: Crisfield, Non-linear Finite Element Analysis of Solids and Structures, vol. 1 (1991),

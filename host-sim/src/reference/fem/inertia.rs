@@ -53,7 +53,8 @@ impl Inertia {
     }
 
     /// Returns inertia, drag and weight (`lift` is gravity's negative in the global frame, m/s²) as
-    /// forces that the arm has to supply, N, N, N m at each end, and their derivative along `change`.
+    /// forces that the arm has to supply, N, N, N m at each end, and their derivative along
+    /// `change`.
     pub fn force(
         &self,
         a: &Node,
@@ -104,7 +105,8 @@ impl Inertia {
 }
 
 /// Returns the force of a rigid body that is fixed to a node, as [`Inertia::force`] does: of `mass`
-/// kg and `inertia` kg m² about its own centre, which lies `offset` m ahead along the node's tangent.
+/// kg and `inertia` kg m² about its own centre, which lies `offset` m ahead along the node's
+/// tangent.
 pub(super) fn body(
     [mass, inertia, offset]: [f64; 3],
     alpha: f64,

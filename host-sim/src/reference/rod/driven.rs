@@ -39,8 +39,8 @@ pub(crate) trait Driven: Send + Sync {
     fn integrator(&self) -> Integrator;
     /// Returns the unknowns at rest under gravity at the hub angle `angle`, rad, if that is stable.
     fn equilibrium(&self, angle: f64) -> Option<Unknowns>;
-    /// Returns the answer at unknowns `a` (rad), rates `v` (rad/s) and the hub's angle (rad) and rate
-    /// (rad/s).
+    /// Returns the answer at unknowns `a` (rad), rates `v` (rad/s) and the hub's angle (rad) and
+    /// rate (rad/s).
     fn respond(&self, a: &Unknowns, v: &Unknowns, angle: f64, rate: f64) -> Response;
     /// Returns kinetic and potential energy, the hub's own included, J.
     fn energy(&self, a: &Unknowns, v: &Unknowns, angle: f64, rate: f64) -> f64;

@@ -240,8 +240,8 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         alpha * (spin + rate) + acceleration
     }
 
-    /// Returns the hub torque and the bending moment at the clamp, N m. On a linear axis the first is
-    /// the force on the carriage, N.
+    /// Returns the hub torque and the bending moment at the clamp, N m. On a linear axis the first
+    /// is the force on the carriage, N.
     ///
     /// Torque: `J_h θ̈` and the moment of all inertia forces, drag and weight about the axis, `∫(X
     /// a_Y − Y a_X) dm`. Moment: the same about the clamp at `(r, 0)`, without the hub's own.

@@ -147,21 +147,31 @@ pub fn watch(
 /// Returns hub torque and bending moment at the clamp, N m, of the arm at rest under its own weight
 /// with the hub at `angle`.
 pub fn rest_loads(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], ReferenceError> {
+    Ok(at_rest(scene, angle)?.loads)
+}
+
+/// The arm at rest.
+struct Rest {
+    /// Hub torque and bending moment at the clamp, N m.
+    loads: [f64; 2],
+    /// Hub-frame X and Y of the tip, m.
+    tip: [f64; 2],
+}
+
+/// Solves for the arm at rest under its own weight with the hub at `angle`.
+fn at_rest(scene: &Scene, angle: Angle<f64>) -> Result<Rest, ReferenceError> {
     let scene = scene.validate()?;
+    let (sin, cos) = angle.sin_cos();
+    let hub = HubState { sin, cos, ..HubState::at_rest(angle) };
     with_rod!(&scene, ORDER, |rod| {
-        let hub = resting(angle);
         let a = rod
             .equilibrium(&hub)
             .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
         let still = a.map(|_| 0.0);
-        Ok(rod.loads(&rod.configuration(&a, &still), &still, &still, &hub))
+        let configuration = rod.configuration(&a, &still);
+        let loads = rod.loads(&configuration, &still, &still, &hub);
+        Ok(Rest { loads, tip: rod.tip(&configuration) })
     })
-}
-
-/// The hub at rest, with its sine and cosine.
-fn resting(angle: Angle<f64>) -> HubState<f64> {
-    let (sin, cos) = angle.sin_cos();
-    HubState { sin, cos, ..HubState::at_rest(angle) }
 }
 
 /// Returns the first natural period of the straight arm on a hub that is held, s.
@@ -187,12 +197,5 @@ pub fn rest_deflection(scene: &Scene, angle: Angle<f64>) -> Result<f64, Referenc
 /// Returns hub-frame X and Y of the tip, m, of the arm at rest under its own weight with the hub at
 /// `angle`.
 pub fn rest_tip(scene: &Scene, angle: Angle<f64>) -> Result<[f64; 2], ReferenceError> {
-    let scene = scene.validate()?;
-    with_rod!(&scene, ORDER, |rod| {
-        let hub = resting(angle);
-        let a = rod
-            .equilibrium(&hub)
-            .ok_or(ReferenceError::NoEquilibrium { angle: angle.radians() })?;
-        Ok(rod.tip(&rod.configuration(&a, &a.map(|_| 0.0))))
-    })
+    Ok(at_rest(scene, angle)?.tip)
 }

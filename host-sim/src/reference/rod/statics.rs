@@ -11,8 +11,8 @@ use super::equations::Rod;
 const LOAD_STEPS: u32 = 16;
 
 impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
-    /// Returns the static shape under gravity, rad, with the hub at rest at its angle. Returns `None`
-    /// if it is not stable.
+    /// Returns the static shape under gravity, rad, with the hub at rest at its angle. Returns
+    /// `None` if it is not stable.
     ///
     /// Minimises `½ aᵀKa + g Σ mₛ (Xₛ sin χ + Yₛ cos χ)` over the stations.
     pub fn equilibrium(&self, hub: &HubState<f64>) -> Option<SVector<f64, N>> {

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use stillbeam_lab::campaign::with_bar;
 use stillbeam_lab::fastest::{cases, motions, page};
-use stillbeam_lab::pages;
+use stillbeam_lab::pages::Target;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::println;
 
@@ -18,10 +18,7 @@ pub struct FastestArgs {
 
 impl FastestArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let page = self.page.map(|path| Ok::<_, Error>((pages::read(&path)?, path))).transpose()?;
-        if let Some((text, path)) = &page {
-            pages::has_places(path, text, page::NAMES.into_iter())?;
-        }
+        let page = Target::open(self.page, page::NAMES)?;
         let cases = cases::all()?;
         // One at a time: the planning times are measured.
         let judged = with_bar("limits", cases.len() as u64, |done| {
@@ -36,9 +33,8 @@ impl FastestArgs {
         for block in &blocks {
             println!("{}", block.text);
         }
-        if let Some((text, path)) = &page {
-            pages::write(path, text, &blocks)?;
-            println!("{}: filled", path.display());
+        if let Some(page) = page {
+            page.fill(&blocks)?;
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use stillbeam_lab::campaign::with_bar;
 use stillbeam_lab::identify::{Case, SEED, Summary, campaign, document, identified, judge};
-use stillbeam_lab::pages;
+use stillbeam_lab::pages::Target;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::output::Files;
 use stillbeam_sim::println;
@@ -38,6 +38,7 @@ impl IdentifyArgs {
             println!("{:#?}", judge(&case)?);
             return Ok(ExitCode::SUCCESS);
         }
+        let page = Target::open(self.page.clone(), ["identify"])?;
         let results = with_bar("logs", count, |done| campaign(self.seed, 0..count, &|| done(1)))?;
         let summary = Summary::of(&results);
         println!(
@@ -59,16 +60,14 @@ impl IdentifyArgs {
                 percent(tally.worst)
             );
         }
-        if let Some(path) = &self.page {
-            let text = pages::read(path)?;
-            pages::write(path, &text, &[document::block(self.seed, count, &summary)])?;
+        if let Some((page, path)) = page.zip(self.page.as_ref()) {
+            page.fill(&[document::block(self.seed, count, &summary)])?;
             let mut files = Files::default();
             for (name, picture) in document::pictures(self.seed)? {
                 let place = path.with_file_name(format!("identify-{name}.svg"));
                 files.add(&place, |file| file.write_all(picture.as_bytes()))?;
             }
             files.finish()?;
-            println!("{}: filled", path.display());
         }
         Ok(verdict(summary.holds()))
     }

@@ -21,6 +21,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use stillbeam_lab::campaign;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::println;
 
 /// The pages of stillbeam's docs and the campaigns behind them.
 #[derive(Parser)]
@@ -96,6 +97,16 @@ fn counted(count: u64) -> Result<u64, Error> {
         return Ok(count);
     }
     Err(Error::new(format_args!("--count = {count}: must be 1 to 100000000")))
+}
+
+/// Prints the first of what a campaign found broken. Returns success if it found nothing.
+fn unbroken<'a>(broken: impl Iterator<Item = &'a String>) -> ExitCode {
+    let mut broken = broken.peekable();
+    let holds = broken.peek().is_none();
+    for line in broken.take(20) {
+        println!("broken: {line}");
+    }
+    verdict(holds)
 }
 
 /// Returns success if a campaign found nothing, else exit code 1.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam_lab::campaign::with_bar;
-use stillbeam_lab::pages;
+use stillbeam_lab::pages::Target;
 use stillbeam_lab::still::{campaign, campaign_page};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::println;
@@ -29,10 +29,7 @@ impl StillArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         let seed = self.seed;
         let count = counted(self.count)?;
-        let page = self.page.map(|path| Ok::<_, Error>((pages::read(&path)?, path))).transpose()?;
-        if let Some((text, path)) = &page {
-            pages::has_places(path, text, campaign_page::NAMES.into_iter())?;
-        }
+        let page = Target::open(self.page, campaign_page::NAMES)?;
         let moves = count.div_ceil(10);
         let rests = with_bar("rest to rest", moves, |done| {
             campaign::rests(seed, moves as usize, ROD_EACH, &|| done(1))
@@ -45,9 +42,8 @@ impl StillArgs {
         for block in &blocks {
             println!("{}", block.text);
         }
-        if let Some((text, path)) = &page {
-            pages::write(path, text, &blocks)?;
-            println!("{}: filled", path.display());
+        if let Some(page) = page {
+            page.fill(&blocks)?;
         }
         Ok(ExitCode::SUCCESS)
     }

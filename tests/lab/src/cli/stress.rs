@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use stillbeam_lab::campaign::with_bar;
 use stillbeam_lab::markers::Block;
-use stillbeam_lab::pages;
+use stillbeam_lab::pages::Target;
 use stillbeam_lab::stress::draw::{draw, method_name};
 use stillbeam_lab::stress::trial::trial;
 use stillbeam_lab::stress::{campaign, document, energy, rows, summary::Summary};
@@ -52,8 +52,8 @@ pub struct StressArgs {
 impl StressArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         counted(self.count)?;
-        if let Some(path) = &self.page {
-            return self.page(path);
+        if let Some(page) = Target::open(self.page.clone(), document::NAMES)? {
+            return self.page(&page);
         }
         if let Some(arms) = self.energy {
             print!("{}", self.rings(arms));
@@ -75,9 +75,7 @@ impl StressArgs {
     }
 
     /// Runs everything and fills the page.
-    fn page(&self, path: &Path) -> Result<ExitCode, Error> {
-        let text = pages::read(path)?;
-        pages::has_places(path, &text, document::NAMES.into_iter())?;
+    fn page(&self, page: &Target) -> Result<ExitCode, Error> {
         let summary = self.summary(None)?;
         let (arms, ticks) = (self.energy.unwrap_or(ARMS), self.long.unwrap_or(TICKS));
         let command = |what: String| format!("`cargo lab stress {what}`\n\n");
@@ -90,8 +88,7 @@ impl StressArgs {
         ];
         let named = document::NAMES.into_iter().zip(texts);
         let blocks: Vec<Block> = named.map(|(name, text)| Block::new(name, text)).collect();
-        pages::write(path, &text, &blocks)?;
-        println!("{}: filled", path.display());
+        page.fill(&blocks)?;
         Ok(verdict(summary.faults() == 0))
     }
 

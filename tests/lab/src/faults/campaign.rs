@@ -12,7 +12,7 @@ use stillbeam_protocol::{Command, Request};
 
 use super::line::Line;
 use super::{Fault, Outcome, host, stops};
-use crate::campaign::{self, chunks};
+use crate::campaign;
 use stillbeam_sim::error::Error;
 
 /// Ticks of a run before the host falls silent: 8 s.
@@ -37,13 +37,7 @@ pub fn all(
 
 /// Runs one kind of fault `count` times.
 pub fn of(fault: Fault, seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Result<Outcome, Error> {
-    let mut total = Outcome::default();
-    for numbers in chunks(0, count) {
-        for outcome in campaign::each("run", numbers, done, |index| one(fault, seed, index)) {
-            total.add(outcome?);
-        }
-    }
-    Ok(total)
+    campaign::total("run", count, done, |index| one(fault, seed, index), Outcome::add)
 }
 
 /// Runs number `index` of a kind of fault.

@@ -139,7 +139,7 @@ impl Case {
             Kind::Short => Self { periods: 5.0, noise: 20.0, ..self },
             Kind::Accelerometer => Self {
                 rate: rng.random_range(40.0..120.0),
-                periods: rng.random_range(20.0..40.0),
+                periods: rng.random_range(15.0..25.0),
                 noise: 25.0,
                 steps: 4096.0,
                 jitter: rng.random_range(0.0..0.2),

@@ -1,4 +1,4 @@
-//! What was identified, held against the truth.
+//! Identified arms, held against the truth.
 
 use stillbeam_sim::error::Error;
 use stillbeam_sim::identify::report::Report;
@@ -6,7 +6,7 @@ use stillbeam_sim::identify::{Identified, Request};
 
 use super::arm::{Case, Kind};
 
-/// What came of one log.
+/// Outcome of one log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Judged {
     /// Kind of the log.

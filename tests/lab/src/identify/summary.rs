@@ -6,7 +6,7 @@ use super::judge::Judged;
 /// Coverage that is promised of the intervals.
 pub const COVERAGE: f64 = 0.90;
 
-/// What came of the logs of one kind.
+/// Outcomes of the logs of one kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tally {
     /// The kind.

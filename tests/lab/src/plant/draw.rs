@@ -131,6 +131,7 @@ fn gains(rng: &mut StdRng, rotor_inertia: f64) -> odrive::Config {
         bandwidth: 1500.0,
         rate: [2000.0, 4000.0][rng.random_range(0..2)],
         between: stillbeam_sim::servo::Between::Linear,
-        filter: None,
+        filter_bandwidth: None,
+        filter_inertia: 0.0,
     }
 }

@@ -1,4 +1,4 @@
-//! What is put into the loop.
+//! Faults that are put into the loop.
 
 /// A fault in the middle of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! What came out of the runs with one fault.
+//! Outcome of the runs with one fault.
 
 /// Counts and greatest values.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -11,8 +11,8 @@ use stillbeam_sim::servo::{Machine, page};
 use crate::markers::Block;
 use crate::table::aligned;
 
-/// Blocks of the page and the machines that they are of; the first is the default one. The first two
-/// have all rows, the others those of what is sent.
+/// Blocks of the page and the machines that they are of; the first is the default one. The first
+/// two have all rows, the others those of what is sent.
 pub const MACHINES: [(&str, Option<&str>); 5] = [
     ("odrive", None),
     ("odrive-tuned", Some("odrive-tuned")),

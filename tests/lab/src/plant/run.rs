@@ -17,7 +17,7 @@ use stillbeam_sim::servo::{Servo, Target};
 
 use super::draw::Case;
 use super::{Fault, Outcome};
-use crate::campaign::{self, chunks};
+use crate::campaign;
 
 /// Fineness of the rod: setpoints are judged, not its last digits.
 const OPTIONS: Options = Options { order: 5, tolerance: 1e-6 };
@@ -42,13 +42,7 @@ pub fn all(
 
 /// Runs one fault `count` times.
 pub fn of(fault: Fault, seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Result<Outcome, Error> {
-    let mut total = Outcome::default();
-    for numbers in chunks(0, count) {
-        for outcome in campaign::each("run", numbers, done, |index| one(fault, seed, index)) {
-            total.add(outcome?);
-        }
-    }
-    Ok(total)
+    campaign::total("run", count, done, |index| one(fault, seed, index), Outcome::add)
 }
 
 /// Runs number `index` of a fault.

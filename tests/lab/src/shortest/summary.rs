@@ -14,7 +14,7 @@ pub const PRECISION: f64 = 1e-6;
 /// Numbers of faults that are kept.
 const KEPT: usize = 20;
 
-/// What came of the cases of one kind.
+/// Outcome of the cases of one kind.
 #[derive(Clone, Debug, Default)]
 pub struct Counts {
     /// Cases.
