@@ -8,6 +8,9 @@
 //! A [`Request`] says what is asked, [`Planner::plan`] answers with a [`StillMove`], and
 //! [`Planner::predict`] gives the arm's [`Prediction`] for it.
 //!
+//! Where the shortest duration within limits is wanted, [`Planner::plan_fastest`] comes closer to
+//! the optimum: its moves have a piecewise-linear acceleration and are followed as a path.
+//!
 //! ```
 //! use stillbeam::planner::{Planner, Request};
 //! use stillbeam::{Link, Scene};
