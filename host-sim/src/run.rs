@@ -214,14 +214,14 @@ fn each_tick_of<S: Stepper>(
 }
 
 /// A path of which the generator has not yet taken all rows.
-struct Feeding {
+pub(crate) struct Feeding {
     path: Path,
     rows: std::vec::IntoIter<Waypoint>,
 }
 
 /// Gives as much of a motion to a generator as its queue has room for. Returns the motion's ticks
 /// once it is taken as a whole.
-fn take<S: Stepper>(
+pub(crate) fn take<S: Stepper>(
     generator: &mut Generator<S, QUEUE>,
     motion: &Motion,
     feeding: &mut Option<Feeding>,

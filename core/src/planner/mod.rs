@@ -8,6 +8,9 @@
 //! A [`Request`] says what is asked, [`Planner::plan`] answers with a [`StillMove`], and
 //! [`Planner::predict`] gives the arm's [`Prediction`] for it.
 //!
+//! Where the shortest duration within limits is wanted, [`Planner::plan_fastest`] comes closer to
+//! the optimum: its moves have a piecewise-linear acceleration and are followed as a path.
+//!
 //! ```
 //! use stillbeam::planner::{Planner, Request};
 //! use stillbeam::{Link, Scene};
@@ -20,6 +23,7 @@
 //! ```
 
 mod curve;
+mod fastest;
 mod least_effort;
 mod linear;
 mod loads;
@@ -38,6 +42,7 @@ mod solve;
 mod still_move;
 mod stop;
 
+pub use fastest::{FastestMove, ShortestMove};
 pub use objective::Objective;
 pub(crate) use path::Path;
 pub use prediction::Prediction;

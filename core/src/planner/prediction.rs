@@ -62,19 +62,19 @@ pub(super) fn limits_loads(limits: &Limits) -> bool {
 
 /// Greatest magnitude of a quantity that is sampled at even steps. Between the steps it is the
 /// vertex of the parabola through three samples.
-struct Peak<T> {
+pub(super) struct Peak<T> {
     last: [T; 2],
-    most: T,
+    pub most: T,
 }
 
 impl<T: Scalar> Peak<T> {
-    fn new(first: T) -> Self {
+    pub fn new(first: T) -> Self {
         let mut peak = Self { last: [first; 2], most: T::ZERO };
         peak.raise(first);
         peak
     }
 
-    fn see(&mut self, after: T) {
+    pub fn see(&mut self, after: T) {
         let [before, here] = self.last;
         if (here - before) * (after - here) < T::ZERO {
             let (bend, tilt) = (before - T::TWO * here + after, after - before);
@@ -131,8 +131,14 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
             moment.see(load.moment);
             bend.see(load.tip[1]);
         };
-        let end =
-            arm.simulate(&self.points, resolution.per_step, &curve, path.ticks, &begin, watch);
+        let end = arm.simulate(
+            &self.points,
+            resolution.per_step,
+            |k| curve.hub(k),
+            path.ticks,
+            &begin,
+            watch,
+        );
         let rest = if plan.rate == 0.0 {
             arm.equilibrium(&self.points, &last)
         } else {

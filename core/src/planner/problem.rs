@@ -268,7 +268,14 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
     fn simulate(&self, n: usize, bulge: &[T; BULGE]) -> ArmState<T, K> {
         let curve = self.curve.bulged(bulge);
         let (points, per_step) = (&self.planner.points, self.resolution.per_step);
-        self.arms[n].simulate(points, per_step, &curve, self.steps, &self.begin[n], |_, _| ())
+        self.arms[n].simulate(
+            points,
+            per_step,
+            |k| curve.hub(k),
+            self.steps,
+            &self.begin[n],
+            |_, _| (),
+        )
     }
 
     /// Amplitudes that mode `k` of arm `n` is left with.

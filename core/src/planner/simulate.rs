@@ -8,7 +8,6 @@ use crate::Error;
 use crate::hub::HubState;
 use crate::math::{Scalar, cast, sqrt, words};
 use crate::model::{Load, Rod, RodPoints};
-use crate::motion::Segment;
 use crate::scene::{LinkShape, Scene};
 use crate::stepper::{ArmState, Forcing, Oscillator};
 
@@ -140,23 +139,42 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         flex
     }
 
-    /// Returns the state of the arm after `steps` steps along the curve. `watch` is handed arm and
-    /// hub at every step.
+    /// Returns the same arm without its damping, discretised for steps of `step` s.
+    pub fn undamped(&self, step: f64) -> Self {
+        let modes = core::array::from_fn(|k| {
+            let [omega, coupling] = [self.frequency[k], self.coupling[k]].map(T::to_f64);
+            Oscillator::new(omega, 0.0, 0.0, coupling, step)
+        });
+        Self { modes, loss: [T::ZERO; K], alpha: T::ZERO, ..*self }
+    }
+
+    /// ω of mode `k`, rad/s, and its coupling b to the hub.
+    pub fn mode(&self, k: usize) -> [T; 2] {
+        [self.frequency[k], self.coupling[k]]
+    }
+
+    /// Deflection of the tip by mode `k`, of L.
+    pub fn tip_per_mode(&self, k: usize) -> T {
+        self.tip_per_mode[k][0]
+    }
+
+    /// Returns the state of the arm after `steps` steps of a hub that is `hub_at(k)` after step `k`.
+    /// `watch` is handed arm and hub at every step.
     pub fn simulate(
         &self,
         points: &RodPoints<T, K>,
         per_step: T,
-        curve: &Segment<T>,
+        hub_at: impl Fn(u32) -> HubState<T>,
         steps: u32,
         from: &ArmState<T, K>,
         mut watch: impl FnMut(&ArmState<T, K>, &HubState<T>),
     ) -> ArmState<T, K> {
         let mut flex = *from;
-        let mut hub = curve.hub(0);
+        let mut hub = hub_at(0);
         let mut force = self.excess(points, &flex, &hub);
         let mut change = [T::ZERO; K];
         for k in 1..=steps {
-            let after = curve.hub(k);
+            let after = hub_at(k);
             let drive = Forcing::between(&hub, &after, per_step, self.alpha);
             let mut y = [[T::ZERO; 2]; K];
             for k in 0..K {

@@ -68,7 +68,7 @@ pub(super) fn solve<T: Scalar>(
 }
 
 /// `B += (s − B y) sᵀB / (sᵀB y)`.
-fn update<T: Scalar>(
+pub(super) fn update<T: Scalar>(
     inverse: &mut [[T; MAX_AMPLITUDES]; MAX_AMPLITUDES],
     count: usize,
     step: &[T; MAX_AMPLITUDES],

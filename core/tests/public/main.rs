@@ -6,6 +6,7 @@ mod carriage;
 mod chain;
 mod change;
 mod exact;
+mod fastest;
 mod follow;
 mod generator;
 mod motor;

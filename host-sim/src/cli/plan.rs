@@ -5,11 +5,12 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 use stillbeam::Limits;
+use stillbeam::planner::ShortestMove;
 use stillbeam_sim::console::open_arm;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::mechanism::limits::type_in;
 use stillbeam_sim::mechanism::{self, MechanismScene};
-use stillbeam_sim::plan::{Planned, Request, page};
+use stillbeam_sim::plan::{Planned, Request, page, shortest};
 use stillbeam_sim::scene_file::angle_remark;
 use stillbeam_sim::{axis_units, println, progress};
 
@@ -188,7 +189,8 @@ struct PlanReport {
     /// Peaks of the hub's motion: rad/s, rad/s², rad/s³; on a linear axis of m.
     peak_rate: f64,
     peak_acceleration: f64,
-    peak_jerk: f64,
+    /// Absent where the acceleration jumps at both ends.
+    peak_jerk: Option<f64>,
     /// Largest torque in the reference rod, N m; on a linear axis the largest force, N.
     peak_effort: f64,
     peak_moment_nm: f64,
@@ -208,11 +210,11 @@ impl PlanReport {
             from: request.from,
             to: request.to,
             duration_s: plan.duration(),
-            ticks: plan.ticks,
+            ticks: plan.ticks(),
             first_period_s: planned.first_period,
-            peak_rate: plan.peaks.rate,
-            peak_acceleration: plan.peaks.acceleration,
-            peak_jerk: plan.peaks.jerk,
+            peak_rate: plan.peaks().rate,
+            peak_acceleration: plan.peaks().acceleration,
+            peak_jerk: Some(plan.peaks().jerk).filter(|jerk| jerk.is_finite()),
             peak_effort: loads.torque.value,
             peak_moment_nm: loads.moment.value,
             peak_deflection_m: prediction.deflection,
@@ -226,9 +228,10 @@ impl PlanReport {
 fn print(name: &str, request: &Request, planned: &Planned) {
     let Planned { plan, prediction, judgement, .. } = planned;
     let length = request.arm.link.length;
-    let kind = match request.robust {
-        Some(spread) => format!("still, robust to \u{b1}{} %", 100.0 * spread),
-        None => "still".to_owned(),
+    let kind = match (request.robust, plan) {
+        (Some(spread), _) => format!("still, robust to \u{b1}{} %", 100.0 * spread),
+        (None, ShortestMove::Fastest(_)) => "still, piecewise-linear acceleration".to_owned(),
+        (None, ShortestMove::Still(_)) => "still".to_owned(),
     };
     let periods = plan.duration() / planned.first_period;
     let units = axis_units::of(request.arm.mount.axis);
@@ -236,14 +239,26 @@ fn print(name: &str, request: &Request, planned: &Planned) {
     println!(
         "  duration           {:.4} s ({} ticks, {periods:.2} first periods)",
         plan.duration(),
-        plan.ticks
+        plan.ticks()
     );
     if let Some(asked) = request.duration.filter(|asked| (asked - plan.duration()).abs() > 1e-9) {
         println!("                     {asked} s was asked for: rounded to whole ticks");
     }
-    println!("  peak rate          {:.4} {}", plan.peaks.rate, units.rate);
-    println!("  peak acceleration  {:.3} {}", plan.peaks.acceleration, units.acceleration);
-    println!("  peak jerk          {:.1} {}", plan.peaks.jerk, units.jerk);
+    let bound = shortest::rigid_bound(request.to - request.from, &request.limits, request.tick);
+    if let Some(bound) = bound.filter(|_| request.duration.is_none()) {
+        println!(
+            "                     {:.1} % over the bound: {bound:.4} s, a rigid arm",
+            100.0 * (plan.duration() / bound - 1.0)
+        );
+    }
+    let peaks = plan.peaks();
+    println!("  peak rate          {:.4} {}", peaks.rate, units.rate);
+    println!("  peak acceleration  {:.3} {}", peaks.acceleration, units.acceleration);
+    if peaks.jerk.is_finite() {
+        println!("  peak jerk          {:.1} {}", peaks.jerk, units.jerk);
+    } else {
+        println!("  peak jerk          none: the acceleration jumps at both ends");
+    }
     println!(
         "  peak {:<12}  {:.4} {} in the reference rod",
         units.effort, planned.loads.torque.value, units.effort_unit
@@ -272,5 +287,5 @@ fn print(name: &str, request: &Request, planned: &Planned) {
         at(0.1),
         at(0.2)
     );
-    println!("  planned in         {} simulations of the move", plan.simulations);
+    println!("  planned in         {} simulations of the move", plan.simulations());
 }

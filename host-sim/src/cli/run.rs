@@ -49,9 +49,10 @@ impl RunArgs {
             let keys = SolverKeys { spin, ..self.solver };
             let keys = super::mechanism::typed(&keys, self.coordinates)?;
             super::mechanism::refuse("--json", self.json)?;
-            let csv = self.csv.as_deref().ok_or_else(|| {
-                Error::new("--csv: must be a file where a mechanism is run")
-            })?;
+            let csv = self
+                .csv
+                .as_deref()
+                .ok_or_else(|| Error::new("--csv: must be a file where a mechanism is run"))?;
             let outputs = Outputs { csv, page: self.page.as_deref() };
             return super::mechanism::run(&scene, keys, &outputs);
         }

@@ -1,12 +1,13 @@
 //! The residual vibration of a motion, simulated with the reference rod.
 
 use stillbeam::motion::Shaper;
-use stillbeam::{Limits, Move, Scene};
+use stillbeam::{Move, Scene};
 
 use crate::error::Error;
 use crate::reference::Sample;
 use crate::reference::rod::{self, Options};
 use crate::residual;
+use crate::step::Motion as Step;
 use crate::trajectory::{Side, Trajectory};
 
 /// Default options of the rod. With finer ones a residual changes by less than 1e-6 of L.
@@ -43,8 +44,8 @@ pub struct Judgement {
 pub struct Motion {
     /// Hub angle at the beginning, rad.
     pub from: f64,
-    /// The moves.
-    pub moves: Vec<Move>,
+    /// The motion.
+    pub motion: Step,
     /// Shaper that the moves pass, if any.
     pub shaper: Option<Shaper>,
     /// h, s.
@@ -52,9 +53,9 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Returns the motion of one move, unshaped.
-    pub fn of(from: f64, motion: Move, tick: f64) -> Self {
-        Self { from, moves: vec![motion], shaper: None, tick }
+    /// Returns one move or path, unshaped.
+    pub fn of(from: f64, motion: impl Into<Step>, tick: f64) -> Self {
+        Self { from, motion: motion.into(), shaper: None, tick }
     }
 
     /// Returns the motion through a shaper.
@@ -64,9 +65,9 @@ impl Motion {
 
     /// Returns the trajectory of the motion with at least `rest` s after it.
     fn trajectory(&self, rest: f64) -> Result<Trajectory, Error> {
-        let mut moves = self.moves.clone();
-        moves.push(Move::Dwell { duration: rest + self.tick });
-        let trajectory = Trajectory::plan(self.from, &moves, &Limits::default(), self.tick)?;
+        let mut trajectory = Trajectory::resting(self.from, self.tick)?;
+        trajectory.append(&self.motion)?;
+        trajectory.append(&Move::Dwell { duration: rest + self.tick }.into())?;
         Ok(match &self.shaper {
             Some(shaper) => trajectory.shaped(shaper.clone()),
             None => trajectory,

@@ -6,13 +6,14 @@
 
 use std::cell::OnceCell;
 
-use stillbeam::planner::{Planner, Prediction, Request, StillMove};
+use stillbeam::planner::{FastestMove, Planner, Prediction, Request, StillMove};
 use stillbeam::{Error as CoreError, Limits, Remedy};
 
+use super::shortest::{self, INTERVALS};
 use crate::error::Error;
 use crate::limits::{Case, Excess, Peak, Quantity, Refusal, Way, kinematic, load, remedy};
 use crate::reference::rod::Resume;
-use crate::step::Step;
+use crate::step::{Motion, Step};
 
 /// Fraction of the torque limit for which a shortest move is planned. A method's own setpoints,
 /// good to a hundredth of the peak, then keep the limit too.
@@ -78,6 +79,36 @@ impl Asked<'_> {
         };
         let prediction = search.planner.predict(&plan, None);
         Ok(Kept { plan, prediction, first_period: search.planner.first_period() })
+    }
+}
+
+impl Asked<'_> {
+    /// Plans the fastest move with a piecewise-linear acceleration, in f64, within the limits on
+    /// the reference rod. `None` for what is not its kind, or if it does not converge.
+    pub fn plan_fastest(&self) -> Result<Option<FastestMove<INTERVALS>>, Error> {
+        if self.duration.is_some() || self.robust.is_some() || !self.before.steps.is_empty() {
+            return Ok(None);
+        }
+        let Case { arm, tick, .. } = self.before;
+        let planner = Planner::<f32, 2>::new(arm, tick)?;
+        let search = Search { asked: self, planner, state: OnceCell::new() };
+        search.weight()?;
+        let precise = Planner::<f64, 2>::new(arm, tick)?;
+        let mut limits = *self.limits;
+        for _ in 0..ROUNDS {
+            let request = Request::from_rest(self.from, self.to).limits(limits);
+            let Some(found) = precise.fastest(&request)? else { return Ok(None) };
+            let over = search.over_along(shortest::path(&found), self.limits)?;
+            if over.is_empty() {
+                return Ok(Some(found));
+            }
+            for excess in over {
+                if let Some(limit) = excess.quantity.of_mut(&mut limits) {
+                    *limit *= (1.0 - 1e-5) / excess.ratio();
+                }
+            }
+        }
+        Ok(None)
     }
 }
 
@@ -243,9 +274,14 @@ impl Search<'_> {
 
     /// Returns every limit that a plan exceeds on the reference rod.
     fn over(&self, plan: &StillMove, limits: &Limits) -> Result<Vec<Excess>, Error> {
+        self.over_along(plan.motion().into(), limits)
+    }
+
+    /// Returns every limit that a motion exceeds on the reference rod.
+    fn over_along(&self, motion: Motion, limits: &Limits) -> Result<Vec<Excess>, Error> {
         let Asked { before, settle, .. } = self.asked;
         let mut steps = before.steps.to_vec();
-        steps.push(Step { motion: plan.motion().into(), settle: *settle });
+        steps.push(Step { motion, settle: *settle });
         let case = before.with(&steps);
         let trajectory = case.trajectory()?;
         let windows = case.windows(&trajectory);

@@ -8,6 +8,7 @@ mod moving;
 pub mod page;
 pub mod picture;
 pub mod request;
+pub mod shortest;
 
 pub use judge::Judgement;
 pub use request::{Planned, Request};

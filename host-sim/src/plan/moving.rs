@@ -6,13 +6,16 @@
 use std::fmt::Write;
 
 use stillbeam::model::Rod;
-use stillbeam::planner::StillMove;
+use stillbeam::planner::ShortestMove;
 use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Generator, HubState, Move, Profile};
 
 use super::Request;
+use super::shortest::{self, INTERVALS};
 use crate::error::Error;
 use crate::number::{Digits, percent};
+use crate::run;
+use crate::step::Motion;
 
 /// Time for which the arm is watched after the move, first periods.
 const AFTER: f64 = 3.0;
@@ -47,13 +50,14 @@ struct View {
     high: [f64; 2],
 }
 
-/// Draws a quintic beside the still move. `residual` is what each leaves, fraction of L. Returns `None` on a linear axis, and where the arm bends further than two modes follow.
+/// Draws a quintic beside the still move. `residual` is what each leaves, fraction of L. Returns
+/// `None` on a linear axis, and where the arm bends further than two modes follow.
 ///
 /// # Errors
 /// A move or an arm that the core refuses.
 pub fn picture(
     request: &Request,
-    plan: &StillMove,
+    plan: &ShortestMove<INTERVALS>,
     residual: [f64; 2],
 ) -> Result<Option<String>, Error> {
     let rod = Rod::<2>::new(&request.arm)?;
@@ -62,20 +66,20 @@ pub fn picture(
     let quintic = Move::To { profile: Profile::Quintic, duration, to: request.to };
     // A quintic's peak, 10/√3 of the angle over the duration squared, and the plan's own.
     let peak = 10.0 / 3f64.sqrt() * (request.to - request.from).abs() / (duration * duration);
-    let bend = rod.bend(peak.max(plan.peaks.acceleration));
+    let bend = rod.bend(peak.max(plan.peaks().acceleration));
     if request.arm.mount.is_linear() || request.arm.mount.carrier != 0.0 || bend > most {
         return Ok(None);
     }
     let stepper = Elastica::<f64, 2>::new(&rod, request.tick, Quality::Fine, bend)?;
-    let ticks = u64::from(plan.ticks) + (AFTER * rod_period(&rod) / request.tick).ceil() as u64;
+    let ticks = u64::from(plan.ticks()) + (AFTER * rod_period(&rod) / request.tick).ceil() as u64;
     let every = ticks.div_ceil(FRAMES).max(1);
-    let shown = |name, class, residual, motion: &Move| -> Result<Arm, Error> {
+    let shown = |name, class, residual, motion: &Motion| -> Result<Arm, Error> {
         let frames = frames(&rod, &stepper, request.from, motion, ticks, every)?;
         Ok(Arm { name, class, residual, frames })
     };
     let arms = [
-        shown("quintic", "moving-other", residual[0], &quintic)?,
-        shown("still move", "moving-still", residual[1], &plan.motion())?,
+        shown("quintic", "moving-other", residual[0], &quintic.into())?,
+        shown("still move", "moving-still", residual[1], &shortest::motion(plan))?,
     ];
     let seconds = (arms[0].frames.len() - 1) as f64 * every as f64 * request.tick;
     Ok(Some(svg(request, &arms, seconds)))
@@ -90,16 +94,19 @@ fn frames(
     rod: &Rod<2>,
     stepper: &Elastica<f64, 2>,
     from: f64,
-    motion: &Move,
+    motion: &Motion,
     ticks: u64,
     every: u64,
 ) -> Result<Vec<Vec<[f64; 2]>>, Error> {
     let slopes: Vec<[f64; 2]> =
         (0..PARTS).map(|k| rod.slopes_at((k as f64 + 0.5) / PARTS as f64)).collect();
-    let mut generator = Generator::<_, 8>::new(*stepper, from)?;
-    generator.push(motion)?;
+    let mut generator = Generator::new(*stepper, from)?;
+    let (mut taken, mut feeding) = (false, None);
     let mut frames = Vec::new();
     for k in 0..=ticks {
+        if !taken {
+            taken = run::take(&mut generator, motion, &mut feeding)?.is_some();
+        }
         generator.tick();
         if k % every == 0 {
             let hub = generator.hub();

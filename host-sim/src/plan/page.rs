@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use maud::{PreEscaped, html};
 
 use super::judge::{Judgement, Motion};
-use super::{Planned, Request, moving};
+use super::{Planned, Request, moving, shortest};
 use crate::axis_units;
 use crate::error::Error;
 use crate::output::Files;
@@ -14,6 +14,7 @@ use crate::reference::Sample;
 use crate::report::parts::{figure, page};
 use crate::table;
 
+use stillbeam::planner::ShortestMove;
 use stillbeam::{Move, Profile};
 
 /// Writes `index.html`, a picture for each chart, the one that moves (`moving.svg`, of an arm that
@@ -67,6 +68,9 @@ pub fn write(
         table::columns(request.arm.mount.axis);
     let header = [t, position, rate, acceleration, deflection, effort];
     table::add_columns(&mut files, &folder.join("plan.csv"), &header, &rows)?;
+    if let ShortestMove::Fastest(fastest) = &planned.plan {
+        shortest::add_rows(&mut files, &folder.join("motion.csv"), fastest)?;
+    }
     let path = folder.join("index.html");
     let text = page(name, &body);
     files.add(&path, |file| file.write_all(text.as_bytes()))?;

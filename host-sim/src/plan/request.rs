@@ -1,11 +1,12 @@
 //! A request for a still move, and the results for it.
 
 use rayon::prelude::*;
-use stillbeam::planner::{Prediction, StillMove};
+use stillbeam::planner::{FastestMove, Planner, Prediction, ShortestMove};
 use stillbeam::{Limits, Scene};
 
 use super::judge::{Judgement, Motion};
 use super::kept::{Asked, Kept};
+use super::shortest::{self, INTERVALS};
 use crate::error::Error;
 use crate::limits::{Case, Window, load};
 use crate::step::Step;
@@ -39,7 +40,7 @@ pub struct Request {
 #[derive(Clone, Debug)]
 pub struct Planned {
     /// The plan.
-    pub plan: StillMove,
+    pub plan: ShortestMove<INTERVALS>,
     /// Prediction of the planner.
     pub prediction: Prediction,
     /// `2π/ω₁`, s.
@@ -61,9 +62,18 @@ impl Request {
         Asked { before, limits, from, to, duration, robust, settle: 0.0, count: 1 }.plan()
     }
 
-    /// Returns the rod's peak loads along a plan.
-    fn loads(&self, plan: &StillMove) -> Result<load::Peaks, Error> {
-        let steps = [Step { motion: plan.motion().into(), settle: 0.0 }];
+    /// Plans in f64, with the fastest motion that keeps the limits on the reference rod. `None`
+    /// where [`Self::plan`] has to answer.
+    fn plan_fastest(&self) -> Result<Option<FastestMove<INTERVALS>>, Error> {
+        let Self { arm, from, to, duration, limits, robust, tick } = self;
+        let before = Case { arm, from: *from, steps: &[], shaper: None, tick: *tick };
+        let (from, to, duration, robust) = (*from, *to, *duration, *robust);
+        Asked { before, limits, from, to, duration, robust, settle: 0.0, count: 1 }.plan_fastest()
+    }
+
+    /// Returns the rod's peak loads along a motion.
+    fn loads(&self, motion: Step) -> Result<load::Peaks, Error> {
+        let steps = [motion];
         let (arm, from, tick) = (&self.arm, self.from, self.tick);
         let case = Case { arm, from, steps: &steps, shaper: None, tick };
         let trajectory = case.trajectory()?;
@@ -73,8 +83,15 @@ impl Request {
 
     /// Plans and judges. `tick` is called once for each of [`ERRORS`].
     pub fn carry_out(&self, tick: &(dyn Fn() + Sync)) -> Result<Planned, Error> {
-        let Kept { plan, prediction, first_period } = self.plan()?;
-        let motion = Motion::of(self.from, plan.motion(), self.tick);
+        let (plan, prediction) = if let Some(fastest) = self.plan_fastest()? {
+            (ShortestMove::Fastest(fastest), fastest.prediction)
+        } else {
+            let Kept { plan, prediction, .. } = self.plan()?;
+            (ShortestMove::Still(plan), prediction)
+        };
+        let along = shortest::motion(&plan);
+        let first_period = Planner::<f32, 2>::new(&self.arm, self.tick)?.first_period();
+        let motion = Motion::of(self.from, along.clone(), self.tick);
         let judgements = ERRORS
             .par_iter()
             .map(|&error| {
@@ -86,7 +103,7 @@ impl Request {
         let residuals = judgements.iter().map(|judgement| judgement.residual);
         let sensitivity = ERRORS.into_iter().zip(residuals).collect();
         let judgement = judgements[ERRORS.len() / 2].clone();
-        let loads = self.loads(&plan)?;
+        let loads = self.loads(Step { motion: along, settle: 0.0 })?;
         Ok(Planned { plan, prediction, first_period, judgement, loads, sensitivity })
     }
 }

@@ -186,7 +186,8 @@ fn a_page_that_is_no_longer_true_is_found() {
     let written = fs::read_to_string(bench.path("docs/accuracy.md")).unwrap();
     let end = written.rfind("<!-- /lab").unwrap();
     let last = written[..end - 1].rfind('\n').unwrap() + 1;
-    fs::write(bench.path("docs/accuracy.md"), written[..last].to_owned() + &written[end..]).unwrap();
+    fs::write(bench.path("docs/accuracy.md"), written[..last].to_owned() + &written[end..])
+        .unwrap();
     assert_eq!(bench.run(&["docs", "docs/accuracy.md", "--check"]).status.code(), Some(1));
 
     fs::write(bench.path("docs/accuracy.md"), "no markers").unwrap();

@@ -3,6 +3,7 @@
 
 mod auto;
 mod docs;
+mod fastest;
 mod faults;
 mod identify;
 mod mechanisms;
@@ -57,6 +58,9 @@ enum Command {
     Pareto(pareto::ParetoArgs),
     /// Plan random time-optimal motions, and hold their durations against Ruckig's
     Shortest(shortest::ShortestArgs),
+    /// Compare the fastest still moves with other motions within the same limits; fill their part of
+    /// docs/still.md
+    Fastest(fastest::FastestArgs),
     /// Identify random arms from synthetic logs, and hold what is found against the truth
     Identify(identify::IdentifyArgs),
     /// Compare the references and the core with the solutions of mechanisms
@@ -82,6 +86,7 @@ impl Cli {
             Command::Sweep(args) => args.execute(),
             Command::Pareto(args) => args.execute(),
             Command::Shortest(args) => args.execute(),
+            Command::Fastest(args) => args.execute(),
             Command::Identify(args) => args.execute(),
             Command::Mechanisms(args) => args.execute(),
             Command::Reference(args) => args.execute(),
