@@ -1,10 +1,12 @@
 //! Moves that arrive still, planned and judged by the reference rod.
 
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use stillbeam::Limits;
+use stillbeam::planner::ShortestMove;
 use stillbeam_sim::plan::request::ERRORS;
+use stillbeam_sim::plan::shortest::INTERVALS;
 use stillbeam_sim::plan::{Planned, Request};
 use stillbeam_sim::reference::Sample;
 use stillbeam_sim::scene_file::SceneFile;
@@ -58,22 +60,26 @@ pub fn plan<'py>(
     let planned = progress.end(planned.map_err(|error| refused(error.on(axis))))?;
     let result = PyDict::new(py);
     result.set_item("start", request.from)?;
-    figures(&result, &planned)?;
-    arrays(py, &result, &planned)?;
+    figures(&result, &request, &planned)?;
+    arrays(py, &result, &request, &planned)?;
     Ok(result)
 }
 
 /// Adds the numbers.
-fn figures(result: &Bound<'_, PyDict>, planned: &Planned) -> PyResult<()> {
+fn figures(
+    result: &Bound<'_, PyDict>,
+    request: &Request,
+    planned: &Planned,
+) -> PyResult<()> {
     let Planned { plan, prediction, judgement, .. } = planned;
     for (name, value) in [
-        ("to", plan.to),
+        ("to", request.to),
         ("duration", plan.duration()),
-        ("tick", plan.tick),
+        ("tick", request.tick),
         ("first_period", planned.first_period),
-        ("peak_rate", plan.peaks.rate),
-        ("peak_acceleration", plan.peaks.acceleration),
-        ("peak_jerk", plan.peaks.jerk),
+        ("peak_rate", plan.peaks().rate),
+        ("peak_acceleration", plan.peaks().acceleration),
+        ("peak_jerk", plan.peaks().jerk),
         ("peak_torque", planned.loads.torque.value),
         ("peak_moment", planned.loads.moment.value),
         ("peak_deflection", prediction.deflection),
@@ -81,18 +87,35 @@ fn figures(result: &Bound<'_, PyDict>, planned: &Planned) -> PyResult<()> {
     ] {
         result.set_item(name, value)?;
     }
-    result.set_item("ticks", plan.ticks)?;
-    result.set_item("simulations", plan.simulations)
+    result.set_item("ticks", plan.ticks())?;
+    result.set_item("simulations", plan.simulations())
 }
 
 /// A column's name and its values.
 type Column = (&'static str, fn(&Sample) -> f64);
 
+/// Returns the rows of a fastest move: time, angle, rate.
+fn rows(request: &Request, plan: &ShortestMove<INTERVALS>) -> Option<Vec<Vec<f64>>> {
+    let ShortestMove::Fastest(fastest) = plan else { return None };
+    let begin = vec![0.0, request.from, 0.0];
+    let rest = fastest.waypoints();
+    let rest = rest.map(|row| vec![row.time, row.angle, row.rate.unwrap_or(0.0)]);
+    Some([begin].into_iter().chain(rest).collect())
+}
+
 /// Adds the sensitivity and the reference rod's run.
-fn arrays(py: Python<'_>, result: &Bound<'_, PyDict>, planned: &Planned) -> PyResult<()> {
+fn arrays(
+    py: Python<'_>,
+    result: &Bound<'_, PyDict>,
+    request: &Request,
+    planned: &Planned,
+) -> PyResult<()> {
     let (errors, residuals): (Vec<f64>, Vec<f64>) = planned.sensitivity.iter().copied().unzip();
     result.set_item("frequency_error", PyArray1::from_vec(py, errors))?;
     result.set_item("residual_at_error", PyArray1::from_vec(py, residuals))?;
+    let rows = rows(request, &planned.plan);
+    let rows = rows.map(|rows| PyArray2::from_vec2(py, &rows)).transpose()?;
+    result.set_item("rows", rows)?;
     let columns: [Column; 7] = [
         ("time", |sample| sample.t),
         ("hub_angle", |sample| sample.angle),

@@ -66,6 +66,9 @@ class Plan:
     deflection: Array
     #: Torque into the hub, N m.
     torque: Array
+    #: Time s, angle rad and rate rad/s of a move with a piecewise-linear acceleration, as the
+    #: shortest moves have; their cubic path is the move. None of a move with a bulge.
+    rows: Optional[Array]
     #: Fraction to which the arm's frequencies need to be known, of a robust move.
     robust: Optional[float]
     #: The scene of the arm.
@@ -74,12 +77,17 @@ class Plan:
     @property
     def scene(self) -> "Scene":
         """The arm with this move, for ``run``, ``drive`` or ``export``; angles in rad."""
-        move: Dict[str, Any] = given(
+        settle = 1.2 * max(self.first_period, 6.0 * self.tick)
+        move: Dict[str, Any]
+        if self.rows is not None:
+            move = given(profile="cubic", waypoints=self.rows, settle=settle)
+            return self.arm.replace(unit=None, limits=None, move=move)
+        move = given(
             profile="still",
             duration=self.duration,
             to=self.to,
             robust=self.robust,
-            settle=1.2 * max(self.first_period, 6.0 * self.tick),
+            settle=settle,
         )
         move["from"] = self.start
         return self.arm.replace(unit=None, limits=None, move=move)
