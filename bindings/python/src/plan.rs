@@ -66,11 +66,7 @@ pub fn plan<'py>(
 }
 
 /// Adds the numbers.
-fn figures(
-    result: &Bound<'_, PyDict>,
-    request: &Request,
-    planned: &Planned,
-) -> PyResult<()> {
+fn figures(result: &Bound<'_, PyDict>, request: &Request, planned: &Planned) -> PyResult<()> {
     let Planned { plan, prediction, judgement, .. } = planned;
     for (name, value) in [
         ("to", request.to),

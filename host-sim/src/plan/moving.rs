@@ -247,7 +247,9 @@ mod tests {
     fn both_arms_end_where_they_shall_and_one_is_still() {
         let request = request(1.2);
         let plan = request.plan().expect("a plan").plan;
-        let svg = picture(&request, &plan, [0.1, 1e-4]).expect("a picture").expect("one");
+        let svg = picture(&request, &ShortestMove::Still(plan), [0.1, 1e-4])
+            .expect("a picture")
+            .expect("one");
         let page = roxmltree::Document::parse(&svg).expect("XML");
         let values: Vec<Vec<f64>> = page
             .descendants()
