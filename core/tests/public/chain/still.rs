@@ -102,11 +102,9 @@ fn three_joints_arrive_still() {
     let three = arm(&[D, D, D], 0.0, 0.001);
     let (from, to) = ([0.0, 0.3, 0.2], [0.8, 1.0, -0.4]);
     assert_still::<3, 12>(&three, from, to, 2.0, 1e-4);
-    // A search that fails at once goes by longer moves: 5e-7 after 12 %.
-    assert_still::<3, 12>(&three, from, to, 1.6, 1e-4);
-    if let Ok((plan, still, quintic)) = planned::<3, 12>(&three, from, to, 1.5) {
-        println!("three {still:e} {quintic:e} {plan:?}");
-    }
+    // A search that fails at once goes by longer moves: 5.3e-7 after 12 %, 3.9e-5 after 18 %.
+    assert_still::<3, 12>(&three, from, to, 1.6, 1e-5);
+    assert_still::<3, 12>(&three, from, to, 1.5, 1e-4);
 }
 
 /// Too short, beyond a limit, and an arm that folds: each says so.
