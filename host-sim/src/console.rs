@@ -67,7 +67,7 @@ pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
     remarked(scenes::open(name_or_path)?)
 }
 
-/// Opens a scene as [`open`] does, but a file may be without moves.
+/// Opens a scene as [`open()`] does, but a file may be without moves.
 pub fn open_arm(name_or_path: &str) -> Result<SceneFile, Error> {
     remarked(scenes::open_arm(name_or_path)?)
 }

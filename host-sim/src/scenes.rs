@@ -45,7 +45,7 @@ pub fn open(name_or_path: &str) -> Result<SceneFile, Error> {
     open_with(name_or_path, SceneFile::read)
 }
 
-/// Opens a scene as [`open`] does, but a file may be without moves.
+/// Opens a scene as [`open()`] does, but a file may be without moves.
 pub fn open_arm(name_or_path: &str) -> Result<SceneFile, Error> {
     open_with(name_or_path, SceneFile::read_arm)
 }
