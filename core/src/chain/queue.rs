@@ -19,6 +19,9 @@ pub(super) struct JointQueue<T, const QUEUE: usize> {
     tail: Segment<T>,
     end: HubState<f64>,
     limits: Limits,
+    /// Limit of deceleration, or else of acceleration, rad/s²; zero without one. A stop needs it in
+    /// the tick's precision.
+    braking: T,
     /// True while no move is under way.
     holds: bool,
     /// Peak acceleration of the moves that wait or are under way, rad/s².
@@ -36,6 +39,7 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
             tail,
             end: HubState::at_rest(angle.precise()),
             limits: Limits::default(),
+            braking: T::ZERO,
             holds: true,
             peak: 0.0,
         }
@@ -43,16 +47,18 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
 
     /// Rests at `angle` from now on; no move waits.
     pub fn rest_at(&mut self, angle: Angle<T>) {
-        *self = Self { limits: self.limits, ..Self::new(angle) };
+        *self = Self { limits: self.limits, braking: self.braking, ..Self::new(angle) };
     }
 
     pub fn limit(&mut self, limits: Limits) -> Result<(), Error> {
         self.limits = limits.validate()?.of_motion()?;
+        let braking = self.limits.deceleration.or(self.limits.acceleration);
+        self.braking = T::from_f64(braking.unwrap_or(0.0));
         Ok(())
     }
 
-    pub fn limits(&self) -> &Limits {
-        &self.limits
+    pub fn braking(&self) -> T {
+        self.braking
     }
 
     /// Start of a move that is pushed now.

@@ -69,10 +69,16 @@ impl<
         let mut limits = [T::ZERO; LINKS];
         for j in 0..LINKS {
             if self.chain.is_driven(j, self.state.is_closed()) {
-                let given = self.queues[j].limits();
-                let limit = given.deceleration.or(given.acceleration).unwrap_or(f64::INFINITY);
-                let name = "limits.acceleration";
-                limits[j] = T::from_f64(Error::check(name, limit, 1e-9, 1e12, "rad/s^2")?);
+                limits[j] = self.queues[j].braking();
+                if limits[j] == T::ZERO {
+                    return Err(Error::OutOfRange {
+                        parameter: "limits.acceleration",
+                        value: f64::INFINITY,
+                        min: 1e-9,
+                        max: 1e12,
+                        unit: "rad/s^2",
+                    });
+                }
             }
         }
         let ticks = self.stopping_ticks(&limits);
