@@ -12,7 +12,7 @@ use crate::sim;
 
 /// Commands that other tests run, or that need what no test has. Those with a blank at the end are
 /// beginnings of commands.
-const ELSEWHERE: [(&str, &str); 14] = [
+const ELSEWHERE: [(&str, &str); 15] = [
     ("cargo install --path host-sim", "builds what is tested here"),
     ("cargo build ", "the image and the program are built for the other tests"),
     ("cargo run --release", "the study, in tests/study.rs"),
@@ -26,6 +26,7 @@ const ELSEWHERE: [(&str, &str); 14] = [
     ("arm-none-eabi-gcc ", "tests/target/c.rs links an example"),
     ("probe-rs run ", "needs a board"),
     ("stillbeam-sim drive d-tip30-quick", "`cargo lab docs --check`"),
+    ("stillbeam-sim drive d-tip30-quick --machine cia402-tuned", "`cargo lab docs --check`"),
     (
         "stillbeam-sim drive d-tip30-quick --machine odrive-tuned --out drive",
         "`cargo lab docs --check`",
