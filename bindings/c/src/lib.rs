@@ -10,7 +10,7 @@
 //!
 //! `include/stillbeam.h` is made from this crate, and a test compares the two. `docs/c.md` is for
 //! the reader who writes C. This is the one crate of the product with `unsafe` code: raw pointers
-//! come in at this border and go no further than [`object`] and [`memory`].
+//! come in at this border and go no further than `object` and `memory`.
 
 // On a host the panic handler and the unwinder are those of the standard library.
 #[cfg(not(target_os = "none"))]
