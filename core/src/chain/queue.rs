@@ -17,6 +17,8 @@ pub(super) struct JointQueue<T, const QUEUE: usize> {
     waiting: Deque<Segment<T>, QUEUE>,
     /// Holds the end of the queue.
     tail: Segment<T>,
+    /// State behind the last move. Of a joint that holds only the rate counts: its angle is that of
+    /// the latest tick, and a stop in the tick has no f64 to give.
     end: HubState<f64>,
     limits: Limits,
     /// Limit of deceleration, or else of acceleration, rad/s²; zero without one. A stop needs it in
@@ -37,7 +39,7 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
             k: 0,
             waiting: Deque::new(),
             tail,
-            end: HubState::at_rest(angle.precise()),
+            end: HubState::at_rest(Angle::default()),
             limits: Limits::default(),
             braking: T::ZERO,
             holds: true,
