@@ -8,25 +8,24 @@ use core::fmt;
 
 use super::cubics::lay_cubics;
 use super::demand::Demand;
-use super::optimal::Bounds;
-use super::plannable::Plannable;
+use super::plannable::{Plannable, Sealed};
 use super::profile::whole_ticks;
 use super::segment::Shape;
 use super::shapes::{Shapes, quintic, rest_to_rest, spin_up};
-use super::{BULGE, Limits, Move, MoveSummary, Profile, Segment, curve_peaks};
+use super::{BULGE, Limits, MoveSummary, Profile, Segment, curve_peaks};
 use crate::Error;
 use crate::hub::{Angle, HubState, MAX_ANGLE};
 use crate::math::Scalar;
 
-/// Those of the [`Move`]s that begin and end at ticks, without acceleration but for a profile's own
-/// jumps: what a wire carries and a small firmware plans.
+/// Those of the [`Move`](super::Move)s that begin and end at ticks, without acceleration but for a
+/// profile's own jumps: what a wire carries and a small firmware plans.
 ///
-/// A program that plans these only is 45 kB smaller than one that plans any [`Move`]. Both give the
-/// same bits.
+/// A program that plans these only is 45 kB smaller than one that plans any [`Move`](super::Move).
+/// Both give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PlainMove {
-    /// See [`Move::To`].
+    /// See [`Move::To`](super::Move::To).
     To {
         /// The motion's shape.
         profile: Profile,
@@ -35,14 +34,14 @@ pub enum PlainMove {
         /// Angle at the end, rad, counted from the same zero as the hub's.
         to: f64,
     },
-    /// See [`Move::SpinUp`].
+    /// See [`Move::SpinUp`](super::Move::SpinUp).
     SpinUp {
         /// T, s; rounded to the nearest whole tick.
         duration: f64,
         /// Rate at the end, rad/s; 0 brings a turning hub to rest.
         rate: f64,
     },
-    /// See [`Move::Still`].
+    /// See [`Move::Still`](super::Move::Still).
     Still {
         /// T, s; rounded to the nearest whole tick.
         duration: f64,
@@ -51,7 +50,7 @@ pub enum PlainMove {
         /// `b₀ … b₅`, rad.
         bulge: [f64; BULGE],
     },
-    /// See [`Move::Dwell`].
+    /// See [`Move::Dwell`](super::Move::Dwell).
     Dwell {
         /// T, s; rounded to the nearest whole tick.
         duration: f64,
@@ -70,54 +69,6 @@ impl PlainMove {
     }
 }
 
-/// A [`Move`] by how it is planned.
-pub(super) enum Kind {
-    Plain(PlainMove),
-    Pass {
-        profile: Profile,
-        duration: f64,
-        to: f64,
-        rate: f64,
-    },
-    /// In the shortest time: to an angle, rad, or without one to any angle.
-    Shortest {
-        to: Option<f64>,
-        rate: f64,
-        bounds: Bounds,
-    },
-}
-
-impl Move {
-    pub(super) fn kind(&self) -> Kind {
-        match *self {
-            Self::To { profile, duration, to } => {
-                Kind::Plain(PlainMove::To { profile, duration, to })
-            }
-            Self::SpinUp { duration, rate } => Kind::Plain(PlainMove::SpinUp { duration, rate }),
-            Self::Still { duration, to, bulge } => {
-                Kind::Plain(PlainMove::Still { duration, to, bulge })
-            }
-            Self::Dwell { duration } => Kind::Plain(PlainMove::Dwell { duration }),
-            Self::Pass { profile, duration, to, rate } => {
-                Kind::Pass { profile, duration, to, rate }
-            }
-            Self::Reach { to, rate, bounds } => Kind::Shortest { to: Some(to), rate, bounds },
-            Self::Ramp { rate, bounds } => Kind::Shortest { to: None, rate, bounds },
-        }
-    }
-}
-
-impl From<PlainMove> for Move {
-    fn from(plain: PlainMove) -> Self {
-        match plain {
-            PlainMove::To { profile, duration, to } => Self::To { profile, duration, to },
-            PlainMove::SpinUp { duration, rate } => Self::SpinUp { duration, rate },
-            PlainMove::Still { duration, to, bulge } => Self::Still { duration, to, bulge },
-            PlainMove::Dwell { duration } => Self::Dwell { duration },
-        }
-    }
-}
-
 impl fmt::Display for PlainMove {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -130,6 +81,8 @@ impl fmt::Display for PlainMove {
         }
     }
 }
+
+impl Sealed for PlainMove {}
 
 impl Plannable for PlainMove {
     fn plan_segments<T: Scalar>(

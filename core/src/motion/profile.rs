@@ -1,11 +1,9 @@
-//! The moves a user can ask for.
+//! Profiles of moves from rest to rest, and the ticks of a duration.
 
 use core::f64::consts::TAU;
 use core::fmt;
 
-use super::optimal::Bounds;
-use super::plain::Kind;
-use super::{BULGE, Peaks};
+use super::Peaks;
 use crate::Error;
 use crate::error::MAX_TICKS;
 
@@ -77,109 +75,6 @@ impl fmt::Display for Profile {
     }
 }
 
-/// One entry of the queue of moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Move {
-    /// Rest to rest.
-    To {
-        /// The motion's shape.
-        profile: Profile,
-        /// T, s; rounded to the nearest whole tick.
-        duration: f64,
-        /// Angle at the end, rad, counted from the same zero as the hub's.
-        to: f64,
-    },
-    /// Smooth change of the rate, from what it is to `rate`, after Simo and Vu-Quoc:
-    /// `θ̈ = (Δω/T)(1 − cos 2πs)`. The hub keeps turning after it.
-    SpinUp {
-        /// T, s; rounded to the nearest whole tick.
-        duration: f64,
-        /// Rate at the end, rad/s; 0 brings a turning hub to rest.
-        rate: f64,
-    },
-    /// Rest to rest by a quintic that bulges: `θ = quintic + (1 − u²)³ Σ bₖuᵏ`, `u = 2t/T − 1`.
-    /// With the bulge that [`Planner`](crate::planner::Planner) plans, the arm arrives without
-    /// vibration.
-    Still {
-        /// T, s; rounded to the nearest whole tick.
-        duration: f64,
-        /// Angle at the end, rad, counted from the same zero as the hub's.
-        to: f64,
-        /// `b₀ … b₅`, rad.
-        bulge: [f64; BULGE],
-    },
-    /// The hub keeps its rate: zero after every move but a spin-up.
-    Dwell {
-        /// T, s; rounded to the nearest whole tick.
-        duration: f64,
-    },
-    /// From the state that the hub has, at rest or turning, to an angle that it passes at a rate.
-    /// The hub keeps turning after it, without acceleration.
-    Pass {
-        /// The motion's shape. A cubic and a trapezoid jump in acceleration; the others begin with
-        /// the hub's own.
-        profile: Profile,
-        /// T, s; rounded to the nearest whole tick.
-        duration: f64,
-        /// Angle at the end, rad, counted from the same zero as the hub's.
-        to: f64,
-        /// Rate at the end, rad/s; 0 comes to rest there.
-        rate: f64,
-    },
-    /// As [`Self::Pass`], in the shortest time that the bounds allow: see
-    /// [`TimeOptimal::reach`](super::optimal::TimeOptimal::reach). The hub begins within them.
-    Reach {
-        /// Angle at the end, rad, counted from the same zero as the hub's.
-        to: f64,
-        /// Rate at the end, rad/s; 0 comes to rest there.
-        rate: f64,
-        /// Bounds of the motion, by which it is made.
-        bounds: Bounds,
-    },
-    /// The fastest change of the rate that the bounds allow: see
-    /// [`TimeOptimal::ramp`](super::optimal::TimeOptimal::ramp). The hub begins within them.
-    Ramp {
-        /// Rate at the end, rad/s; 0 brings a turning hub to rest.
-        rate: f64,
-        /// Bounds of the motion, by which it is made.
-        bounds: Bounds,
-    },
-}
-
-impl Move {
-    /// Returns T, s, as asked for; 0 if the move takes the shortest time within its bounds.
-    pub fn duration(&self) -> f64 {
-        match self.kind() {
-            Kind::Plain(plain) => plain.duration(),
-            Kind::Pass { duration, .. } => duration,
-            Kind::Shortest { .. } => 0.0,
-        }
-    }
-
-    /// Returns the move with another duration, s. A still move no longer arrives still: its bulge
-    /// belongs to the duration that it was planned for. A move in the shortest time stays as it is.
-    #[must_use]
-    pub fn lasting(self, duration: f64) -> Self {
-        match self {
-            Self::To { profile, to, .. } => Self::To { profile, duration, to },
-            Self::SpinUp { rate, .. } => Self::SpinUp { duration, rate },
-            Self::Still { to, bulge, .. } => Self::Still { duration, to, bulge },
-            Self::Dwell { .. } => Self::Dwell { duration },
-            Self::Pass { profile, to, rate, .. } => Self::Pass { profile, duration, to, rate },
-            Self::Reach { .. } | Self::Ramp { .. } => self,
-        }
-    }
-
-    /// Returns the whole number of ticks nearest to the duration, at least one.
-    ///
-    /// # Errors
-    /// The duration is under half a tick or over 2²⁴ ticks, or none is asked for.
-    pub fn ticks(&self, tick: f64) -> Result<u32, Error> {
-        whole_ticks(self.duration(), tick)
-    }
-}
-
 /// Returns the whole number of ticks of `tick` s nearest to `duration` s, at least one.
 ///
 /// # Errors
@@ -190,26 +85,9 @@ pub(super) fn whole_ticks(duration: f64, tick: f64) -> Result<u32, Error> {
     Ok(((duration / tick + 0.5) as u32).max(1))
 }
 
-impl fmt::Display for Move {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.kind() {
-            Kind::Plain(plain) => plain.fmt(f),
-            Kind::Pass { profile, duration, to, rate } => {
-                write!(f, "{profile} to {to} rad at {rate} rad/s in {duration} s")
-            }
-            Kind::Shortest { to: Some(to), rate, .. } => {
-                write!(f, "reach {to} rad at {rate} rad/s in the shortest time")
-            }
-            Kind::Shortest { to: None, rate, .. } => {
-                write!(f, "ramp to {rate} rad/s in the shortest time")
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Move, Profile};
+    use super::{Profile, whole_ticks};
 
     #[test]
     fn names_are_found_again() {
@@ -233,7 +111,7 @@ mod tests {
 
     #[test]
     fn durations_are_rounded_to_the_nearest_tick() {
-        let ticks = |duration: f64| Move::Dwell { duration }.ticks(0.01);
+        let ticks = |duration: f64| whole_ticks(duration, 0.01);
         assert_eq!(ticks(0.0149), Ok(1));
         assert_eq!(ticks(0.0151), Ok(2));
         assert_eq!(ticks(0.0051), Ok(1));
