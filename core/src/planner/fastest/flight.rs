@@ -4,8 +4,9 @@ use core::f64::consts::TAU;
 
 use super::grid::Nodes;
 use super::half::Half;
+use crate::hub::HubState;
 use crate::math::Scalar;
-use crate::model::RodPoints;
+use crate::model::{Load, RodPoints};
 use crate::planner::prediction::Peak;
 use crate::planner::simulate::Arm;
 use crate::stepper::ArmState;
@@ -30,14 +31,53 @@ pub(super) struct Loads<T> {
 }
 
 /// Returns the steps of an interval of `interval` s, an even number.
-pub(super) fn parts<T: Scalar, const K: usize>(
-    arm: &Arm<T, K>,
-    interval: f64,
-    radians: [f64; 2],
-) -> u32 {
+fn parts<T: Scalar, const K: usize>(arm: &Arm<T, K>, interval: f64, radians: [f64; 2]) -> u32 {
     let [first, highest] = [0, K - 1].map(|k| arm.mode(k)[0].to_f64());
     let turns = (highest / radians[0]).max(first / radians[1]) * interval;
     2 * libm::ceil(0.5 * turns).clamp(1.0, TAU * 1e3) as u32
+}
+
+/// The first half of a move, cut into steps for the arm.
+struct Flight<'a, T, const K: usize, const N: usize> {
+    /// The arm, set up for the steps.
+    arm: Arm<T, K>,
+    points: &'a RodPoints<T, K>,
+    half: &'a Half<T, N>,
+    /// Steps an interval.
+    parts: u32,
+    /// Steps a second.
+    rate: T,
+}
+
+impl<'a, T: Scalar, const K: usize, const N: usize> Flight<'a, T, K, N> {
+    fn new(
+        arm: &Arm<T, K>,
+        points: &'a RodPoints<T, K>,
+        half: &'a Half<T, N>,
+        radians: [f64; 2],
+    ) -> Self {
+        let interval = half.interval.to_f64();
+        let parts = parts(arm, interval, radians);
+        let step = interval / f64::from(parts);
+        Self { arm: arm.undamped(step), points, half, parts, rate: T::from_f64(1.0 / step) }
+    }
+
+    /// Loads of a state.
+    fn load(&self, flex: &ArmState<T, K>, hub: &HubState<T>) -> Load<T> {
+        self.arm.load(self.points, flex, hub)
+    }
+
+    /// Simulates from rest to the end of the half. `each` sees the arm and the hub after each step.
+    fn fly(&self, each: impl FnMut(&ArmState<T, K>, &HubState<T>)) -> ArmState<T, K> {
+        self.arm.simulate(
+            self.points,
+            self.rate,
+            |k| self.half.hub(k, self.parts),
+            N as u32 * self.parts,
+            &ArmState::STRAIGHT,
+            each,
+        )
+    }
 }
 
 /// Simulates from rest to the end of the half; with the torque at the nodes if `loaded`.
@@ -47,32 +87,23 @@ pub(super) fn fly<T: Scalar, const K: usize, const N: usize>(
     half: &Half<T, N>,
     loaded: bool,
 ) -> Landing<T, K, N> {
-    let interval = half.interval.to_f64();
-    let parts = parts(arm, interval, COARSE);
-    let step = interval / f64::from(parts);
-    let arm = arm.undamped(step);
+    let flight = Flight::new(arm, points, half, COARSE);
+    let parts = flight.parts;
     let mut torque = [[T::ZERO; N]; 2];
     let mut done = 0;
-    let end = arm.simulate(
-        points,
-        T::from_f64(1.0 / step),
-        |k| half.hub(k, parts),
-        N as u32 * parts,
-        &ArmState::STRAIGHT,
-        |flex, hub| {
-            done += 1;
-            if !loaded {
-                return;
-            }
-            let here = arm.load(points, flex, hub).torque;
-            // Nearest node, counted from 1: two an interval.
-            let node = ((4 * done + parts) / (2 * parts)).clamp(1, 2 * N as u32) as usize - 1;
-            let greatest = &mut torque[node % 2][node / 2];
-            if here.abs() > greatest.abs() {
-                *greatest = here;
-            }
-        },
-    );
+    let end = flight.fly(|flex, hub| {
+        done += 1;
+        if !loaded {
+            return;
+        }
+        let here = flight.load(flex, hub).torque;
+        // Nearest node, counted from 1: two an interval.
+        let node = ((4 * done + parts) / (2 * parts)).clamp(1, 2 * N as u32) as usize - 1;
+        let greatest = &mut torque[node % 2][node / 2];
+        if here.abs() > greatest.abs() {
+            *greatest = here;
+        }
+    });
     Landing { arm: end, torque }
 }
 
@@ -82,26 +113,16 @@ pub(super) fn fly_finely<T: Scalar, const K: usize, const N: usize>(
     points: &RodPoints<T, K>,
     half: &Half<T, N>,
 ) -> (ArmState<T, K>, Loads<T>) {
-    let interval = half.interval.to_f64();
-    let parts = parts(arm, interval, FINE);
-    let step = interval / f64::from(parts);
-    let arm = arm.undamped(step);
-    let load = arm.load(points, &ArmState::STRAIGHT, &half.hub(0, parts));
+    let flight = Flight::new(arm, points, half, FINE);
+    let load = flight.load(&ArmState::STRAIGHT, &half.hub(0, flight.parts));
     let mut torque = Peak::new(load.torque);
     let mut moment = Peak::new(load.moment);
     let mut bend = Peak::new(load.tip[1]);
-    let end = arm.simulate(
-        points,
-        T::from_f64(1.0 / step),
-        |k| half.hub(k, parts),
-        N as u32 * parts,
-        &ArmState::STRAIGHT,
-        |flex, hub| {
-            let load = arm.load(points, flex, hub);
-            torque.see(load.torque);
-            moment.see(load.moment);
-            bend.see(load.tip[1]);
-        },
-    );
+    let end = flight.fly(|flex, hub| {
+        let load = flight.load(flex, hub);
+        torque.see(load.torque);
+        moment.see(load.moment);
+        bend.see(load.tip[1]);
+    });
     (end, Loads { torque: torque.most, moment: moment.most, deflection: bend.most })
 }
