@@ -15,13 +15,8 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         model: &Model<N, W>,
         tick: f64,
     ) -> Result<Self, Error> {
-        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
-        if K > N {
-            return Err(Error::DegreesOfFreedom { given: N, needed: K });
-        }
-        let tick = check_tick(tick)?;
+        let tick = Self::admit(model, tick)?;
         let scene = model.scene();
-        scene.check_no_carrier()?;
         let (alpha, gravity) = (scene.damping.alpha, scene.in_plane_gravity());
         let modes = Modes::of(model);
         let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);
@@ -75,6 +70,17 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             gravity: scene.gravity_direction(),
         };
         modal.bounded(&omega, gravity)
+    }
+
+    /// Refuses a model that has too few modes or a carrier, and a tick out of range.
+    fn admit<const N: usize, const W: usize>(model: &Model<N, W>, tick: f64) -> Result<f64, Error> {
+        const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
+        if K > N {
+            return Err(Error::DegreesOfFreedom { given: N, needed: K });
+        }
+        let tick = check_tick(tick)?;
+        model.scene().check_no_carrier()?;
+        Ok(tick)
     }
 
     /// Finds the fastest linear tick; refuses a gravity that the tick length does not allow.
