@@ -191,7 +191,7 @@ fn a_generator_follows_the_rows_and_rests() {
     assert!(left < 1e-3 * 0.4, "{left} m");
 }
 
-/// What is not of its kind is planned as ever.
+/// Requests of another kind are planned as ever.
 #[test]
 fn other_requests_are_the_planners_own() {
     let mut damped = member_d();

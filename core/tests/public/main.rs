@@ -11,6 +11,7 @@ mod follow;
 mod generator;
 mod motor;
 mod optimal;
+mod pass;
 mod path;
 mod peaks;
 mod plan;

@@ -105,8 +105,8 @@ fn errors<const W: usize, const Q: usize>(arm: &Arm) -> (f64, f64) {
 
 #[test]
 fn one_link_is_the_special_case() {
-    // Tip and torque with two coordinates, then with three. As measured: 2.6e-2 9.6 %, 1.6e-2 5.8 %,
-    // 6.8e-4 0.87 %, 5.1e-5 0.55 %, 3.0e-4 1.43 %, 3.2e-5 0.98 %, 2.4e-4 0.59 %, 7.9e-6 0.03 %,
+    // Tip and torque with two coordinates, then with three. As measured: 2.6e-2 9.6 %, 1.6e-2 5.8
+    // %, 6.8e-4 0.87 %, 5.1e-5 0.55 %, 3.0e-4 1.43 %, 3.2e-5 0.98 %, 2.4e-4 0.59 %, 7.9e-6 0.03 %,
     // 7.6e-4 0.56 %, 5.2e-5 0.11 %; the last are what is promised.
     let bounds = [
         [(2.8e-2, 0.105), (1.8e-2, 0.065)],

@@ -1,4 +1,4 @@
-//! What no chain is made of, and what no chain does.
+//! Refusals of mechanisms that no chain has, and of motions that none makes.
 
 use stillbeam::chain::{Chain, ChainGenerator};
 use stillbeam::mechanism::{Closure, Joint, Link, Mechanism, Stiffness};

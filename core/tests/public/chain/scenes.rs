@@ -6,7 +6,8 @@ use stillbeam::chain::{Chain, ChainGenerator, ChainSetpoint};
 use stillbeam::mechanism::{Closing, Closure, Joint, Link, Mechanism};
 use stillbeam::{Move, Profile, Scalar};
 
-/// A move of one joint: its number from 0, when it begins (s), how long it takes (s), its end (rad).
+/// A move of one joint: its number from 0, when it begins (s), how long it takes (s), its end
+/// (rad).
 #[derive(Clone, Copy)]
 pub struct Turn {
     pub joint: usize,
