@@ -1,6 +1,5 @@
 //! The machine in time.
 
-use differential_equations::methods::{DiagonallyImplicitRungeKutta, ExplicitRungeKutta};
 use differential_equations::ode::OrdinaryNumericalMethod;
 use stillbeam::{AxisKind, Scene};
 
@@ -8,7 +7,8 @@ use super::Parts;
 use super::derivative::{Driving, Row, State, System};
 use crate::error::Error;
 use crate::reference::ReferenceError;
-use crate::reference::advance::{advance, failure};
+use crate::reference::advance::{NOT_FINITE, advance, failure};
+use crate::reference::integrators::{explicit, implicit};
 use crate::reference::rod::{Integrator, driven};
 
 /// Torque of the motor at its shaft, N m, after its limits.
@@ -139,18 +139,10 @@ impl Plant {
         let tolerance = self.tolerance;
         match self.integrator {
             Integrator::Explicit => {
-                let method = ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance);
-                self.march(method.h0(first).max_steps(usize::MAX), until, effort)?;
+                self.march(explicit(tolerance, first), until, effort)?;
             }
             Integrator::Implicit => {
-                let method = DiagonallyImplicitRungeKutta::kvaerno745()
-                    .rtol(tolerance)
-                    .atol(tolerance)
-                    .newton_tol(0.1 * tolerance)
-                    .h0(first)
-                    .max_steps(usize::MAX)
-                    .max_rejects(usize::MAX);
-                self.march(method, until, effort)?;
+                self.march(implicit(tolerance, first), until, effort)?;
             }
         }
         Ok(())
@@ -165,7 +157,7 @@ impl Plant {
         let driving = Driving { system: &self.system, effort };
         let begin = self.t;
         method.init(&driving, begin, until, &self.y).map_err(|error| failure(begin, error))?;
-        advance(&mut method, &driving, begin, until, &mut |_, _| ())?;
+        advance(&mut method, &driving, [begin, until], NOT_FINITE, &mut |_, _| ())?;
         (self.y, self.t, self.step) = (*method.y(), until, Some(method.h()));
         Ok(())
     }

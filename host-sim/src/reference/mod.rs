@@ -13,7 +13,9 @@ use std::fmt;
 pub(crate) mod advance;
 mod carrying;
 pub mod fem;
+pub(crate) mod integrators;
 pub mod mechanism;
+mod option;
 pub mod rod;
 mod schedule;
 

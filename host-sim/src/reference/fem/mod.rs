@@ -19,6 +19,7 @@ use model::Model;
 use newmark::March;
 use stillbeam::Scene;
 
+use super::option::within;
 use super::schedule::Schedule;
 use super::{ReferenceError, Sample};
 use crate::trajectory::Trajectory;
@@ -69,21 +70,14 @@ impl Default for Options {
 
 impl Options {
     fn validate(&self) -> Result<(), ReferenceError> {
-        let check = |name: &str, value: f64, min: f64, max: f64, wanted| {
-            if (min..=max).contains(&value) {
-                Ok(())
-            } else {
-                Err(ReferenceError::Options { given: format!("{name} = {value}"), wanted })
-            }
-        };
-        check("elements", self.elements as f64, 1.0, 1000.0, "1 to 1000")?;
-        check("step", self.step.unwrap_or(1e-3), 1e-9, 1.0, "1e-9 to 1 s")?;
-        check("axial_stiffness", self.axial_stiffness, 1e2, 1e9, "1e2 to 1e9")?;
-        check("tolerance", self.tolerance, 1e-12, 1e-2, "1e-12 to 1e-2")?;
+        within("elements", self.elements as f64, [1.0, 1000.0], "1 to 1000")?;
+        within("step", self.step.unwrap_or(1e-3), [1e-9, 1.0], "1e-9 to 1 s")?;
+        within("axial_stiffness", self.axial_stiffness, [1e2, 1e9], "1e2 to 1e9")?;
+        within("tolerance", self.tolerance, [1e-12, 1e-2], "1e-12 to 1e-2")?;
         match self.hub {
             HubModel::Rigid => Ok(()),
             HubModel::Element { stiffness } => {
-                check("hub.stiffness", stiffness, 1.0, 1e7, "1 to 1e7")
+                within("hub.stiffness", stiffness, [1.0, 1e7], "1 to 1e7")
             }
         }
     }

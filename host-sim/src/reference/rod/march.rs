@@ -1,13 +1,13 @@
 //! Integrates the rod in time with a library's Runge-Kutta methods.
 
-use differential_equations::methods::{DiagonallyImplicitRungeKutta, ExplicitRungeKutta};
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use nalgebra::{SMatrix, SVector};
 
 use super::equations::Rod;
 use super::{Integrator, Load, Options, Resume};
-use crate::reference::advance::{advance, failure};
+use crate::reference::advance::{NOT_FINITE, advance, failure};
 use crate::reference::carrying::global;
+use crate::reference::integrators::{explicit, implicit};
 use crate::reference::schedule::{Schedule, Stretch};
 use crate::reference::{ReferenceError, Sample};
 
@@ -132,21 +132,8 @@ fn go<const N: usize, const P: usize, const S: usize>(
     each_step: &mut dyn FnMut(f64, &State<N>),
 ) -> Result<State<N>, ReferenceError> {
     match integrator {
-        Integrator::Explicit => {
-            let method =
-                ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
-            march(method, motion, start, visit, each_step)
-        }
-        Integrator::Implicit => {
-            let method = DiagonallyImplicitRungeKutta::kvaerno745()
-                .rtol(tolerance)
-                .atol(tolerance)
-                .newton_tol(0.1 * tolerance)
-                .max_steps(usize::MAX)
-                // The library counts all rejections, not those in a row.
-                .max_rejects(usize::MAX);
-            march(method, motion, start, visit, each_step)
-        }
+        Integrator::Explicit => march(explicit(tolerance, 0.0), motion, start, visit, each_step),
+        Integrator::Implicit => march(implicit(tolerance, 0.0), motion, start, visit, each_step),
     }
 }
 
@@ -171,10 +158,10 @@ fn march<const N: usize, const P: usize, const S: usize>(
     method.init(motion, begin, end, &start).map_err(|error| failure(begin, error))?;
     let (inside, at_end) = times.split_at(times.partition_point(|&t| t < end));
     for &t in inside {
-        advance(&mut method, motion, begin, t, each_step)?;
+        advance(&mut method, motion, [begin, t], NOT_FINITE, each_step)?;
         visit(t, method.y());
     }
-    advance(&mut method, motion, begin, end, each_step)?;
+    advance(&mut method, motion, [begin, end], NOT_FINITE, each_step)?;
     for &t in at_end {
         visit(t, method.y());
     }

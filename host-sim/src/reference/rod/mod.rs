@@ -37,6 +37,7 @@ use equations::{UniformRod, VariedRod};
 use stillbeam::hub::HubState;
 use stillbeam::{Angle, Scene};
 
+use super::option::within;
 use super::schedule::Schedule;
 use super::{ReferenceError, Sample};
 use crate::trajectory::Trajectory;
@@ -94,10 +95,7 @@ pub fn solve_with(
     progress: &dyn Fn(f64),
 ) -> Result<Vec<Sample>, ReferenceError> {
     let scene = scene.validate()?;
-    if !(1e-12..=1e-4).contains(&options.tolerance) {
-        let given = format!("tolerance = {}", options.tolerance);
-        return Err(ReferenceError::Options { given, wanted: "1e-12 to 1e-4" });
-    }
+    within("tolerance", options.tolerance, [1e-12, 1e-4], "1e-12 to 1e-4")?;
     let schedule = Schedule::new(trajectory, times)?;
     with_rod!(&scene, options.order, |rod| march::run(&rod, &schedule, options, progress))
 }

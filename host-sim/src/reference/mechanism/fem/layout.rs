@@ -1,8 +1,8 @@
 //! Unknowns of the mesh, and the points that follow from them.
 //!
 //! Every flexible link has nodes of its own between its ends. Its far end is a master: place and
-//! rotation are unknowns. Its near end, the clamp, follows from the joint that carries it, and so do
-//! rigid links. A pinned tip is a fixed point; rigid links before it follow from the pin.
+//! rotation are unknowns. Its near end, the clamp, follows from the joint that carries it, and so
+//! do rigid links. A pinned tip is a fixed point; rigid links before it follow from the pin.
 
 use stillbeam::mechanism::Mechanism;
 

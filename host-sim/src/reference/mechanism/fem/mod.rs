@@ -1,11 +1,11 @@
 //! The finite element method for chains and loops, step by step in the global frame: corotational
 //! elements, all nodes of all links in one system, Newmark's rule with equilibrium iterations.
 //!
-//! It is the formulation of Kato and Isobe for link systems: nodal forces first, then the torques of
-//! all joints at once, lengths × directions × forces. The unknowns are global places and rotations of
-//! nodes; the frame of every element is updated in every iteration. A joint ties the clamp of a link
-//! to the end of the one before, a pinned tip is a fixed node. Error: of second order in the step, of
-//! fourth in the element's length.
+//! It is the formulation of Kato and Isobe for link systems: nodal forces first, then the torques
+//! of all joints at once, lengths × directions × forces. The unknowns are global places and
+//! rotations of nodes; the frame of every element is updated in every iteration. A joint ties the
+//! clamp of a link to the end of the one before, a pinned tip is a fixed node. Error: of second
+//! order in the step, of fourth in the element's length.
 
 mod band;
 mod layout;
@@ -22,6 +22,7 @@ use super::timetable::{Stretch, Timetable};
 use crate::mechanism::table::Row;
 use crate::mechanism::{Drives, Moving, first_pin};
 use crate::reference::ReferenceError;
+use crate::reference::option::within;
 
 /// Steps of the implicit Euler rule after an impact, together one step.
 const SOFT_STEPS: u32 = 4;
@@ -48,26 +49,19 @@ impl Default for Options {
 
 impl Options {
     fn validate(&self) -> Result<(), ReferenceError> {
-        let check = |name: &str, value: f64, min: f64, max: f64, wanted| {
-            if (min..=max).contains(&value) {
-                Ok(())
-            } else {
-                Err(ReferenceError::Options { given: format!("{name} = {value}"), wanted })
-            }
-        };
-        check("elements", self.elements as f64, 1.0, 1000.0, "1 to 1000")?;
-        check("step", self.step, 1e-7, 0.1, "1e-7 to 0.1 s")?;
-        check("axial_stiffness", self.axial_stiffness, 1e2, 1e9, "1e2 to 1e9")?;
-        check("tolerance", self.tolerance, 1e-12, 1e-2, "1e-12 to 1e-2")
+        within("elements", self.elements as f64, [1.0, 1000.0], "1 to 1000")?;
+        within("step", self.step, [1e-7, 0.1], "1e-7 to 0.1 s")?;
+        within("axial_stiffness", self.axial_stiffness, [1e2, 1e9], "1e2 to 1e9")?;
+        within("tolerance", self.tolerance, [1e-12, 1e-2], "1e-12 to 1e-2")
     }
 }
 
 /// Solves a run of a mechanism and samples it at `times` (s, ascending, within the run). Calls
 /// `progress` with the fraction of the run that is done.
 ///
-/// The mechanism starts from rest in static equilibrium. The rod tells the angles at which a loop of
-/// straight links closes. Steps are cut so that every sample time and every break of the commanded
-/// motion ends one.
+/// The mechanism starts from rest in static equilibrium. The rod tells the angles at which a loop
+/// of straight links closes. Steps are cut so that every sample time and every break of the
+/// commanded motion ends one.
 pub fn solve(
     mechanism: &Mechanism,
     drives: &Drives,

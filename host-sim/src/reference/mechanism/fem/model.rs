@@ -31,7 +31,7 @@ pub(super) struct Model {
 struct Assembly<'a> {
     state: &'a State,
     change: &'a Change,
-    /// What holds a mass against gravity, m/s².
+    /// Acceleration that holds a mass against gravity, m/s².
     lift: Vector2<f64>,
     system: &'a mut System,
 }

@@ -57,8 +57,8 @@ impl March {
         self.size() <= self.options.tolerance.max(self.rounding())
     }
 
-    /// Recomputes the accelerations when the commanded ones jump. Carrying the old ones across would
-    /// cost the rule its second order.
+    /// Recomputes the accelerations when the commanded ones jump. Carrying the old ones across
+    /// would cost the rule its second order.
     pub fn restart(&mut self, drives: &[Moving], time: f64) -> Result<(), ReferenceError> {
         self.next.clone_from(&self.state);
         self.next.drives.copy_from_slice(drives);
@@ -84,9 +84,9 @@ impl March {
         Ok(())
     }
 
-    /// Advances by a step of h s of the implicit Euler rule, `u⁺ = u + h u̇⁺`, `u̇⁺ = u̇ + h ü⁺`. It
-    /// lets what an impact leaves at the tip, far above what the links' damping carries, die out,
-    /// where Newmark's rule would keep it. Accelerations before the step take no part.
+    /// Advances by a step of h s of the implicit Euler rule, `u⁺ = u + h u̇⁺`, `u̇⁺ = u̇ + h ü⁺`.
+    /// It lets what an impact leaves at the tip, far above what the links' damping carries, die
+    /// out, where Newmark's rule would keep it. Accelerations before the step take no part.
     pub fn step_softly(
         &mut self,
         drives: &[Moving],
@@ -105,8 +105,8 @@ impl March {
         Ok(())
     }
 
-    /// Lets the released joints go, stops the tip by an impact and pins it where it is. Links do not
-    /// stretch in an impact.
+    /// Lets the released joints go, stops the tip by an impact and pins it where it is. Links do
+    /// not stretch in an impact.
     pub fn close(&mut self) -> Option<()> {
         let mechanism = self.model.mechanism.clone();
         let released = Model::new(&mechanism, &self.options, true, None)?;

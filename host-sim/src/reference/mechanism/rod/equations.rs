@@ -7,7 +7,7 @@ use stillbeam::scene::Damping;
 use super::chain::Chain;
 use super::kinematics::{Inertias, Motion};
 
-/// What is solved for: the free coordinates, and the pin where the tip is held.
+/// Unknowns of the equations: the free coordinates, and the pin where the tip is held.
 pub(super) struct Freedom {
     /// Indices of the free coordinates.
     pub free: Vec<usize>,
@@ -20,11 +20,12 @@ pub(super) struct Freedom {
 const PIN_RATE: f64 = 100.0;
 
 impl Chain {
-    /// Computes the accelerations of the free coordinates, into `motion.a`, where those of the driven
-    /// joints are given. Returns the forces on all coordinates: 0 on free ones, a driven joint's
-    /// torque. `None` if the pin asks for what the free coordinates cannot give.
+    /// Computes the accelerations of the free coordinates, into `motion.a`, where those of the
+    /// driven joints are given. Returns the forces on all coordinates: 0 on free ones, a driven
+    /// joint's torque. `None` if the pin asks for what the free coordinates cannot give.
     ///
-    /// Solves `M q̈ + f + K(q + βq̇) = Gᵀλ` and, of a pinned tip, `G q̈ + ẍ₀ + 2γẋ + γ²(x − pin) = 0`.
+    /// Solves `M q̈ + f + K(q + βq̇) = Gᵀλ` and, of a pinned tip, `G q̈ + ẍ₀ + 2γẋ + γ²(x − pin) =
+    /// 0`.
     pub fn accelerate(&self, motion: &mut Motion, freedom: &Freedom) -> Option<DVector<f64>> {
         for &i in &freedom.free {
             motion.a[i] = 0.0;

@@ -1,10 +1,7 @@
 //! Integrates the chain in time with a library's Runge-Kutta methods.
 
-use differential_equations::error::Error;
 use differential_equations::linalg::Matrix;
-use differential_equations::methods::{DiagonallyImplicitRungeKutta, ExplicitRungeKutta};
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
-use differential_equations::status::Status;
 use nalgebra::DVector;
 
 use super::begin::{begin, pinned};
@@ -14,6 +11,8 @@ use super::kinematics::{Inertias, Motion};
 use crate::mechanism::Moving;
 use crate::mechanism::table::Row;
 use crate::reference::ReferenceError;
+use crate::reference::advance::{advance, failure};
+use crate::reference::integrators::{explicit, implicit};
 use crate::reference::mechanism::timetable::{Stretch, Timetable};
 
 /// State of the free coordinates, then of their rates divided by [`Flight::scale`], so that one
@@ -136,17 +135,9 @@ pub(super) fn run(
             Ok(())
         };
         y = if stiff {
-            let method = DiagonallyImplicitRungeKutta::kvaerno745()
-                .rtol(tolerance)
-                .atol(tolerance)
-                .newton_tol(0.1 * tolerance)
-                .max_steps(usize::MAX)
-                .max_rejects(usize::MAX);
-            march(method, &flight, y, &mut visit)?
+            march(implicit(tolerance, 0.0), &flight, y, &mut visit)?
         } else {
-            let method =
-                ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
-            march(method, &flight, y, &mut visit)?
+            march(explicit(tolerance, 0.0), &flight, y, &mut visit)?
         };
         motion = flight.motion(&y, |joint| timetable.before(joint, stretch.end));
     }
@@ -169,56 +160,21 @@ fn march(
     method.init(flight, begin, end, &start).map_err(|error| failure(begin, error))?;
     let (inside, at_end) = times.split_at(times.partition_point(|&t| t < end));
     for &t in inside {
-        advance(&mut method, flight, t)?;
+        advance(&mut method, flight, [begin, t], LOCKED, &mut |_, _| ())?;
         visit(t, method.y())?;
     }
-    advance(&mut method, flight, end)?;
+    advance(&mut method, flight, [begin, end], LOCKED, &mut |_, _| ())?;
     for &t in at_end {
         visit(t, method.y())?;
     }
     Ok(method.y().clone())
 }
 
-/// Steps to exactly `stop`, s.
-fn advance(
-    method: &mut impl OrdinaryNumericalMethod<f64, State>,
-    flight: &Flight<'_>,
-    stop: f64,
-) -> Result<(), ReferenceError> {
-    let begin = flight.stretch.begin;
-    // Rounding may leave a sliver before a stop; a step that small is none.
-    while stop - method.t() > 1e-13 * stop.max(1.0) {
-        let proposed = method.h();
-        if !proposed.is_finite() {
-            return Err(locked(method.t()));
-        }
-        let left = stop - method.t();
-        let cut = proposed >= left;
-        if cut {
-            method.set_h(left);
-        }
-        method.step(flight).map_err(|error| failure(begin, error))?;
-        if cut && !matches!(method.status(), Status::RejectedStep) {
-            method.set_h(proposed.max(method.h()));
-        }
-    }
-    Ok(())
-}
-
-fn failure(begin: f64, error: Error<f64, State>) -> ReferenceError {
-    let (time, reason) = match error {
-        Error::MaxSteps { t, .. } => (t, "too many steps".to_owned()),
-        Error::StepSize { t, .. } => (t, "the step became too small".to_owned()),
-        Error::Stiffness { t, .. } => (t, "too many steps in a row were rejected".to_owned()),
-        Error::LinearAlgebra { t, msg, .. } => (t, msg),
-        other => (begin, format!("{other:?}")),
-    };
-    ReferenceError::Integration { time, reason }
-}
+/// Reason of a chain whose accelerations are lost.
+const LOCKED: &str = "the loop locks: its free joints and links cannot follow";
 
 fn locked(time: f64) -> ReferenceError {
-    let reason = "the loop locks: its free joints and links cannot follow".to_owned();
-    ReferenceError::Integration { time, reason }
+    ReferenceError::Integration { time, reason: LOCKED.to_owned() }
 }
 
 /// Returns the row of a state of motion with these forces on all coordinates.

@@ -20,6 +20,7 @@ use super::timetable::Timetable;
 use crate::mechanism::Drives;
 use crate::mechanism::table::Row;
 use crate::reference::ReferenceError;
+use crate::reference::option::within;
 
 /// Options of the solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,13 +73,8 @@ pub fn solve(
     options: &Options,
     progress: &dyn Fn(f64),
 ) -> Result<Vec<Row>, ReferenceError> {
-    let refuse = |given, wanted| Err(ReferenceError::Options { given, wanted });
-    if !(2..=8).contains(&options.order) {
-        return refuse(format!("order = {}", options.order), "2 to 8 polynomials");
-    }
-    if !(1e-12..=1e-4).contains(&options.tolerance) {
-        return refuse(format!("tolerance = {}", options.tolerance), "1e-12 to 1e-4");
-    }
+    within("order", options.order as f64, [2.0, 8.0], "2 to 8 polynomials")?;
+    within("tolerance", options.tolerance, [1e-12, 1e-4], "1e-12 to 1e-4")?;
     let chain = Chain::new(mechanism, options.order);
     let timetable = Timetable::new(mechanism, drives, times)?;
     march::run(&chain, &timetable, options.tolerance, progress)

@@ -21,8 +21,8 @@ impl Chain {
         Motion { q, v: zeros.clone(), a: zeros }
     }
 
-    /// Moves the tip to the pin by Gauss-Newton steps of least norm in the free coordinates `moved`.
-    /// Returns false if it cannot be reached.
+    /// Moves the tip to the pin by Gauss-Newton steps of least norm in the free coordinates
+    /// `moved`. Returns false if it cannot be reached.
     pub fn close(&self, motion: &mut Motion, moved: &[usize], pin: Vector2<f64>) -> bool {
         let reach = self.mechanism.total_length();
         for _ in 0..100 {
