@@ -45,7 +45,7 @@ fn no_accepted_duration_is_passed_over() {
     let (duration, robust) = (None, None);
     let (from, to, settle, count) = (0.0, PI, 0.0, 1);
     let asked = Asked { before, limits, from, to, duration, robust, settle, count };
-    let plan = asked.plan_fastest().expect("a search").expect("a move");
+    let (plan, _) = asked.plan_fastest().expect("a search").expect("a move");
     let bound = shortest::rigid_bound(PI, limits, TICK).expect("a limit");
     assert!(plan.duration() < 1.62 && plan.duration() > bound, "{} {bound}", plan.duration());
 }

@@ -80,12 +80,11 @@ impl Asked<'_> {
         let prediction = search.planner.predict(&plan, None);
         Ok(Kept { plan, prediction, first_period: search.planner.first_period() })
     }
-}
 
-impl Asked<'_> {
     /// Plans the fastest move with a piecewise-linear acceleration, in f64, within the limits on
-    /// the reference rod. `None` for what is not its kind, or if it does not converge.
-    pub fn plan_fastest(&self) -> Result<Option<FastestMove<INTERVALS>>, Error> {
+    /// the reference rod, and returns `2π/ω₁`, s, beside it. `None` for what is not its kind, or if
+    /// it does not converge.
+    pub fn plan_fastest(&self) -> Result<Option<(FastestMove<INTERVALS>, f64)>, Error> {
         if self.duration.is_some() || self.robust.is_some() || !self.before.steps.is_empty() {
             return Ok(None);
         }
@@ -100,7 +99,7 @@ impl Asked<'_> {
             let Some(found) = precise.fastest(&request)? else { return Ok(None) };
             let over = search.over_along(shortest::path(&found), self.limits)?;
             if over.is_empty() {
-                return Ok(Some(found));
+                return Ok(Some((found, search.planner.first_period())));
             }
             for excess in over {
                 if let Some(limit) = excess.quantity.of_mut(&mut limits) {

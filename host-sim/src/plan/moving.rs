@@ -1,7 +1,8 @@
-//! A picture that moves: the arm as it bends along a quintic and along the still move, in real time.
+//! A picture that moves: the arm as it bends along a quintic and along the still move, in real
+//! time.
 //!
-//! SVG with its own animation, so that it moves wherever a picture is shown. The shapes are those of
-//! the core's exact kinematics in two modes.
+//! SVG with its own animation, so that it moves wherever a picture is shown. The shapes are those
+//! of the core's exact kinematics in two modes.
 
 use std::fmt::Write;
 

@@ -18,8 +18,8 @@ use stillbeam::planner::ShortestMove;
 use stillbeam::{Move, Profile};
 
 /// Writes `index.html`, a picture for each chart, the one that moves (`moving.svg`, of an arm that
-/// turns and bends by no more than two modes follow), and `plan.csv` into a folder. Returns the page's
-/// path.
+/// turns and bends by no more than two modes follow), and `plan.csv` into a folder. Returns the
+/// page's path.
 pub fn write(
     folder: &Path,
     name: &str,

@@ -1,7 +1,7 @@
 //! A request for a still move, and the results for it.
 
 use rayon::prelude::*;
-use stillbeam::planner::{FastestMove, Planner, Prediction, ShortestMove};
+use stillbeam::planner::{Prediction, ShortestMove};
 use stillbeam::{Limits, Scene};
 
 use super::judge::{Judgement, Motion};
@@ -56,19 +56,14 @@ pub struct Planned {
 impl Request {
     /// Plans in f32, as the target does, within the limits on the reference rod.
     pub fn plan(&self) -> Result<Kept, Error> {
-        let Self { arm, from, to, duration, limits, robust, tick } = self;
-        let before = Case { arm, from: *from, steps: &[], shaper: None, tick: *tick };
-        let (from, to, duration, robust) = (*from, *to, *duration, *robust);
-        Asked { before, limits, from, to, duration, robust, settle: 0.0, count: 1 }.plan()
+        self.asked().plan()
     }
 
-    /// Plans in f64, with the fastest motion that keeps the limits on the reference rod. `None`
-    /// where [`Self::plan`] has to answer.
-    fn plan_fastest(&self) -> Result<Option<FastestMove<INTERVALS>>, Error> {
+    fn asked(&self) -> Asked<'_> {
         let Self { arm, from, to, duration, limits, robust, tick } = self;
         let before = Case { arm, from: *from, steps: &[], shaper: None, tick: *tick };
         let (from, to, duration, robust) = (*from, *to, *duration, *robust);
-        Asked { before, limits, from, to, duration, robust, settle: 0.0, count: 1 }.plan_fastest()
+        Asked { before, limits, from, to, duration, robust, settle: 0.0, count: 1 }
     }
 
     /// Returns the rod's peak loads along a motion.
@@ -83,14 +78,14 @@ impl Request {
 
     /// Plans and judges. `tick` is called once for each of [`ERRORS`].
     pub fn carry_out(&self, tick: &(dyn Fn() + Sync)) -> Result<Planned, Error> {
-        let (plan, prediction) = if let Some(fastest) = self.plan_fastest()? {
-            (ShortestMove::Fastest(fastest), fastest.prediction)
-        } else {
-            let Kept { plan, prediction, .. } = self.plan()?;
-            (ShortestMove::Still(plan), prediction)
+        let (plan, prediction, first_period) = match self.asked().plan_fastest()? {
+            Some((fastest, period)) => (ShortestMove::Fastest(fastest), fastest.prediction, period),
+            None => {
+                let Kept { plan, prediction, first_period } = self.plan()?;
+                (ShortestMove::Still(plan), prediction, first_period)
+            }
         };
         let along = shortest::motion(&plan);
-        let first_period = Planner::<f32, 2>::new(&self.arm, self.tick)?.first_period();
         let motion = Motion::of(self.from, along.clone(), self.tick);
         let judgements = ERRORS
             .par_iter()
