@@ -41,6 +41,20 @@ pub struct Row {
 }
 
 impl Row {
+    /// Returns the numbers that every row has, in the order of [`columns`].
+    pub fn numbers(&self) -> [f64; 8] {
+        [
+            self.t_s,
+            self.hub_angle_rad,
+            self.hub_rate_rad_s,
+            self.hub_accel_rad_s2,
+            self.tip_x_m,
+            self.tip_y_m,
+            self.deflection_m,
+            self.torque_nm,
+        ]
+    }
+
     /// Rounds every number to the digits that are written: nine, the time twelve.
     fn rounded(self) -> Self {
         Self {
@@ -129,20 +143,8 @@ pub fn read(path: &Path) -> Result<Vec<Row>, Error> {
     for (index, row) in csv.deserialize().enumerate() {
         let line = index + 2;
         let row: Row = row.map_err(|error| Error::file(path, explained(&error, &header)))?;
-        let finite = [
-            row.t_s,
-            row.hub_angle_rad,
-            row.hub_rate_rad_s,
-            row.hub_accel_rad_s2,
-            row.tip_x_m,
-            row.tip_y_m,
-            row.deflection_m,
-            row.torque_nm,
-            row.payload_x_m.unwrap_or(0.0),
-            row.payload_y_m.unwrap_or(0.0),
-        ]
-        .iter()
-        .all(|value| value.is_finite());
+        let payload = [row.payload_x_m, row.payload_y_m].map(|x| x.unwrap_or(0.0));
+        let finite = row.numbers().iter().chain(&payload).all(|value| value.is_finite());
         if !finite {
             return Err(Error::file(path, format_args!("line {line}: all numbers must be finite")));
         }

@@ -3,7 +3,6 @@
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::run::run;
 use stillbeam_sim::scene_file::SceneFile;
-use stillbeam_sim::table::Row;
 use stillbeam_tests::browser::Browser;
 
 use super::open;
@@ -28,20 +27,6 @@ fn scene_of(kind: &str, text: &str) -> SceneFile {
     let real = parse(&text.replace(STIFFNESS, &STIFFNESS[2..]));
     // The motion stays the one that is planned for the file's own arm.
     SceneFile { moves: parse(text).moves, ..real }
-}
-
-/// Columns of the page's table.
-fn columns(row: &Row) -> [f64; 8] {
-    [
-        row.t_s,
-        row.hub_angle_rad,
-        row.hub_rate_rad_s,
-        row.hub_accel_rad_s2,
-        row.tip_x_m,
-        row.tip_y_m,
-        row.deflection_m,
-        row.torque_nm,
-    ]
 }
 
 /// Returns the rows of a motion in the page, of ten numbers each.
@@ -70,7 +55,7 @@ fn every_setpoint_has_the_bits_of_run() {
             let shown = table(&mut browser, kind);
             assert_eq!(shown.len(), rows.len(), "{settings}: {kind}");
             for (shown, row) in shown.iter().zip(&rows) {
-                let expected = columns(row);
+                let expected = row.numbers();
                 let same = (0..8).all(|k| shown[k].to_bits() == expected[k].to_bits());
                 assert!(same, "{settings}: {kind}: {shown:?} is not {expected:?}");
             }

@@ -70,17 +70,7 @@ impl Generator {
     /// Makes a tick. Returns time s, hub angle rad, rate rad/s and acceleration rad/s², the tip in
     /// the global frame, its deflection, m, and the torque, N m.
     fn tick(&mut self) -> (f64, f64, f64, f64, f64, f64, f64, f64) {
-        let row = self.rows(1).list[0];
-        (
-            row.t_s,
-            row.hub_angle_rad,
-            row.hub_rate_rad_s,
-            row.hub_accel_rad_s2,
-            row.tip_x_m,
-            row.tip_y_m,
-            row.deflection_m,
-            row.torque_nm,
-        )
+        self.rows(1).list[0].numbers().into()
     }
 
     /// Makes `count` ticks and returns their setpoints.
