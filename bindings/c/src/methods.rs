@@ -4,8 +4,7 @@
 
 use stillbeam::axis::{Axis, Policy};
 use stillbeam::prepared::Prepared;
-use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
-use stillbeam::{Angle, Error, Stepper, UniformScene};
+use stillbeam::{Angle, Error, Stepper, UniformScene, stepper};
 
 use crate::fault::Fault;
 use crate::setup::{Method, Setup};
@@ -112,45 +111,46 @@ macro_rules! methods {
 }
 
 methods! {
-    "elastica1" Elastica1: Elastica<f32, 1> = elastica;
-    "elastica2" Elastica2: Elastica<f32, 2> = elastica;
-    "elastica3" Elastica3: Elastica<f32, 3> = elastica;
-    "modal2" Modal2: Modal<f32, 2> = modal;
-    "newmark1" Newmark1: Newmark<f32, 2, 2> = newmark;
-    "rigid" Rigid: Rigid<f32> = rigid;
+    "elastica1" Elastica1: stepper::Elastica<f32, 1> = elastica;
+    "elastica2" Elastica2: stepper::Elastica<f32, 2> = elastica;
+    "elastica3" Elastica3: stepper::Elastica<f32, 3> = elastica;
+    "modal2" Modal2: stepper::Modal<f32, 2> = modal;
+    "newmark1" Newmark1: stepper::Newmark<f32, 2, 2> = newmark;
+    "rigid" Rigid: stepper::Rigid<f32> = rigid;
 }
 
 fn axis<S: Stepper<Scalar = f32>>(stepper: S, policy: Policy) -> Result<Axis<S, QUEUE>, Error> {
     Axis::new(stepper, Angle { turns: 0, part: 0.0 }, policy)
 }
 
-/// Fits elastica for the bend that the limit of the acceleration makes, or for the one that is given.
-#[allow(dead_code)]
+/// Fits elastica for the bend that the limit of the acceleration makes, or for the one that is
+/// given.
+#[cfg(any(feature = "elastica1", feature = "elastica2", feature = "elastica3"))]
 fn elastica<const K: usize>(
     scene: &UniformScene,
     setup: &Setup,
-) -> Result<Elastica<f32, K>, Error> {
+) -> Result<stepper::Elastica<f32, K>, Error> {
     let rod = stillbeam::model::Rod::<K>::new(scene)?;
     let bend = if setup.bend == 0.0 {
-        Elastica::<f32, K>::nearest_bend(rod.bend(setup.acceleration))
+        stepper::Elastica::<f32, K>::nearest_bend(rod.bend(setup.acceleration))
     } else {
         setup.bend
     };
-    let quality = if setup.fine == 0 { Quality::Fast } else { Quality::Fine };
-    Elastica::new(&rod, setup.tick, quality, bend)
+    let quality = if setup.fine == 0 { stepper::Quality::Fast } else { stepper::Quality::Fine };
+    stepper::Elastica::new(&rod, setup.tick, quality, bend)
 }
 
-#[allow(dead_code)]
-fn modal(scene: &UniformScene, setup: &Setup) -> Result<Modal<f32, 2>, Error> {
-    Modal::new(&stillbeam::model::EightElements::consistent(scene)?, setup.tick)
+#[cfg(feature = "modal2")]
+fn modal(scene: &UniformScene, setup: &Setup) -> Result<stepper::Modal<f32, 2>, Error> {
+    stepper::Modal::new(&stillbeam::model::EightElements::consistent(scene)?, setup.tick)
 }
 
-#[allow(dead_code)]
-fn newmark(scene: &UniformScene, setup: &Setup) -> Result<Newmark<f32, 2, 2>, Error> {
-    Newmark::new(&stillbeam::model::OneElement::consistent(scene)?, setup.tick)
+#[cfg(feature = "newmark1")]
+fn newmark(scene: &UniformScene, setup: &Setup) -> Result<stepper::Newmark<f32, 2, 2>, Error> {
+    stepper::Newmark::new(&stillbeam::model::OneElement::consistent(scene)?, setup.tick)
 }
 
-#[allow(dead_code)]
-fn rigid(scene: &UniformScene, setup: &Setup) -> Result<Rigid<f32>, Error> {
-    Rigid::new(scene, setup.tick)
+#[cfg(feature = "rigid")]
+fn rigid(scene: &UniformScene, setup: &Setup) -> Result<stepper::Rigid<f32>, Error> {
+    stepper::Rigid::new(scene, setup.tick)
 }
