@@ -51,6 +51,8 @@ fn a_stiff_drive_leaves_what_the_planner_says() {
     assert!(report.no_still.is_none(), "{:?}", report.no_still);
     let hub = |trial: &Trial| of(&report, trial).judged.hub;
     assert!(hub(&Trial::PLAIN) < 0.1 * hub(&POSITION));
+    let text = report.conclusion();
+    assert!(!text.contains(" 0.000 ") && !text.contains(" 0.00 "), "digits are lost: {text}");
     let still = of(&report, &Trial::STILL).judged.residual;
     assert!(still < 1e-3, "{still}");
     for factor in [0.9, 1.1] {
