@@ -1,4 +1,4 @@
-//! What a run says of its method: the choice of `auto`, and a remark on one that is named by hand.
+//! Remarks of a run on its method: the choice of `auto`, and a remark on one that is named by hand.
 
 use stillbeam::select::{Assessment, Choice, Tolerance};
 

@@ -24,11 +24,11 @@ pub const FACTS: usize = 8;
 pub struct Arm {
     /// The arm that the motions are planned for.
     pub scene: UniformScene,
-    /// What is asked for.
+    /// The motion that is asked for.
     pub input: Input,
     /// Its modes.
     pub rod: Rod<2>,
-    /// What it looks like.
+    /// The arm as it is drawn.
     pub centreline: Centreline,
     /// Time of rest after a move, s: whole ticks, at least a first period.
     pub rest: f64,

@@ -1,9 +1,9 @@
 //! The pages of docs/ as a reader takes them: what they say to type runs, their files are what they
 //! say, and their links lead somewhere.
 //!
-//! A block that begins with a kind and a name (`toml arm.toml`) is a file of that name. The lines of
-//! a block `sh` are commands, which run in a folder with the page's files; those of `sh yours` name
-//! files of the reader's own, and fail for want of them only.
+//! A block that begins with a kind and a name (`toml arm.toml`) is a file of that name. The lines
+//! of a block `sh` are commands, which run in a folder with the page's files; those of `sh yours`
+//! name files of the reader's own, and fail for want of them only.
 
 use std::fs;
 use std::path::{Path, PathBuf};

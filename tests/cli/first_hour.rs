@@ -1,4 +1,4 @@
-//! What someone meets who has a strip, a motor and an hour: a scene to start from, the page that
+//! Commands for someone who has a strip, a motor and an hour: a scene to start from, the page that
 //! moves, plots in the terminal, words for the shell.
 
 use std::fs;

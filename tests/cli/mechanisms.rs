@@ -231,7 +231,7 @@ fn a_loop_is_run_solved_compared_and_drawn() {
     assert_eq!(execute(folder.path(), LOOP, &strict).status.code(), Some(1));
 }
 
-/// What the core's tick does not do is refused before anything is written.
+/// Requests that the core's tick does not serve are refused before anything is written.
 #[test]
 fn runs_beyond_a_limit_or_the_tick_are_refused() {
     let limited =

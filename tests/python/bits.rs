@@ -1,4 +1,4 @@
-//! What the command line computes, for the package to be held to.
+//! Figures of the command line, for the package to be held to.
 
 use std::path::Path;
 

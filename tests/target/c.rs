@@ -1,5 +1,5 @@
-//! The C binding on a bare Cortex-M4F: the same bits and nearly the same size as the same program in
-//! Rust, and a tick from which no panic can be reached.
+//! The C binding on a bare Cortex-M4F: the same bits and nearly the same size as the same program
+//! in Rust, and a tick from which no panic can be reached.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

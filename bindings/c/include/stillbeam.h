@@ -45,9 +45,9 @@
 #define SB_DRIVE_WORDS 20
 
 /**
- * Result of a call. 0 is success. A call that returns anything else has changed nothing, but that a
- * path keeps the rows before a refused one, and that `SB_STATUS_SATURATED` has written its bytes.
- * Values are never reused; later versions may add some.
+ * Result of a call. 0 is success. A call that returns anything else has changed nothing, but that
+ * a path keeps the rows before a refused one, and that `SB_STATUS_SATURATED` has written its
+ * bytes. Values are never reused; later versions may add some.
  */
 enum sb_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -411,8 +411,8 @@ typedef struct sb_setup {
 } sb_setup;
 
 /**
- * An arm with a uniform link. A field that is 0 is not there: no payload, no damping, no gravity, a
- * clamp that does not give. A link that is not uniform is exported on the desktop.
+ * An arm with a uniform link. A field that is 0 is not there: no payload, no damping, no gravity,
+ * a clamp that does not give. A link that is not uniform is exported on the desktop.
  */
 typedef struct sb_scene {
     /**
@@ -576,7 +576,8 @@ typedef struct sb_waypoint {
  */
 typedef struct sb_progress {
     /**
-     * Rows of this call that the path has taken. Offer the others again, when ticks have made room.
+     * Rows of this call that the path has taken. Offer the others again, when ticks have made
+     * room.
      */
     uint32_t rows;
     /**
@@ -586,8 +587,8 @@ typedef struct sb_progress {
 } sb_progress;
 
 /**
- * Setpoint of the hub at one tick. Its angle is `turns + part` turns: the fraction is as fine after
- * a million turns as before the first. `sb_angle` gives radians.
+ * Setpoint of the hub at one tick. Its angle is `turns + part` turns: the fraction is as fine
+ * after a million turns as before the first. `sb_angle` gives radians.
  */
 typedef struct sb_setpoint {
     /**
@@ -662,8 +663,8 @@ typedef struct sb_drive {
 } sb_drive;
 
 /**
- * Gear and motor of an arm, and what its drive is told. `abi` must be given. A field that is 0 is not there: a lossless
- * direct drive without friction is all zeros.
+ * Gear and motor of an arm, and what its drive is told. `abi` must be given. A field that is 0 is
+ * not there: a lossless direct drive without friction is all zeros.
  */
 typedef struct sb_gear {
     /**
@@ -728,8 +729,8 @@ extern "C" {
  * Initialises an arm from constants that `stillbeam-sim export --c` has written. It is disabled
  * then, at hub angle 0.
  *
- * `bytes` is the size of the storage, `sizeof(sb_arm)`; less will do for some methods. `setup.tick`
- * must be the tick of the export, to the bit.
+ * `bytes` is the size of the storage, `sizeof(sb_arm)`; less will do for some methods.
+ * `setup.tick` must be the tick of the export, to the bit.
  *
  * # Safety
  * `arm` is NULL or points to `bytes` bytes, `words` is NULL or points to `count` words, `setup` is
@@ -766,8 +767,8 @@ sb_status sb_init_scene(struct sb_arm *arm,
 sb_status sb_payload(struct sb_arm *arm, struct sb_arm *other);
 
 /**
- * Switches on. A disabled axis begins at the measured hub angle, rad, without a step; a stopped one
- * goes on where it holds.
+ * Switches on. A disabled axis begins at the measured hub angle, rad, without a step; a stopped
+ * one goes on where it holds.
  *
  * # Safety
  * `arm` is NULL or points to storage of an arm; no other call on it but `sb_tick` runs at the same
@@ -805,8 +806,8 @@ sb_status sb_retarget(struct sb_arm *arm, double angle, double rate, double dura
 sb_status sb_hold(struct sb_arm *arm);
 
 /**
- * Brakes along the path and holds until enabled again; moves are refused. With `then_off` not 0 the
- * axis is disabled as soon as it is at rest.
+ * Brakes along the path and holds until enabled again; moves are refused. With `then_off` not 0
+ * the axis is disabled as soon as it is at rest.
  *
  * # Safety
  * As of `sb_enable`.
@@ -846,9 +847,9 @@ sb_status sb_planner_init_scene(struct sb_planner *planner,
                                 const struct sb_setup *setup);
 
 /**
- * Plans a move to the hub angle `to`, rad, after which the arm is at rest, in `duration` s, or with
- * 0 in the shortest time within the limits; then puts it behind the others. Takes 10^5 to 10^8
- * instructions, all but some hundred of them with `sb_tick` let in.
+ * Plans a move to the hub angle `to`, rad, after which the arm is at rest, in `duration` s, or
+ * with 0 in the shortest time within the limits; then puts it behind the others. Takes 10^5 to
+ * 10^8 instructions, all but some hundred of them with `sb_tick` let in.
  *
  * # Safety
  * As of `sb_move`; `planner` is NULL or points to storage of a planner that no other call uses.
@@ -871,9 +872,9 @@ sb_status sb_path_init(struct sb_path *path, size_t bytes, struct sb_arm *arm, u
 
 /**
  * Offers rows to a path, as many as it has room for, and hands those that are ready to the axis.
- * With `last` not 0 the path ends with the last of these rows. Call it again with the rows that are
- * left, or with none, while the arm moves. Behind the last row that the axis has there is always a
- * stop along the path, so that rows which come too late end in a stop.
+ * With `last` not 0 the path ends with the last of these rows. Call it again with the rows that
+ * are left, or with none, while the arm moves. Behind the last row that the axis has there is
+ * always a stop along the path, so that rows which come too late end in a stop.
  *
  * A row that is refused is named in the error text; rows before it are kept.
  *
@@ -899,10 +900,10 @@ sb_status sb_waypoints(struct sb_arm *arm,
 sb_status sb_tick(struct sb_arm *arm, struct sb_setpoint *setpoint);
 
 /**
- * Writes the next setpoint of a hub that another program moves, in place of `sb_tick`. `hub` is its
- * state at this tick, NULL if none has come: the hub then keeps its acceleration, for as many ticks
- * in a row as may be missed, and stops after that. A state that no motion within the limits leads
- * to counts as none.
+ * Writes the next setpoint of a hub that another program moves, in place of `sb_tick`. `hub` is
+ * its state at this tick, NULL if none has come: the hub then keeps its acceleration, for as many
+ * ticks in a row as may be missed, and stops after that. A state that no motion within the limits
+ * leads to counts as none.
  *
  * # Safety
  * As of `sb_tick`; `hub` is NULL or points to a state.
@@ -922,8 +923,8 @@ sb_status sb_missed(struct sb_arm *arm, uint32_t ticks);
  * Initialises a drive.
  *
  * # Safety
- * `drive` is NULL or points to `bytes` bytes that nothing else uses during the call. `gear` is NULL
- * or points to a structure of the version that its first field names.
+ * `drive` is NULL or points to `bytes` bytes that nothing else uses during the call. `gear` is
+ * NULL or points to a structure of the version that its first field names.
  */
 sb_status sb_drive_init(struct sb_drive *drive, size_t bytes, const struct sb_gear *gear);
 
@@ -939,16 +940,14 @@ sb_status sb_hub_angle(struct sb_drive *drive, double shaft, double *angle);
 
 /**
  * Writes a setpoint as the 8 bytes of ODrive's Set_Input_Pos, whose CAN identifier is
- * `node << 5 | 0x0c`. A setpoint of a disabled axis is refused, as it is not to be sent. May be called
- * in the interrupt.
+ * `node << 5 | 0x0c`. A setpoint of a disabled axis is refused, as it is not to be sent. May be
+ * called in the interrupt.
  *
  * # Safety
- * As of `sb_hub_angle`; `setpoint` is NULL or points to a setpoint, `payload` is NULL or 8 bytes can
- * be written.
+ * As of `sb_hub_angle`; `setpoint` is NULL or points to a setpoint, `payload` is NULL or 8 bytes
+ * can be written.
  */
-sb_status sb_odrive(struct sb_drive *drive,
-                    const struct sb_setpoint *setpoint,
-                    uint8_t *payload);
+sb_status sb_odrive(struct sb_drive *drive, const struct sb_setpoint *setpoint, uint8_t *payload);
 
 /**
  * Writes a setpoint as the 24 bytes of a moteus frame, CAN FD, to the servo's own identifier. The
@@ -960,33 +959,29 @@ sb_status sb_odrive(struct sb_drive *drive,
 sb_status sb_moteus(struct sb_drive *drive, const struct sb_setpoint *setpoint, uint8_t *payload);
 
 /**
- * Writes a setpoint as the 10 bytes of CiA 402's cyclic synchronous position: objects 0x607A, 0x60B1,
- * 0x60B2. `sb_gear.increments` and `sb_gear.rated_torque` must be given. Else as `sb_odrive`.
+ * Writes a setpoint as the 10 bytes of CiA 402's cyclic synchronous position: objects 0x607A,
+ * 0x60B1, 0x60B2. `sb_gear.increments` and `sb_gear.rated_torque` must be given. Else as
+ * `sb_odrive`.
  *
  * # Safety
  * As of `sb_odrive`, with 10 bytes.
  */
-sb_status sb_cia402(struct sb_drive *drive,
-                    const struct sb_setpoint *setpoint,
-                    uint8_t *payload);
+sb_status sb_cia402(struct sb_drive *drive, const struct sb_setpoint *setpoint, uint8_t *payload);
 
 /**
  * Writes why the latest refused call on `object` was refused, in one line: the field, its value,
- * what it must be, what would do. `object` is the first argument of that call: an arm, a planner, a
- * path or a drive, also one whose initialisation has failed. `status` is what it returned; where the
- * object keeps no reason of it, or is NULL, the text is that of the status alone.
+ * what it must be, what would do. `object` is the first argument of that call: an arm, a planner,
+ * a path or a drive, also one whose initialisation has failed. `status` is what it returned; where
+ * the object keeps no reason of it, or is NULL, the text is that of the status alone.
  *
- * Returns the length of the whole text without its end, as `snprintf`; more than `size - 1` of it is
- * cut. 200 bytes hold most.
+ * Returns the length of the whole text without its end, as `snprintf`; more than `size - 1` of it
+ * is cut. 200 bytes hold most.
  *
  * # Safety
  * `object` is NULL or points to storage of an object on which no other call but `sb_tick` runs.
  * `buffer` is NULL or `size` bytes of it can be written.
  */
-size_t sb_error_text(const void *object,
-                     int32_t status,
-                     char *buffer,
-                     size_t size);
+size_t sb_error_text(const void *object, int32_t status, char *buffer, size_t size);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -53,8 +53,8 @@ impl Shared {
     pub(crate) fn locked<R>(&self, work: impl FnOnce(&mut AnyAxis) -> R) -> R {
         // SAFETY: `Shared` is made of an initialised arm only, whose lock is not written again.
         let lock = unsafe { (*self.0).lock };
-        // SAFETY: the lock keeps out the tick; other calls on this arm are kept out by the caller of
-        // the function that made this.
+        // SAFETY: the lock keeps out the tick; other calls on this arm are kept out by the caller
+        // of the function that made this.
         lock.hold(|| work(unsafe { &mut (*self.0).axis }))
     }
 }
@@ -84,8 +84,8 @@ pub(crate) unsafe fn arm_argument(arm: *mut Arm) -> Result<Shared, Fault> {
 /// Initialises an arm from constants that `stillbeam-sim export --c` has written. It is disabled
 /// then, at hub angle 0.
 ///
-/// `bytes` is the size of the storage, `sizeof(sb_arm)`; less will do for some methods. `setup.tick`
-/// must be the tick of the export, to the bit.
+/// `bytes` is the size of the storage, `sizeof(sb_arm)`; less will do for some methods.
+/// `setup.tick` must be the tick of the export, to the bit.
 ///
 /// # Safety
 /// `arm` is NULL or points to `bytes` bytes, `words` is NULL or points to `count` words, `setup` is

@@ -20,8 +20,8 @@ pub struct Drive {
     words: [u64; SB_DRIVE_WORDS],
 }
 
-/// Gear and motor of an arm, and what its drive is told. `abi` must be given. A field that is 0 is not there: a lossless
-/// direct drive without friction is all zeros.
+/// Gear and motor of an arm, and what its drive is told. `abi` must be given. A field that is 0 is
+/// not there: a lossless direct drive without friction is all zeros.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Gear {
@@ -113,8 +113,8 @@ fn turns(name: &'static str, turns: u32) -> Result<u16, Fault> {
 /// Initialises a drive.
 ///
 /// # Safety
-/// `drive` is NULL or points to `bytes` bytes that nothing else uses during the call. `gear` is NULL
-/// or points to a structure of the version that its first field names.
+/// `drive` is NULL or points to `bytes` bytes that nothing else uses during the call. `gear` is
+/// NULL or points to a structure of the version that its first field names.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn sb_drive_init(
     drive: *mut Drive,
@@ -146,12 +146,12 @@ pub unsafe extern "C" fn sb_hub_angle(drive: *mut Drive, shaft: f64, angle: *mut
 }
 
 /// Writes a setpoint as the 8 bytes of ODrive's Set_Input_Pos, whose CAN identifier is
-/// `node << 5 | 0x0c`. A setpoint of a disabled axis is refused, as it is not to be sent. May be called
-/// in the interrupt.
+/// `node << 5 | 0x0c`. A setpoint of a disabled axis is refused, as it is not to be sent. May be
+/// called in the interrupt.
 ///
 /// # Safety
-/// As of `sb_hub_angle`; `setpoint` is NULL or points to a setpoint, `payload` is NULL or 8 bytes can
-/// be written.
+/// As of `sb_hub_angle`; `setpoint` is NULL or points to a setpoint, `payload` is NULL or 8 bytes
+/// can be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn sb_odrive(
     drive: *mut Drive,
@@ -180,8 +180,9 @@ pub unsafe extern "C" fn sb_moteus(
     unsafe { encode(drive, setpoint, payload, encode_one) }
 }
 
-/// Writes a setpoint as the 10 bytes of CiA 402's cyclic synchronous position: objects 0x607A, 0x60B1,
-/// 0x60B2. `sb_gear.increments` and `sb_gear.rated_torque` must be given. Else as `sb_odrive`.
+/// Writes a setpoint as the 10 bytes of CiA 402's cyclic synchronous position: objects 0x607A,
+/// 0x60B1, 0x60B2. `sb_gear.increments` and `sb_gear.rated_torque` must be given. Else as
+/// `sb_odrive`.
 ///
 /// # Safety
 /// As of `sb_odrive`, with 10 bytes.

@@ -91,8 +91,8 @@ impl Move {
     }
 }
 
-/// Switches on. A disabled axis begins at the measured hub angle, rad, without a step; a stopped one
-/// goes on where it holds.
+/// Switches on. A disabled axis begins at the measured hub angle, rad, without a step; a stopped
+/// one goes on where it holds.
 ///
 /// # Safety
 /// `arm` is NULL or points to storage of an arm; no other call on it but `sb_tick` runs at the same
@@ -172,8 +172,8 @@ pub unsafe extern "C" fn sb_hold(arm: *mut Arm) -> Status {
     }
 }
 
-/// Brakes along the path and holds until enabled again; moves are refused. With `then_off` not 0 the
-/// axis is disabled as soon as it is at rest.
+/// Brakes along the path and holds until enabled again; moves are refused. With `then_off` not 0
+/// the axis is disabled as soon as it is at rest.
 ///
 /// # Safety
 /// As of `sb_enable`.

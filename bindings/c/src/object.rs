@@ -139,8 +139,8 @@ pub(crate) unsafe fn argument<T: Object>(storage: *mut T::Storage) -> Result<*mu
     }
 }
 
-/// Works on an object, and keeps the reason in it if that is refused. The work gets a pointer, as an
-/// interrupt may use the same value.
+/// Works on an object, and keeps the reason in it if that is refused. The work gets a pointer, as
+/// an interrupt may use the same value.
 ///
 /// # Safety
 /// As of [`find`]; and nothing else reads or writes the reason during the call.

@@ -53,7 +53,8 @@ pub struct Waypoint {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Progress {
-    /// Rows of this call that the path has taken. Offer the others again, when ticks have made room.
+    /// Rows of this call that the path has taken. Offer the others again, when ticks have made
+    /// room.
     pub rows: u32,
     /// 1 if the axis has the whole path, up to its last row.
     pub done: u32,
@@ -94,9 +95,9 @@ pub unsafe extern "C" fn sb_path_init(
 }
 
 /// Offers rows to a path, as many as it has room for, and hands those that are ready to the axis.
-/// With `last` not 0 the path ends with the last of these rows. Call it again with the rows that are
-/// left, or with none, while the arm moves. Behind the last row that the axis has there is always a
-/// stop along the path, so that rows which come too late end in a stop.
+/// With `last` not 0 the path ends with the last of these rows. Call it again with the rows that
+/// are left, or with none, while the arm moves. Behind the last row that the axis has there is
+/// always a stop along the path, so that rows which come too late end in a stop.
 ///
 /// A row that is refused is named in the error text; rows before it are kept.
 ///

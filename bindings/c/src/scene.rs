@@ -2,8 +2,8 @@
 
 use stillbeam::{AxisKind, Damping, Hub, Link, Mount, Payload, UniformScene};
 
-/// An arm with a uniform link. A field that is 0 is not there: no payload, no damping, no gravity, a
-/// clamp that does not give. A link that is not uniform is exported on the desktop.
+/// An arm with a uniform link. A field that is 0 is not there: no payload, no damping, no gravity,
+/// a clamp that does not give. A link that is not uniform is exported on the desktop.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Scene {

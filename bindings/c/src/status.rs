@@ -2,9 +2,9 @@
 
 use stillbeam::Error;
 
-/// Result of a call. 0 is success. A call that returns anything else has changed nothing, but that a
-/// path keeps the rows before a refused one, and that `SB_STATUS_SATURATED` has written its bytes.
-/// Values are never reused; later versions may add some.
+/// Result of a call. 0 is success. A call that returns anything else has changed nothing, but that
+/// a path keeps the rows before a refused one, and that `SB_STATUS_SATURATED` has written its
+/// bytes. Values are never reused; later versions may add some.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {

@@ -92,9 +92,9 @@ pub unsafe extern "C" fn sb_planner_init_scene(
     }
 }
 
-/// Plans a move to the hub angle `to`, rad, after which the arm is at rest, in `duration` s, or with
-/// 0 in the shortest time within the limits; then puts it behind the others. Takes 10^5 to 10^8
-/// instructions, all but some hundred of them with `sb_tick` let in.
+/// Plans a move to the hub angle `to`, rad, after which the arm is at rest, in `duration` s, or
+/// with 0 in the shortest time within the limits; then puts it behind the others. Takes 10^5 to
+/// 10^8 instructions, all but some hundred of them with `sb_tick` let in.
 ///
 /// # Safety
 /// As of `sb_move`; `planner` is NULL or points to storage of a planner that no other call uses.

@@ -29,12 +29,12 @@ impl Write for Cut<'_> {
 }
 
 /// Writes why the latest refused call on `object` was refused, in one line: the field, its value,
-/// what it must be, what would do. `object` is the first argument of that call: an arm, a planner, a
-/// path or a drive, also one whose initialisation has failed. `status` is what it returned; where the
-/// object keeps no reason of it, or is NULL, the text is that of the status alone.
+/// what it must be, what would do. `object` is the first argument of that call: an arm, a planner,
+/// a path or a drive, also one whose initialisation has failed. `status` is what it returned; where
+/// the object keeps no reason of it, or is NULL, the text is that of the status alone.
 ///
-/// Returns the length of the whole text without its end, as `snprintf`; more than `size - 1` of it is
-/// cut. 200 bytes hold most.
+/// Returns the length of the whole text without its end, as `snprintf`; more than `size - 1` of it
+/// is cut. 200 bytes hold most.
 ///
 /// # Safety
 /// `object` is NULL or points to storage of an object on which no other call but `sb_tick` runs.

@@ -10,8 +10,8 @@ use crate::memory::give;
 use crate::methods::on_axis;
 use crate::object;
 
-/// Setpoint of the hub at one tick. Its angle is `turns + part` turns: the fraction is as fine after
-/// a million turns as before the first. `sb_angle` gives radians.
+/// Setpoint of the hub at one tick. Its angle is `turns + part` turns: the fraction is as fine
+/// after a million turns as before the first. `sb_angle` gives radians.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Setpoint {
@@ -148,10 +148,10 @@ pub unsafe extern "C" fn sb_tick(arm: *mut Arm, setpoint: *mut Setpoint) -> Stat
     Status::Ok
 }
 
-/// Writes the next setpoint of a hub that another program moves, in place of `sb_tick`. `hub` is its
-/// state at this tick, NULL if none has come: the hub then keeps its acceleration, for as many ticks
-/// in a row as may be missed, and stops after that. A state that no motion within the limits leads
-/// to counts as none.
+/// Writes the next setpoint of a hub that another program moves, in place of `sb_tick`. `hub` is
+/// its state at this tick, NULL if none has come: the hub then keeps its acceleration, for as many
+/// ticks in a row as may be missed, and stops after that. A state that no motion within the limits
+/// leads to counts as none.
 ///
 /// # Safety
 /// As of `sb_tick`; `hub` is NULL or points to a state.

@@ -11,7 +11,7 @@ use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Mass, Method, Scalar, Solver};
 use stillbeam_sim::table::Row;
 
-/// What is done with a generator by hand.
+/// Actions on a generator by hand.
 pub trait Hand: Send + Sync {
     /// Puts a move behind the others.
     fn push(&mut self, motion: &Move) -> Result<MoveSummary, CoreError>;

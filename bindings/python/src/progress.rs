@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use stillbeam_sim::limits::load;
 use stillbeam_sim::progress::{Late, ProgressBar, bar, late};
 
-/// What is told of a piece of work.
+/// Report of a piece of work.
 pub struct Progress {
     call: Option<Py<PyAny>>,
     /// The first exception of the call. Later calls are left out.

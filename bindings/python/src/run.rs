@@ -17,7 +17,7 @@ use crate::progress::Progress;
 use crate::rows::Rows;
 use crate::scene::Scene;
 
-/// What a run gives: its rows, the method in words, and notes.
+/// Result of a run: its rows, the method in words, and notes.
 type Outcome = (Rows, String, Vec<String>);
 
 /// Runs the core on a scene, as the command line's `run` does.

@@ -22,7 +22,7 @@ use crate::{keys, tables};
 /// Raises ValueError with the field, its value and what it must be.
 #[pyclass(frozen, module = "stillbeam")]
 pub struct Scene {
-    /// What is read from the text.
+    /// The scene as it is read from the text.
     pub file: SceneFile,
     /// The text of the scene file.
     pub text: String,

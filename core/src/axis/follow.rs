@@ -106,9 +106,9 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         self.done(setpoint)
     }
 
-    /// Makes a tick of the axis' own motion. Apart, because behind a stop the compiler takes the code
-    /// for cold: it would leave the stepper's closures out of line, and there the checks of their
-    /// indices.
+    /// Makes a tick of the axis' own motion. Apart, because behind a stop the compiler takes the
+    /// code for cold: it would leave the stepper's closures out of line, and there the checks of
+    /// their indices.
     #[inline(never)]
     fn tick_without_state(&mut self) -> Tick<S::Scalar> {
         let setpoint = self.generator.tick();

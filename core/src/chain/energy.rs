@@ -13,7 +13,7 @@ pub struct Energy<T> {
     pub strain: T,
     /// In the field of gravity, zero at the height of the first joint.
     pub height: T,
-    /// What damping takes a second, `αq̇ᵀMq̇ + βȧᵀKȧ`, the hubs left out of `M`, W.
+    /// Power that damping takes, `αq̇ᵀMq̇ + βȧᵀKȧ`, the hubs left out of `M`, W.
     pub loss: T,
 }
 

@@ -10,7 +10,8 @@ use crate::math::{Band, Scalar, generalized_eigen, sqrt};
 pub struct ChainModes<const LINKS: usize, const C: usize> {
     /// Angular frequencies, rad/s, ascending; infinite where a chain has fewer links that bend.
     pub frequency: [f64; LINKS],
-    /// `φᵀM` of each mode, `φᵀMφ = 1`: the mode's coordinate is its product with those of the chain.
+    /// `φᵀM` of each mode, `φᵀMφ = 1`: the mode's coordinate is its product with those of the
+    /// chain.
     pub(super) onto: [[f64; C]; LINKS],
     /// Displacement of the tip per unit of each mode, m.
     pub(super) tip: [f64; LINKS],

@@ -31,7 +31,7 @@ fn slope(k: usize, xi: f64) -> f64 {
     }
 }
 
-/// What a link of unit length and mass is integrated with.
+/// Points and weights for integrals over a link of unit length and mass.
 ///
 /// Its point at `ξ_g` is the clamp plus `Σ_q run[g][q] t_q`, `t_q` the tangent at point `q`: the
 /// integral of the polynomial through the tangents.

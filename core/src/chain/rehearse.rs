@@ -18,7 +18,7 @@ const GAP: f64 = 1e-3;
 /// Least mobility of a loop's end along any direction, of that along the best one.
 const MOBILITY: f64 = 1e-5;
 
-/// What a rehearsal has found.
+/// Findings of a rehearsal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rehearsal<const LINKS: usize> {
     /// Largest distance of a link's end from where half ticks take it, of all lengths. The error of

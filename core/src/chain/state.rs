@@ -66,7 +66,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize> ChainState<T, LINKS, W> {
         self.pin.is_some()
     }
 
-    /// What the pin pushes the chain's end with, in the global frame, N; 0 while the chain is open.
+    /// Force of the pin on the chain's end, in the global frame, N; 0 while the chain is open.
     pub fn pin_force(&self) -> [T; 2] {
         self.force
     }

@@ -17,7 +17,7 @@ use super::stages::{Slots, Stages};
 use super::{Chain, ChainState, Command};
 use crate::math::{Complex, Scalar};
 
-/// What an iteration changes of both stages' accelerations.
+/// Change of both stages' accelerations in an iteration.
 pub(super) type Changes<T, const C: usize> = [[T; C]; 2];
 
 impl<T, const LINKS: usize, const W: usize, const C: usize, const Q: usize> Chain<T, LINKS, W, C, Q>
@@ -92,7 +92,7 @@ where
         [self.model.pose(&stages.q[0]), self.model.pose(&stages.q[1])]
     }
 
-    /// What the stiffness adds to the diagonal.
+    /// Contribution of the stiffness to the diagonal.
     #[inline(always)]
     fn diagonal(&self) -> [Complex<T>; C] {
         let mut diagonal = [Complex::ZERO; C];

@@ -1,9 +1,9 @@
 //! A stop of all joints along their common path: time itself is brought to rest.
 //!
 //! Where the joints would be after σ ticks is where they are when the path's own time has run by σ.
-//! From `σ̇ = 1` it runs slower and slower, `σ̇ = 1 − 3u² + 2u³` over the stop, `u = 0..1`, and ends
-//! where half the stop's length of it has passed. No joint leaves the path, and none turns back
-//! that would not have done so.
+//! From `σ̇ = 1` it runs slower and slower, `σ̇ = 1 − 3u² + 2u³` over the stop, `u = 0..1`, and
+//! ends where half the stop's length of it has passed. No joint leaves the path, and none turns
+//! back that would not have done so.
 
 use super::{ChainGenerator, JointState};
 use crate::Error;
@@ -37,7 +37,8 @@ fn clock<T: Scalar>(x: T, ticks: T) -> [T; 3] {
     [sigma, T::ONE - square * (three - two * u), -(two * three) * u * (T::ONE - u) / ticks]
 }
 
-/// The joint on its path, `at`, where the path's time runs at `rate` and changes by `change` a tick.
+/// The joint on its path, `at`, where the path's time runs at `rate` and changes by `change` a
+/// tick.
 #[inline(always)]
 fn slowed<T: Scalar>(at: JointState<T>, rate: T, change: T, per_tick: T) -> JointState<T> {
     JointState {

@@ -158,8 +158,8 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         self.tip_per_mode[k][0]
     }
 
-    /// Returns the state of the arm after `steps` steps of a hub that is `hub_at(k)` after step `k`.
-    /// `watch` is handed arm and hub at every step.
+    /// Returns the state of the arm after `steps` steps of a hub that is `hub_at(k)` after step
+    /// `k`. `watch` is handed arm and hub at every step.
     pub fn simulate(
         &self,
         points: &RodPoints<T, K>,

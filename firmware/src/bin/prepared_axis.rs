@@ -50,8 +50,8 @@ fn record(tick: &Tick<f32>, bytes: [u8; 8]) -> [u8; 48] {
     record
 }
 
-/// Loads the arm, makes one move and sends every tick. Its numbers are not known to the compiler, as
-/// those of C are not: any limits, any gear, any move.
+/// Loads the arm, makes one move and sends every tick. Its numbers are not known to the compiler,
+/// as those of C are not: any limits, any gear, any move.
 #[inline(never)]
 fn run() -> Result<bool, Error> {
     let stepper = Elastica2::<f32>::load(black_box(&ARM), TICK)?;

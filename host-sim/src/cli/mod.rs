@@ -41,8 +41,8 @@ fn with_limits_shown<T>(task: impl FnOnce(&dyn Fn(Progress)) -> T) -> T {
     })
 }
 
-/// Draws quantities over time below a command's lines, if standard output is a terminal. Each is its
-/// title with unit, and its values at even times from 0 to `end` s.
+/// Draws quantities over time below a command's lines, if standard output is a terminal. Each is
+/// its title with unit, and its values at even times from 0 to `end` s.
 fn draw<'a>(quantities: impl IntoIterator<Item = (&'a str, Vec<f64>)>, end: f64) {
     if !stdout().is_terminal() {
         return;

@@ -177,7 +177,7 @@ fn draw(request: &Request, planned: &Planned) {
 /// Even times of a small plot.
 const ROWS: usize = 120;
 
-/// What a plan says, for programs.
+/// Figures of a plan, for programs.
 #[derive(Serialize)]
 struct PlanReport {
     scene: String,

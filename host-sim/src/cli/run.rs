@@ -147,7 +147,7 @@ fn draw(scene: &SceneFile, rows: &[Row]) {
     );
 }
 
-/// What a run says, for programs.
+/// Figures of a run, for programs.
 #[derive(Serialize)]
 struct RunReport {
     /// The scene's name or file.

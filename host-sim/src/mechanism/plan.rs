@@ -55,7 +55,7 @@ pub struct Flown {
     pub residual: f64,
 }
 
-/// What the planner finds, whatever the number of links.
+/// Result of the planner, whatever the number of links.
 struct Found {
     moves: Vec<Move>,
     first_period: f64,

@@ -6,8 +6,8 @@ use crate::error::Error;
 use crate::output::Files;
 use crate::table::significant;
 
-/// A mechanism at one time. At a jump of a commanded acceleration, and at the time of closing, every
-/// value is the one from before.
+/// A mechanism at one time. At a jump of a commanded acceleration, and at the time of closing,
+/// every value is the one from before.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
     /// Time, s.

@@ -1,4 +1,4 @@
-//! What a drive takes in: setpoints from its bus, readings of its encoder.
+//! Inputs of a drive: setpoints from its bus, readings of its encoder.
 
 use super::between::Interpolator;
 use super::tracker::Tracker;

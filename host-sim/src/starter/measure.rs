@@ -1,5 +1,5 @@
-//! What to measure first: how far each number of a new scene may be off, and what that does to the
-//! first frequency.
+//! Order in which to measure: how far each number of a new scene may be off, and what that does to
+//! the first frequency.
 
 use super::Starter;
 use crate::error::Error;

@@ -41,7 +41,7 @@ impl Starter {
     /// Returns the arm, without a move.
     ///
     /// # Errors
-    /// What a scene file refuses.
+    /// Refusals of a scene file.
     pub fn arm(&self) -> Result<SceneFile, Error> {
         SceneFile::parse_arm("the arm", &self.arm_text(""))
     }
@@ -49,7 +49,7 @@ impl Starter {
     /// Returns the text of the scene file, which is accepted by `run`.
     ///
     /// # Errors
-    /// What a scene file refuses, as a line of the file called `name`.
+    /// Refusals of a scene file, as a line of the file called `name`.
     pub fn text(&self, name: &str) -> Result<String, Error> {
         let period = rod::first_period(&self.arm()?.arm)?;
         let duration = self.duration.unwrap_or_else(|| whole_ticks(PERIODS * period));

@@ -16,8 +16,8 @@ const MOTIONS: [(&str, &str); 4] = [
     ("still", "**still move**"),
 ];
 
-/// Solvers of `docs/accuracy.md`, the beginnings of their rows in `docs/instructions.csv`, and their
-/// words in README.
+/// Solvers of `docs/accuracy.md`, the beginnings of their rows in `docs/instructions.csv`, and
+/// their words in README.
 const SOLVERS: [(&str, &str, &str); 4] = [
     ("rigid, 10 ms, f32", "rigid,0,,no-damping no-gravity", "nothing bends"),
     (

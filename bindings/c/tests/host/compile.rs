@@ -9,7 +9,7 @@ pub fn folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// What the standard library in a host's archive takes from the system.
+/// Libraries of the system that the standard library in a host's archive needs.
 const SYSTEM: [&str; 5] = ["-lgcc_s", "-lpthread", "-ldl", "-lm", "-lc"];
 
 /// Path of the archive: cargo writes the library's crate types into one folder, with one hash. The

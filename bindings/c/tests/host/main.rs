@@ -1,5 +1,5 @@
-//! The archive on a desktop: the header is that of the code, programs in C and C++ get the bits that
-//! the core gives, and misuse is refused.
+//! The archive on a desktop: the header is that of the code, programs in C and C++ get the bits
+//! that the core gives, and misuse is refused.
 
 mod bits;
 mod compile;

@@ -1,4 +1,4 @@
-//! What a bulge does, found by flights: runs of the chain itself.
+//! Effect of a bulge, found by flights: runs of the chain itself.
 
 use super::search::Search;
 use super::{Bulges, Left, TERMS};
@@ -9,7 +9,7 @@ use crate::math::{Scalar, sqrt};
 /// Change of a coefficient for the derivative, rad.
 const NUDGE: f64 = 4e-3;
 
-/// What a flight shows.
+/// Result of a flight.
 pub(super) struct Flight<T, const LINKS: usize, const W: usize> {
     pub state: ChainState<T, LINKS, W>,
     pub torque: [f64; LINKS],
@@ -69,7 +69,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         left
     }
 
-    /// What a change of each coefficient changes of what is left.
+    /// Change of the residual by a change of each coefficient.
     pub(super) fn derivative(
         &mut self,
         bulges: &Bulges<LINKS>,

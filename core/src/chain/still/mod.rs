@@ -49,7 +49,7 @@ pub struct ChainPlanner<T, const LINKS: usize, const W: usize, const C: usize, c
 
 /// Bulges of all joints.
 type Bulges<const LINKS: usize> = [[f64; TERMS]; LINKS];
-/// What is left of each mode: tip deflection by its place and by its rate over its frequency, m.
+/// Residual of each mode: tip deflection by its place and by its rate over its frequency, m.
 type Left<const LINKS: usize> = [[f64; 2]; LINKS];
 
 impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usize>

@@ -163,8 +163,8 @@ impl<const K: usize> Rod<K> {
         [tip[0] + offset * cos, tip[1] + offset * sin]
     }
 
-    /// `ψₖ(ξ)`, the angle of the link at `ξ = x/L`, 0 to 1, per modal coordinate. The arm's shape is
-    /// `φ(ξ) = Σ aₖψₖ(ξ)`. The polynomial through the points.
+    /// `ψₖ(ξ)`, the angle of the link at `ξ = x/L`, 0 to 1, per modal coordinate. The arm's shape
+    /// is `φ(ξ) = Σ aₖψₖ(ξ)`. The polynomial through the points.
     pub fn slopes_at(&self, xi: f64) -> [f64; K] {
         let (points, weights) = rule();
         let there = legendre::<POINTS>(xi);

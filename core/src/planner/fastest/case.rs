@@ -52,7 +52,7 @@ pub(super) struct Trial<T, const N: usize> {
     pub scale: f64,
     /// Amplitudes that the linear arm is to have where the half ends, of L.
     pub targets: [T; AIMS],
-    /// What the exact rows exceed the linear ones by, of the limit.
+    /// Excess of the exact rows over the linear ones, of the limit.
     pub offsets: Grid<T, N>,
 }
 

@@ -14,7 +14,8 @@ use crate::stepper::ArmState;
 /// Most searches with whole ticks.
 const MAX_SEARCHES: u32 = 10;
 
-/// Most searches in real durations, each with the limits that the one before has exceeded tightened.
+/// Most searches in real durations, each with the limits that the one before has exceeded
+/// tightened.
 const MAX_REAL_SEARCHES: u32 = 3;
 
 /// Part by which a limit is tightened beyond what exceeds it. The knots shift by as much from one

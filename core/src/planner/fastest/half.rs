@@ -72,7 +72,7 @@ impl<T: Scalar, const N: usize> Half<T, N> {
         })
     }
 
-    /// What the rate exceeds the nearest node by, where it turns between the nodes.
+    /// Excess of the rate over that at the nearest node, where it turns between the nodes.
     pub fn beyond_nodes(&self) -> Nodes<T, N> {
         let mut beyond = [[T::ZERO; N]; 2];
         for (i, part, rate) in self.turns() {

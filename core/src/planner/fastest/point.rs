@@ -13,7 +13,7 @@ pub(super) struct Point<T, const N: usize> {
     pub multiplier: Pair<T, N>,
 }
 
-/// What a step changes: knots, and `R` times that.
+/// Changes in a step: knots, and `R` times that.
 pub(super) struct Step<T, const N: usize> {
     pub knots: [T; N],
     pub along: Grid<T, N>,

@@ -16,7 +16,7 @@ const SHORTEST: f64 = 0.9;
 /// Most rounds of a search for the duration, and of one for the scale of the limits.
 const MAX_ROUNDS: u32 = 10;
 
-/// What is close enough: the turn, of itself; the first mode, of L; the torque, of its limit; the
+/// Tolerances: the turn, of itself; the first mode, of L; the torque, of its limit; the
 /// second mode, of L.
 pub(super) const TURN: f64 = 5e-4;
 const FIRST: f64 = 3e-5;

@@ -58,8 +58,8 @@ enum Command {
     Pareto(pareto::ParetoArgs),
     /// Plan random time-optimal motions, and hold their durations against Ruckig's
     Shortest(shortest::ShortestArgs),
-    /// Compare the fastest still moves with other motions within the same limits; fill their part of
-    /// docs/still.md
+    /// Compare the fastest still moves with other motions within the same limits; fill their part
+    /// of docs/still.md
     Fastest(fastest::FastestArgs),
     /// Identify random arms from synthetic logs, and hold what is found against the truth
     Identify(identify::IdentifyArgs),

@@ -25,7 +25,7 @@ pub struct Truth {
     pub rows: Vec<Row>,
 }
 
-/// What is compared with a solution.
+/// Solvers that are compared with a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// A reference with its usual options.

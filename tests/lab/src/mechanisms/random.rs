@@ -13,7 +13,7 @@ use crate::campaign;
 
 /// The tick that is tried.
 const TRIED: MechanismSolver = MechanismSolver { tick: 0.01, scalar: Scalar::F32, coordinates: 2 };
-/// What judges it: an eighth of the tick with a coordinate more, in f64.
+/// The judge: an eighth of the tick with a coordinate more, in f64.
 const JUDGE: MechanismSolver =
     MechanismSolver { tick: 0.00125, scalar: Scalar::F64, coordinates: 3 };
 /// Length of a run, s.
@@ -30,7 +30,7 @@ pub enum End {
     Loop,
 }
 
-/// What became of a mechanism.
+/// Outcome of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Outcome {
     /// It was refused, by a field that begins so.
@@ -56,7 +56,7 @@ pub struct Trial {
     pub links: usize,
     /// How it ends.
     pub end: End,
-    /// What became of it.
+    /// Its outcome.
     pub outcome: Outcome,
 }
 
