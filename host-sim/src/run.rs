@@ -236,7 +236,7 @@ pub(crate) fn take<S: Stepper>(
             let mut fed = match feeding.take() {
                 Some(fed) => fed,
                 None => Feeding {
-                    path: generator.path(waypoints.spline())?,
+                    path: waypoints.begun(generator.path(waypoints.spline())?)?,
                     rows: waypoints.rows(generator.stepper().tick()).into_iter(),
                 },
             };
