@@ -117,13 +117,22 @@ impl<const K: usize> Rod<K> {
     }
 
     /// `βₖ` of each mode, s: `β`, and the joint's own damping by the mode's share in its strain
-    /// energy. What the joint's damping couples of two modes is left out.
+    /// energy. What the joint's damping couples of two modes is [`Self::joint_damping`].
     pub fn stiffness_damping(&self) -> [f64; K] {
         let (damping, hub) = (&self.scene.damping, &self.scene.hub);
         let loss = damping.joint * hub.stiffness.unwrap_or(0.0);
         core::array::from_fn(|k| {
             let share = self.root[k] / self.frequency[k];
             damping.beta + loss * share * share
+        })
+    }
+
+    /// `c ψₖ(0)ψⱼ(0)`, 1/s: what a joint with the damping `c` (N m s/rad) couples of two modes; 0
+    /// on the diagonal, which [`Self::stiffness_damping`] holds.
+    pub(crate) fn joint_damping(&self) -> [[f64; K]; K] {
+        let c = self.scene.damping.joint * self.scene.hub.stiffness.unwrap_or(0.0);
+        core::array::from_fn(|k| {
+            core::array::from_fn(|j| if j == k { 0.0 } else { c * self.root[k] * self.root[j] })
         })
     }
 
