@@ -117,7 +117,7 @@ impl<const K: usize> Rod<K> {
     }
 
     /// `βₖ` of each mode, s: `β`, and the joint's own damping by the mode's share in its strain
-    /// energy. What the joint's damping couples of two modes is [`Self::joint_damping`].
+    /// energy. What the joint's damping couples of two modes is left to `elastica`.
     pub fn stiffness_damping(&self) -> [f64; K] {
         let (damping, hub) = (&self.scene.damping, &self.scene.hub);
         let loss = damping.joint * hub.stiffness.unwrap_or(0.0);
