@@ -6,7 +6,7 @@
 //!
 //! `cargo run -p stillbeam --example 08_follow`
 
-use stillbeam::axis::{Axis, Cause, Change, Mode, Policy};
+use stillbeam::axis::{Axis, Cause, Change, Mode, Policy, StopLimits};
 use stillbeam::model::EightElements;
 use stillbeam::stepper::Modal2;
 use stillbeam::{Angle, Error, HubState, Limits, Link, Scene};
@@ -29,7 +29,7 @@ pub fn main() -> Result<(), Error> {
     let scene = Scene::new(Link { length: 0.5, mass: 0.054, bending_stiffness: 0.93 });
     let stepper = Modal2::<f32>::new(&EightElements::consistent(&scene)?, TICK)?;
     let limits = Limits { rate: Some(5.0), acceleration: Some(40.0), ..Limits::default() };
-    let policy = Policy { limits, patience: 0.0, missed: 2 };
+    let policy = Policy { limits, stop: StopLimits::OF_MOVES, patience: 0.0, missed: 2 };
     let mut axis = Axis::<_, 8>::new(stepper, Angle::default(), policy)?;
     axis.enable(Angle::default())?;
 

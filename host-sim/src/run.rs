@@ -204,7 +204,7 @@ pub(crate) fn take(
             let mut fed = match feeding.take() {
                 Some(fed) => fed,
                 None => Feeding {
-                    path: generator.path(waypoints.spline())?,
+                    path: waypoints.begun(generator.path(waypoints.spline())?)?,
                     rows: waypoints.rows(generator.period()).into_iter(),
                 },
             };

@@ -2,6 +2,7 @@
 
 mod angle_unit;
 mod arm;
+mod blend;
 mod damping;
 mod deduced;
 mod link;
@@ -10,6 +11,7 @@ mod measured;
 mod mount;
 mod moves;
 mod notes;
+mod optimal;
 mod section;
 mod shaper;
 mod sizes;
@@ -28,7 +30,7 @@ use self::arm::{CarrierTable, GravityTable, HubTable, PayloadTable};
 use self::damping::DampingTable;
 pub use self::deduced::Deduced;
 use self::link::LinkTable;
-use self::moves::{Here, MoveTable, Planning};
+use self::moves::{Built, Here, MoveTable, Planning};
 use self::shaper::ShaperTable;
 pub use self::units::angle as angle_remark;
 use crate::document::Document;
@@ -59,6 +61,8 @@ pub struct SceneFile {
     pub deduced: Deduced,
     /// Indices of the moves whose duration is the shortest within the limits.
     pub shortest: Vec<usize>,
+    /// Blended moves: their index, and the rate with which each passes its end, rad/s.
+    pub blended: Vec<(usize, f64)>,
     /// Remarks on values that are probably in another unit, one line each.
     pub remarks: Vec<String>,
 }
@@ -159,6 +163,7 @@ impl SceneFile {
             solver: file.solver,
             deduced,
             shortest: MoveTable::without_duration(&tables),
+            blended: Vec::new(),
             remarks: Vec::new(),
         };
         let tick = scene.solver.resolve()?.tick;
@@ -179,7 +184,8 @@ impl SceneFile {
         for (index, table) in tables.iter().enumerate() {
             let planning =
                 Planning { before: self.case(tick), limits: &self.limits, count: tables.len() };
-            let step = table.build(index, &mut here, &planning).map_err(|error| {
+            let next = tables.get(index + 1);
+            let built = table.build(index, next, &mut here, &planning).map_err(|error| {
                 let place = place_of(index);
                 // A limit's refusal says itself which move it is.
                 if !many || error.to_string().contains("moves[") {
@@ -188,7 +194,9 @@ impl SceneFile {
                     error.within(place)
                 }
             })?;
+            let Built { step, passes } = built;
             self.moves.push(step);
+            self.blended.extend(passes.map(|rate| (index, rate)));
         }
         Ok(())
     }

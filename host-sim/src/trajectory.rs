@@ -101,15 +101,20 @@ impl Trajectory {
         let rows = path.rows(self.tick);
         let refused =
             |error: RowError| Error::new(error.error).within(path.place(error.row as usize));
-        let path_with = |tick: f64| Path::new(path.spline(), self.end, &Limits::default(), tick);
+        let begun_at = |tick: f64| {
+            let core = Path::new(path.spline(), self.end, &Limits::default(), tick)?;
+            path.begun(core).map_err(|error| Error::new(error).within(path.place_of_begin()))
+        };
         let segments = |tick: f64| -> Result<Vec<_>, Error> {
-            let all = path_with(tick)?.segments(rows.iter().copied());
+            let all = begun_at(tick)?.segments(rows.iter().copied());
             all.map(|segment| segment.map_err(refused)).collect()
         };
         let planned = segments(self.tick)?;
-        let surveyed = path_with(self.tick)?.survey(rows.iter().copied()).map_err(refused)?;
+        let surveyed = begun_at(self.tick)?.survey(rows.iter().copied()).map_err(refused)?;
         let end = rows.last().map_or(self.end, |row| {
-            HubState::turning(Angle::from_radians(row.angle), row.rate.unwrap_or(0.0))
+            let angle = Angle::from_radians(row.angle);
+            let acceleration = path.end_acceleration_of(row);
+            HubState { acceleration, ..HubState::turning(angle, row.rate.unwrap_or(0.0)) }
         });
         let ticks = path.ticks(self.tick);
         let rounded_by = f64::from(ticks) * self.tick - path.duration();

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use stillbeam::motion::{Spline, Waypoint};
+use stillbeam::Error as CoreError;
+use stillbeam::motion::{Path, Spline, Waypoint};
 
 /// Share of a tick within which a time counts as a whole number of ticks.
 const WHOLE: f64 = 1e-3;
@@ -14,6 +15,8 @@ const WHOLE: f64 = 1e-3;
 pub struct Waypoints {
     spline: Spline,
     rows: Arc<[Waypoint]>,
+    /// Acceleration with which the path begins, rad/s²; `None` is the hub's own.
+    begin: Option<f64>,
     places: Places,
 }
 
@@ -37,7 +40,23 @@ pub enum Places {
 impl Waypoints {
     /// Creates the path. Times rise from above 0; there is a row at least.
     pub fn new(spline: Spline, rows: Vec<Waypoint>, places: Places) -> Self {
-        Self { spline, rows: rows.into(), places }
+        Self { spline, rows: rows.into(), begin: None, places }
+    }
+
+    /// Returns the path with an acceleration at its beginning, rad/s²; `None` is the hub's own.
+    pub fn beginning_with(self, acceleration: Option<f64>) -> Self {
+        Self { begin: acceleration, ..self }
+    }
+
+    /// Returns a path of the core with this path's acceleration at its beginning.
+    ///
+    /// # Errors
+    /// An acceleration of a cubic spline, which has its own.
+    pub fn begun(&self, path: Path) -> Result<Path, CoreError> {
+        match self.begin {
+            Some(acceleration) => path.beginning_with(acceleration),
+            None => Ok(path),
+        }
     }
 
     /// Polynomials between the rows.
@@ -53,6 +72,12 @@ impl Waypoints {
     /// Returns the rate at the end, rad/s.
     pub fn end_rate(&self) -> f64 {
         self.rows.last().and_then(|row| row.rate).unwrap_or(0.0)
+    }
+
+    /// Returns the acceleration with which a path ends whose last row this is, rad/s². A quintic
+    /// ends with what the row gives; a cubic's jumps to 0.
+    pub fn end_acceleration_of(&self, row: &Waypoint) -> f64 {
+        row.acceleration.filter(|_| self.spline == Spline::Quintic).unwrap_or(0.0)
     }
 
     /// Returns the angle at the last row, rad.
@@ -95,7 +120,8 @@ impl Waypoints {
             rate: row.rate.map(|rate| rate / stretch),
             acceleration: row.acceleration.map(|a| a / (stretch * stretch)),
         };
-        Self { rows: self.rows.iter().map(row).collect(), ..self.clone() }
+        let begin = self.begin.map(|a| a / (stretch * stretch));
+        Self { rows: self.rows.iter().map(row).collect(), begin, ..self.clone() }
     }
 
     /// Returns the place of the row of that number, counted as the core does.
@@ -107,6 +133,14 @@ impl Waypoints {
             }
             Places::File(places) => places.get(row).cloned().unwrap_or_default(),
             Places::Samples(name) => format!("{name}: t_s = {:.6}", self.rows[row].time),
+        }
+    }
+
+    /// Returns the place of the row at which the path begins.
+    pub fn place_of_begin(&self) -> String {
+        match &self.places {
+            Places::List { .. } => "move.waypoints[0]".to_owned(),
+            _ => self.place(0),
         }
     }
 

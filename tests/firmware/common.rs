@@ -1,6 +1,6 @@
 //! An axis as the firmware has it, with its moves.
 
-use stillbeam::axis::{Axis, Policy, Tick};
+use stillbeam::axis::{Axis, Policy, StopLimits, Tick};
 use stillbeam::model::OneElement;
 use stillbeam::stepper::Newmark;
 use stillbeam::{Angle, Error, Limits, Link, Move, Profile, Scene};
@@ -16,7 +16,8 @@ pub const LIMITS: Limits = Limits {
     moment: None,
 };
 
-pub const POLICY: Policy = Policy { limits: LIMITS, patience: 0.2, missed: 2 };
+pub const POLICY: Policy =
+    Policy { limits: LIMITS, stop: StopLimits::OF_MOVES, patience: 0.2, missed: 2 };
 
 pub type Arm = Axis<Newmark<f32, 2, 2, false>, 8>;
 

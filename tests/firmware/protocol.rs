@@ -1,7 +1,7 @@
 //! Frames of the command protocol: there and back, garbled, cut, reordered, duplicated.
 
 use proptest::prelude::*;
-use stillbeam::axis::{Cause, Mode, Policy, Tick};
+use stillbeam::axis::{Cause, Mode, Policy, StopLimits, Tick};
 use stillbeam::motor::{Direction, Joint};
 use stillbeam::{Angle, Hub, Limits, Link, Payload, PlainMove, Profile, Setpoint, UniformScene};
 use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
@@ -72,7 +72,12 @@ fn longest() -> [Report<'static>; 4] {
                     hub: Hub { radius: 1.0, inertia: 1.0, stiffness: Some(1.0) },
                     ..UniformScene::uniform(Link { length: 1.0, mass: 1.0, bending_stiffness: 1.0 })
                 },
-                policy: Policy { limits, patience: f64::MAX, missed: u32::MAX },
+                policy: Policy {
+                    limits,
+                    stop: StopLimits::OF_MOVES,
+                    patience: f64::MAX,
+                    missed: u32::MAX,
+                },
                 joint: Joint { ratio, ..direct },
                 direction: Direction::Opposite,
                 zero: big,

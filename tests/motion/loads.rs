@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use stillbeam::axis::{Axis, Policy};
+use stillbeam::axis::{Axis, Policy, StopLimits};
 use stillbeam::motion::{Braking, Plan};
 use stillbeam::planner::{Kinematics, Planner, Prediction, Request, StillMove, Target};
 use stillbeam::stepper::Rigid;
@@ -34,7 +34,7 @@ fn layers_that_cannot_check_a_load_refuse_its_limit() {
     ] {
         let motion = Move::To { profile: Profile::Cubic, duration: 1.0, to: 1.0 };
         let start = HubState::resting_at(0.0).expect("an angle");
-        let policy = Policy { limits, patience: 0.0, missed: 0 };
+        let policy = Policy { limits, stop: StopLimits::OF_MOVES, patience: 0.0, missed: 0 };
         let mut generator = Generator::<_, 8>::new(rigid(), 0.0).expect("a generator");
         for refused in [
             generator.limit(limits),

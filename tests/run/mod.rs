@@ -8,6 +8,7 @@ mod energy;
 mod exact;
 mod limits;
 mod links;
+mod listed;
 mod measured;
 mod mechanisms;
 mod methods;

@@ -1,6 +1,6 @@
 //! The machine: its arms, gears, drives, method and tick. Edit this file for another machine.
 
-use stillbeam::axis::Policy;
+use stillbeam::axis::{Policy, StopLimits};
 use stillbeam::motor::{self, Direction, Ratio};
 use stillbeam::scene::Uniform;
 use stillbeam::{Damping, Error, Hub, Limits, Link, Mount, Payload, UniformScene};
@@ -91,7 +91,7 @@ const fn policy(rate: f64, acceleration: f64) -> Policy {
         torque: None,
         moment: None,
     };
-    Policy { limits, patience: PATIENCE, missed: 2 }
+    Policy { limits, stop: StopLimits::OF_MOVES, patience: PATIENCE, missed: 2 }
 }
 
 /// Builds the stepper of an arm. This is set-up, never called in the tick.

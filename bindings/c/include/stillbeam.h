@@ -366,6 +366,14 @@ typedef struct sb_setup {
      */
     double jerk;
     /**
+     * Limit of the deceleration of a stop, rad/s^2, at least that of a move; 0: that of a move.
+     */
+    double stop_deceleration;
+    /**
+     * Limit of the jerk of a stop, rad/s^3; 0: that of a move.
+     */
+    double stop_jerk;
+    /**
      * Limit of the hub's torque, N m. Of a planner of still moves only.
      */
     double torque;

@@ -3,7 +3,7 @@
 use core::ffi::c_void;
 
 use stillbeam::Limits;
-use stillbeam::axis::Policy;
+use stillbeam::axis::{Policy, StopLimits};
 
 use crate::memory::Versioned;
 
@@ -26,6 +26,10 @@ pub struct Setup {
     pub deceleration: f64,
     /// Limit of its jerk, rad/s^3. With it, moves whose acceleration jumps are refused.
     pub jerk: f64,
+    /// Limit of the deceleration of a stop, rad/s^2, at least that of a move; 0: that of a move.
+    pub stop_deceleration: f64,
+    /// Limit of the jerk of a stop, rad/s^3; 0: that of a move.
+    pub stop_jerk: f64,
     /// Limit of the hub's torque, N m. Of a planner of still moves only.
     pub torque: f64,
     /// Limit of the bending moment at the clamp, N m. Of a planner of still moves only.
@@ -112,7 +116,11 @@ impl Setup {
             torque: None,
             moment: None,
         };
-        Policy { limits, patience: self.patience, missed: self.missed }
+        let stop = StopLimits {
+            deceleration: present(self.stop_deceleration),
+            jerk: present(self.stop_jerk),
+        };
+        Policy { limits, stop, patience: self.patience, missed: self.missed }
     }
 
     /// Returns the limits of torque and moment, for a planner.

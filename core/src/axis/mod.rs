@@ -7,7 +7,7 @@
 //! | power-up, enable | begin at the measured angle, at rest; no step |
 //! | disable | brake along the path, then off |
 //! | move refused, queue full, not enabled | nothing changes; the reason is returned |
-//! | stop | brake along the path within the limits, then hold; moves are refused until enabled |
+//! | stop | brake along the path within the limits of a stop, then hold; moves are refused until enabled |
 //! | link silent for the patience | as stop |
 //! | another target, duration, hold, cancel | from the next tick on, without a jump |
 //! | no state to follow | the acceleration is kept; beyond the allowed number of ticks, as stop |
@@ -21,6 +21,7 @@ mod change;
 mod follow;
 mod pace;
 mod path;
+mod policy;
 mod sequence;
 mod still;
 
@@ -30,6 +31,7 @@ pub use change::Change;
 use follow::Reach;
 use heapless::Deque;
 pub use pace::{Pace, Timing};
+pub use policy::{Policy, StopLimits};
 pub use sequence::{Freshness, Sequence};
 
 pub use crate::error::Mode;
@@ -37,7 +39,7 @@ pub use crate::error::Mode;
 use crate::generator::Arrival;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
-use crate::motion::{Braking, Limits};
+use crate::motion::Braking;
 use crate::stepper::Stepper;
 use crate::{Error, Generator, PlanContext, PlannedMove, Setpoint};
 
@@ -68,23 +70,6 @@ impl fmt::Display for Cause {
     }
 }
 
-/// Limits of an axis, and the faults after which it stops.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Policy {
-    /// Limits of the hub's motion. A move that exceeds them is refused, and a stop keeps them. The
-    /// acceleration must be limited. Torque and moment must not, as an axis cannot check them: see
-    /// [`Limits`].
-    pub limits: Limits,
-    /// Time without a message from the host after which the axis stops, s, rounded to whole ticks,
-    /// one at least. 0 waits for ever.
-    pub patience: f64,
-    /// Ticks in a row that may be missed before the axis stops; the path waits for them. This is a
-    /// number, not a time: each is a setpoint that the drive has to do without, and a drive counts
-    /// in setpoints what it can bridge, whatever their interval.
-    pub missed: u32,
-}
-
 /// One tick's outcome.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -111,7 +96,10 @@ pub struct Axis<S: Stepper, const QUEUE: usize = 8> {
     policy: Policy,
     /// The policy's patience in ticks; 0 waits for ever.
     patience: u32,
+    /// Brakes as a move does, for a change of mind.
     braking: Braking<S::Scalar>,
+    /// Brakes as a stop does.
+    stopping: Braking<S::Scalar>,
     mode: Mode,
     cause: Option<Cause>,
     /// A stop that ends with the drive off.
@@ -157,10 +145,11 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     ///
     /// # Errors
     /// `policy.patience` is not within 0 to 2³² ticks; limits that are not
-    /// [those of a policy](Policy::limits).
+    /// [those of a policy](Policy::limits); a stop that is softer than a move.
     pub fn new(stepper: S, angle: Angle<S::Scalar>, policy: Policy) -> Result<Self, Error> {
         let patience = ticks("policy.patience", policy.patience, stepper.tick())?;
         let braking = Braking::new(&policy.limits, stepper.tick())?;
+        let stopping = Braking::new(&policy.limits_of_stop()?, stepper.tick())?;
         let reach = Reach::new(&policy.limits, stepper.tick());
         let mut generator = Generator::new(stepper, 0.0)?;
         generator.limit(policy.limits)?;
@@ -170,6 +159,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
             policy,
             patience,
             braking,
+            stopping,
             mode: Mode::Disabled,
             cause: None,
             then_off: false,
@@ -276,7 +266,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         }
         self.then_off = false;
         self.cause = Some(cause);
-        self.generator.brake(&self.braking, self.arrival());
+        self.generator.brake(&self.stopping, self.arrival());
         self.moves.clear();
         let rests = self.generator.is_holding();
         self.mode = if rests { Mode::Stopped } else { Mode::Stopping };

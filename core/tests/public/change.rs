@@ -1,4 +1,4 @@
-use stillbeam::axis::{Axis, Cause, Change, Mode, Policy};
+use stillbeam::axis::{Axis, Cause, Change, Mode, Policy, StopLimits};
 use stillbeam::hub::HubState;
 use stillbeam::model::EightElements;
 use stillbeam::motion::optimal::Bounds;
@@ -18,7 +18,7 @@ fn axis() -> Arm {
     let scene = Scene::new(Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 });
     let model = EightElements::consistent(&scene).expect("model");
     let stepper = Modal::<f32, 2>::new(&model, TICK).expect("stepper");
-    let policy = Policy { limits: limits(), patience: 0.0, missed: 2 };
+    let policy = Policy { limits: limits(), stop: StopLimits::OF_MOVES, patience: 0.0, missed: 2 };
     let mut axis = Arm::new(stepper, Angle::default(), policy).expect("axis");
     axis.enable(Angle::default()).expect("on");
     axis

@@ -251,6 +251,49 @@ fn a_bad_row_is_named() {
     assert!(matches!(error.error, Error::LimitExceeded { parameter: "limits.rate", .. }));
 }
 
+/// A quintic path begins with the acceleration that it is given, or with the hub's, and hands the
+/// last row's on to what follows.
+#[test]
+fn a_quintic_begins_and_ends_with_an_acceleration() {
+    let mut arm = generator();
+    let first = [Waypoint::at(0.2, 0.3).turning(2.0).accelerating(7.0)];
+    let mut begun = arm.path(Spline::Quintic).expect("a path").beginning_with(5.0).expect("begun");
+    assert_eq!(arm.feed(&mut begun, &mut first.into_iter()), Ok(true));
+    assert!(begun.peaks().jerk.is_infinite(), "the hub had no acceleration");
+    // A path behind it goes on from there, and so does a move.
+    let mut second = arm.path(Spline::Quintic).expect("a path");
+    assert_eq!(second.start().acceleration, 7.0);
+    let rows = [Waypoint::at(0.1, 0.6).turning(3.0).accelerating(-4.0)];
+    assert_eq!(arm.feed(&mut second, &mut rows.into_iter()), Ok(true));
+    let pass = Move::Pass { profile: Profile::Quintic, duration: 0.3, to: 1.0, rate: 0.0 };
+    let summary = arm.push(&pass).expect("a move");
+    assert!(summary.peaks.jerk.is_finite(), "its acceleration goes on");
+    let hubs: Vec<_> = (0..=60).map(|_| arm.tick()).collect();
+    for (k, acceleration) in [(0, 5.0), (20, 7.0), (30, -4.0), (60, 0.0)] {
+        assert_near("acceleration", hubs[k].acceleration, acceleration, 1e-10);
+    }
+    assert_near("the end", hubs[60].angle.radians(), 1.0, 1e-14);
+}
+
+/// An acceleration that the hub does not have jumps: a limit of jerk refuses it, as a cubic spline
+/// does, which has its own.
+#[test]
+fn an_acceleration_at_the_beginning_may_be_refused() {
+    let limits = Limits { jerk: Some(1e4), ..Limits::default() };
+    let rows = [Waypoint::at(0.5, 0.2)];
+    let path = Path::new(Spline::Quintic, rest(), &limits, TICK).expect("a path");
+    assert!(path.survey(rows).is_ok());
+    let error = path.beginning_with(0.1).expect("begun").survey(rows).expect_err("a jump");
+    assert_eq!(error.row, 0);
+    assert!(matches!(error.error, Error::LimitExceeded { parameter: "limits.jerk", .. }));
+    let turning = HubState { acceleration: 0.1, ..rest() };
+    let path = Path::new(Spline::Quintic, turning, &limits, TICK).expect("a path");
+    assert!(path.beginning_with(0.1).expect("begun").survey(rows).is_ok(), "the hub has it");
+    let cubic = Path::new(Spline::Cubic, rest(), &limits, TICK).expect("a path");
+    let error = cubic.beginning_with(0.1).expect_err("a cubic").to_string();
+    assert_eq!(error, "waypoint.acceleration = 0.1: must be 0 rad/s^2");
+}
+
 /// A motion that ends inside a tick takes no step with it: the arm behind it vibrates as behind
 /// one that ends at the same time in finer ticks.
 #[test]

@@ -8,7 +8,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use semihosting::io::{self, Write};
 use semihosting::process;
-use stillbeam::axis::{Axis, Policy, Tick};
+use stillbeam::axis::{Axis, Policy, StopLimits, Tick};
 use stillbeam::drive::odrive;
 use stillbeam::motor::{Direction, Drivetrain, Joint, Ratio};
 use stillbeam::prepared::Prepared;
@@ -57,7 +57,7 @@ fn run() -> Result<bool, Error> {
     let stepper = Elastica2::<f32>::load(black_box(&ARM), TICK)?;
     let limits = Limits { rate: Some(15.0), acceleration: Some(150.0), ..Limits::default() };
     let origin = Angle { turns: 0, part: 0.0 };
-    let policy = Policy { limits, patience: 10.0, missed: 2 };
+    let policy = Policy { limits, stop: StopLimits::OF_MOVES, patience: 10.0, missed: 2 };
     let mut axis = Axis::<_, 8>::new(stepper, origin, black_box(policy))?;
     let joint = Joint { ratio: Ratio { motor: 6, link: 1 }, ..Joint::direct(1.0) };
     let train = Drivetrain::<f32>::new(black_box(&joint), Direction::Same, 0.0)?;

@@ -1,7 +1,7 @@
 //! A commanded motion, and the time windows of its moves.
 
 use stillbeam::motion::Shaper;
-use stillbeam::{Move, Scene};
+use stillbeam::{HubState, Move, Scene};
 
 use super::{Excess, Refusal};
 use crate::error::Error;
@@ -62,6 +62,18 @@ impl<'a> Case<'a> {
             )));
         }
         Ok(trajectory.shaped(shaper.clone()))
+    }
+
+    /// Returns the hub at the end of the moves, without the rest that shows its vibration.
+    pub fn end(&self) -> Result<HubState<f64>, Error> {
+        let mut trajectory = Trajectory::resting(self.from, self.tick)?;
+        for motion in self.steps.iter().flat_map(Step::motions) {
+            trajectory.append(&motion)?;
+        }
+        match trajectory.plans().last() {
+            Some(plan) => Ok(plan.summary.end),
+            None => Ok(HubState::resting_at(self.from)?),
+        }
     }
 
     /// Returns the ticks of rest that the scene's own moves lack after the last arrival.

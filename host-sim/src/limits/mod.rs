@@ -18,7 +18,7 @@ mod weight;
 pub use case::{Case, Window};
 pub use quantity::Quantity;
 pub use refusal::{Excess, Refusal, Way};
-pub use shortest::shortest;
+pub use shortest::{refusal, shortest};
 pub use weight::holding;
 
 /// A greatest magnitude and the time at which it occurs.

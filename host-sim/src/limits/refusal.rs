@@ -48,6 +48,8 @@ pub enum Way {
     Pulses(f64),
     /// No duration up to this one, s, keeps the limit.
     None(f64),
+    /// The move takes the shortest time within the limits of the hub's motion.
+    Bounds,
     /// The method's own setpoints exceed the limit, which the arm itself keeps.
     Method,
 }
@@ -96,6 +98,11 @@ impl fmt::Display for Refusal {
                 f,
                 "; no duration of this move up to {} s helps; raise the limit",
                 seconds(most)
+            ),
+            Way::Bounds => write!(
+                f,
+                "; this move takes the shortest time within the limits of rate, acceleration, \
+                 deceleration and jerk: lower one of them, or use a profile with a duration"
             ),
             Way::Method => write!(
                 f,

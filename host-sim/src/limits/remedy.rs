@@ -177,9 +177,8 @@ fn plain_way(
             _ => Way::Pulses(case.shaper.map_or(0.0, |shaper| shaper.delay())),
         }),
         // A still move in another time is another move, which only its planner knows.
-        (Move::Still { .. } | Move::Dwell { .. } | Move::Reach { .. } | Move::Ramp { .. }, _) => {
-            Some(Way::Remedy(Remedy::Longer))
-        }
+        (Move::Still { .. } | Move::Dwell { .. }, _) => Some(Way::Remedy(Remedy::Longer)),
+        (Move::Reach { .. } | Move::Ramp { .. }, _) => Some(Way::Bounds),
         _ => None,
     }
 }

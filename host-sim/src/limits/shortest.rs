@@ -6,8 +6,7 @@ use stillbeam::{HubState, Limits, Move, Remedy};
 use super::refusal::seconds;
 use super::{Case, Excess, Refusal, Way, kinematic, load, remedy};
 use crate::error::Error;
-use crate::step::{Motion, Step};
-use crate::trajectory::Trajectory;
+use crate::step::Motion;
 
 /// Number of searches that may follow each other: one behind the shaper, one for each load, and one
 /// more for what they do to each other.
@@ -31,7 +30,7 @@ pub fn shortest(case: &Case<'_>, limits: &Limits, progress: &dyn Fn(f64)) -> Res
     let Some((last, earlier)) = case.steps.split_last() else {
         return Err(Error::new("moves: none; must be one at least"));
     };
-    let start = start(&case.with(earlier))?;
+    let start = case.with(earlier).end()?;
     let mut duration = first(case, &last.motion, start, limits)?;
     let mut trials = 0;
     while let Some(refusal) = refused_in(duration, case, limits, progress)? {
@@ -64,18 +63,6 @@ fn refused_in(
         step.motion = step.motion.lasting(duration);
     }
     refusal(&case.with(&steps), limits, progress)
-}
-
-/// Returns the hub at the end of a motion, without the rest that shows its vibration.
-fn start(earlier: &Case<'_>) -> Result<HubState<f64>, Error> {
-    let mut trajectory = Trajectory::resting(earlier.from, earlier.tick)?;
-    for motion in earlier.steps.iter().flat_map(Step::motions) {
-        trajectory.append(&motion)?;
-    }
-    match trajectory.plans().last() {
-        Some(plan) => Ok(plan.summary.end),
-        None => Ok(HubState::resting_at(earlier.from)?),
-    }
 }
 
 /// Returns a duration, s, below which none will do.
@@ -138,8 +125,8 @@ fn excess_in(case: &Case<'_>, limits: &Limits, ticks: u32) -> Result<Option<Exce
     Ok(kinematic::excess(&case, &case.trajectory()?, limits))
 }
 
-/// Returns the first limit that a motion exceeds.
-fn refusal(
+/// Returns the first limit that a motion exceeds, by its refusal.
+pub fn refusal(
     case: &Case<'_>,
     limits: &Limits,
     progress: &dyn Fn(f64),

@@ -180,7 +180,8 @@ impl MotionFile {
             Taking::Samples => self.samples(&scene.arm, options, tick)?,
         };
         let moves = vec![Step { motion: Motion::Path(path), settle: 0.0 }];
-        let scene = SceneFile { from, moves, shortest: Vec::new(), ..scene };
+        let (shortest, blended) = (Vec::new(), Vec::new());
+        let scene = SceneFile { from, moves, shortest, blended, ..scene };
         scene.trajectory(tick)?;
         Ok((scene, notes))
     }
@@ -228,6 +229,8 @@ impl MotionFile {
         let places = rows.iter().map(|row| row.place.clone()).collect();
         let path =
             Waypoints::new(spline, rows.iter().map(waypoint).collect(), Places::File(places));
+        let begin = first.acceleration.filter(|_| spline == Spline::Quintic && !self.approaches);
+        let path = path.beginning_with(begin);
         let note = format!(
             "{}: {} rows in {} s, taken as waypoints with {spline} polynomials between them",
             self.name,

@@ -89,6 +89,12 @@ impl Fit {
         (self.squares / self.free).sqrt()
     }
 
+    /// Sum of the squared residuals, rad², and the number of samples less the degrees of freedom
+    /// that the spline took.
+    pub fn residual(&self) -> [f64; 2] {
+        [self.squares, self.free]
+    }
+
     /// Generalised cross-validation: the mean squared error, rad², with which the other samples
     /// predict each one, by `n Σ rᵢ² / free²` (Craven and Wahba, Numerische Mathematik 31, 1979).
     pub fn prediction(&self) -> f64 {

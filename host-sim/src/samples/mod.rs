@@ -2,10 +2,12 @@
 //!
 //! No derivative of a row is taken. A cubic spline with knots at whole ticks is fitted to all rows
 //! at once. It comes as close to them as their noise is large and has the least jerk of all that
-//! do (`fit`). Its rate and acceleration are continuous.
+//! do (`fit`). Its rate is continuous, and its acceleration too but where a rest begins or ends
+//! (`rests`).
 
 mod band;
 mod fit;
+mod rests;
 mod spline;
 
 use fit::{Equations, Fit, Samples};
@@ -30,6 +32,10 @@ const NARROWINGS: u32 = 16;
 
 /// Number of standard deviations within which a hub counts as at rest.
 const SURE: f64 = 5.0;
+
+/// Share of the squared error of prediction below which parts that are fitted one by one count as
+/// better than one fit.
+const BETTER: f64 = 0.25;
 
 /// Share of its peak within which a rate or an acceleration at an end counts as none.
 const NONE: f64 = 0.02;
@@ -56,6 +62,9 @@ pub struct Smoothed {
 /// `noise` is that of the angles, rad, root mean square. 0 passes the samples. `None` estimates it:
 /// the smoothing is the one with which the samples predict each other best.
 ///
+/// Where the hub rests in between, its acceleration may jump as the rest begins and ends: the parts
+/// in which it moves are then fitted one by one, if the samples predict each other better so.
+///
 /// # Errors
 /// Too few or too many samples, a noise out of range, or samples that begin with the hub turning.
 pub fn smoothed(
@@ -64,24 +73,79 @@ pub fn smoothed(
     noise: Option<f64>,
     tick: f64,
 ) -> Result<Smoothed, Error> {
-    let samples = Samples { times, angles };
     let knots = knots(times, tick)?;
     if let Some(noise) = noise.filter(|noise| !(0.0..=1.0).contains(noise)) {
         return Err(Error::new(format_args!("--noise = {noise}: must be 0 to 1 rad")));
     }
-    let free = Equations::new(samples, knots, [End::Free; 2]);
-    // The ends are judged by the samples alone: what a large given noise smooths away at an end of
-    // the motion would be taken for a rate there.
-    let own = predicting(&free);
-    let fit = free.fit(10_f64.powf(own));
-    let own_noise = fit.noise();
-    let ends = [begin(&fit, own_noise)?, condition(&fit, knots.count, own_noise)];
-    let (power, level) = match noise {
-        Some(noise) => (with_noise(&free, noise), noise),
-        None => (own, own_noise),
-    };
-    let fit = Equations::new(samples, knots, ends).fit(10_f64.powf(power));
-    Ok(motion(&fit, level, ends))
+    let whole = Part::whole(times, angles, knots).fit(noise)?;
+    let parts: Result<Vec<_>, Error> =
+        rests::parts(times, angles, knots).iter().map(|part| part.fit(noise)).collect();
+    let parts = parts.ok().filter(|parts| {
+        !parts.is_empty()
+            && parts.iter().all(|part| part.rests_before(knots))
+            && prediction(parts) < BETTER * prediction(std::slice::from_ref(&whole))
+    });
+    Ok(motion(&parts.unwrap_or_else(|| vec![whole]), knots))
+}
+
+/// A part of the samples in which the hub moves, or all of them.
+struct Part {
+    /// Knot at which it begins.
+    first: usize,
+    knots: Knots,
+    /// Times from its beginning, s: those of a rest beside it are at its ends.
+    times: Vec<f64>,
+    /// rad.
+    angles: Vec<f64>,
+}
+
+/// A part with its fit.
+struct Fitted {
+    first: usize,
+    fit: Fit,
+    ends: [End; 2],
+    /// Noise of its samples, rad.
+    noise: f64,
+    /// Sum of the squared residuals, rad², and the number of samples less the degrees of freedom
+    /// that the spline took, of the fit with which the samples predict each other best.
+    residual: [f64; 2],
+}
+
+impl Part {
+    fn whole(times: &[f64], angles: &[f64], knots: Knots) -> Self {
+        Self { first: 0, knots, times: times.to_vec(), angles: angles.to_vec() }
+    }
+
+    fn fit(&self, noise: Option<f64>) -> Result<Fitted, Error> {
+        let samples = Samples { times: &self.times, angles: &self.angles };
+        let free = Equations::new(samples, self.knots, [End::Free; 2]);
+        // The ends are judged by the samples alone: what a large given noise smooths away at an end
+        // of the motion would be taken for a rate there.
+        let own = predicting(&free);
+        let fit = free.fit(10_f64.powf(own));
+        let (own_noise, residual) = (fit.noise(), fit.residual());
+        let ends = [begin(&fit, own_noise)?, condition(&fit, self.knots.count, own_noise)];
+        let (power, noise) = match noise {
+            Some(noise) => (with_noise(&free, noise), noise),
+            None => (own, own_noise),
+        };
+        let fit = Equations::new(samples, self.knots, ends).fit(10_f64.powf(power));
+        Ok(Fitted { first: self.first, fit, ends, noise, residual })
+    }
+}
+
+impl Fitted {
+    /// True if the part ends with the samples, whose last knot is that of `knots`, or at rest.
+    fn rests_before(&self, knots: Knots) -> bool {
+        self.first + self.fit.knots().count == knots.count || self.ends[1] != End::Free
+    }
+}
+
+/// Returns the mean squared error with which the samples of all parts predict each other, times
+/// their number, rad²: the generalised cross-validation of [`Fit::prediction`].
+fn prediction(parts: &[Fitted]) -> f64 {
+    let [squares, free] = [0, 1].map(|k| parts.iter().map(|part| part.residual[k]).sum::<f64>());
+    squares / (free * free)
 }
 
 /// Returns knots at whole ticks that are about as far apart as the samples, or a tick. A method
@@ -165,19 +229,38 @@ fn condition(fit: &Fit, knot: usize, noise: f64) -> End {
     if fit.acceleration(knot).abs() > none { End::Rest } else { End::SmoothRest }
 }
 
-fn motion(fit: &Fit, noise: f64, ends: [End; 2]) -> Smoothed {
-    let Knots { width, count } = fit.knots();
-    let row = |k: usize| {
-        let rate = if k == count && ends[1] != End::Free { 0.0 } else { fit.rate(k) };
-        Waypoint::at(k as f64 * width, fit.angle(k as f64 * width)).turning(rate)
-    };
-    let squares = (0..=count).map(|k| fit.acceleration_error(k, noise).powi(2)).sum::<f64>();
+fn motion(parts: &[Fitted], knots: Knots) -> Smoothed {
+    let width = knots.width;
+    let (mut rows, mut squares) = (Vec::new(), 0.0);
+    for (k, part) in parts.iter().enumerate() {
+        let Fitted { first, fit, ends, noise, .. } = part;
+        let count = fit.knots().count;
+        let row = |knot: usize| {
+            let time = knot as f64 * width;
+            let rests = (knot == count && ends[1] != End::Free) || (knot == 0);
+            let rate = if rests { 0.0 } else { fit.rate(knot) };
+            Waypoint::at(time + *first as f64 * width, fit.angle(time)).turning(rate)
+        };
+        // One cubic leads over the rest before a part, to where it begins.
+        let begins = usize::from(k == 0 && *first == 0);
+        rows.extend((begins..=count).map(row));
+        squares += (0..=count).map(|k| fit.acceleration_error(k, *noise).powi(2)).sum::<f64>();
+    }
+    let end = knots.count as f64 * width;
+    if let Some(last) = rows.last().copied().filter(|last| last.time < end - 0.5 * width) {
+        rows.push(Waypoint { time: end, ..last });
+    }
+    let [mut noises, mut weights] = [0.0; 2];
+    for part in parts {
+        noises += part.noise * part.noise * part.residual[1];
+        weights += part.residual[1];
+    }
     Smoothed {
-        from: fit.angle(0.0),
-        rows: (1..=count).map(row).collect(),
-        noise,
-        farthest: fit.farthest,
-        acceleration_error: (squares / (count + 1) as f64).sqrt(),
+        from: parts.first().map_or(0.0, |part| part.fit.angle(0.0)),
+        rows,
+        noise: (noises / weights).sqrt(),
+        farthest: parts.iter().map(|part| part.fit.farthest).fold(0.0, f64::max),
+        acceleration_error: (squares / (knots.count + 1) as f64).sqrt(),
         knot: width,
     }
 }

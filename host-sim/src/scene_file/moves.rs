@@ -21,8 +21,11 @@ pub(super) struct MoveTable {
     pub(super) rate: Option<f64>,
     /// Rows of time, angle, rate and acceleration.
     pub(super) waypoints: Option<Vec<Vec<f64>>>,
-    repeat: Option<u32>,
-    robust: Option<f64>,
+    pub(super) repeat: Option<u32>,
+    pub(super) robust: Option<f64>,
+    /// True for a move that passes into the next one.
+    #[serde(default)]
+    pub(super) blend: bool,
     #[serde(default)]
     pub(super) settle: f64,
 }
@@ -34,6 +37,14 @@ pub(super) struct Planning<'a> {
     pub limits: &'a Limits,
     /// Number of moves in the scene.
     pub count: usize,
+}
+
+/// A move that was built, and what was found for it.
+pub(super) struct Built {
+    /// The move, with the time to settle after it.
+    pub step: Step,
+    /// Rate with which a blended move passes its end, rad/s.
+    pub passes: Option<f64>,
 }
 
 /// The hub where a move begins.
@@ -59,13 +70,15 @@ impl MoveTable {
         (0..tables.len()).filter(|&index| !lasts(&tables[index])).collect()
     }
 
-    /// Builds the move that begins where the hub is `here`, and moves `here` to its end.
+    /// Builds the move that begins where the hub is `here`, and moves `here` to its end. `next` is
+    /// the move behind it.
     pub(super) fn build(
         &self,
         index: usize,
+        next: Option<&Self>,
         here: &mut Here,
         planning: &Planning<'_>,
-    ) -> Result<Step, Error> {
+    ) -> Result<Built, Error> {
         if let (Some(from), true) = (self.from, index > 0)
             && here.angle != Some(from)
         {
@@ -80,12 +93,18 @@ impl MoveTable {
                 self.settle
             )));
         }
+        if self.blend {
+            let motion = self.blended(next, here, planning)?;
+            let passes = Some(here.rate);
+            return Ok(Built { step: Step { motion: motion.into(), settle: 0.0 }, passes });
+        }
         let motion = match (&self.waypoints, self.profile.as_deref()) {
             (Some(rows), _) => self.path(rows, here)?,
             (None, Some("still")) => self.still(here, planning)?,
-            (None, _) => self.plain(here, planning)?,
+            (None, Some(name @ ("reach" | "ramp"))) => self.optimal(name, here, planning)?.into(),
+            (None, _) => self.plain(here, planning)?.into(),
         };
-        Ok(Step { motion, settle: self.settle })
+        Ok(Built { step: Step { motion, settle: self.settle }, passes: None })
     }
 
     fn path(&self, rows: &[Vec<f64>], here: &mut Here) -> Result<Motion, Error> {
@@ -125,7 +144,8 @@ impl MoveTable {
         Ok(asked.plan()?.plan.motion().into())
     }
 
-    fn plain(&self, here: &mut Here, planning: &Planning<'_>) -> Result<Motion, Error> {
+    /// Builds a move to an angle in a given or in the shortest duration, a spin-up or a dwell.
+    pub(super) fn plain(&self, here: &mut Here, planning: &Planning<'_>) -> Result<Move, Error> {
         self.refuse("robust", self.robust)?;
         self.refuse("repeat", self.repeat)?;
         let duration = self.duration.unwrap_or(1.0);
@@ -156,8 +176,8 @@ impl MoveTable {
             }
         };
         match self.duration {
-            Some(_) => Ok(motion.into()),
-            None => Ok(motion.lasting(self.shortest(motion, planning)?).into()),
+            Some(_) => Ok(motion),
+            None => Ok(motion.lasting(self.shortest(motion, planning)?)),
         }
     }
 
@@ -169,18 +189,20 @@ impl MoveTable {
         }
         let mut steps = before.steps.to_vec();
         steps.push(Step { motion: motion.into(), settle: self.settle });
-        // A method's own setpoints, good to a hundredth of the peak, then keep the limit too.
-        let limits = Limits { torque: limits.torque.map(|most| GOAL * most), ..**limits };
-        limits::shortest(&before.with(&steps), &limits, &|_| ())
+        limits::shortest(&before.with(&steps), &planning.aimed(), &|_| ())
     }
 
-    fn name(&self) -> Result<&str, Error> {
+    pub(super) fn name(&self) -> Result<&str, Error> {
         self.profile.as_deref().ok_or_else(|| {
             Error::new(format_args!("move.profile: missing; must be {}, or waypoints", profiles()))
         })
     }
 
-    fn refuse(&self, key: &str, value: Option<impl std::fmt::Display>) -> Result<(), Error> {
+    pub(super) fn refuse(
+        &self,
+        key: &str,
+        value: Option<impl std::fmt::Display>,
+    ) -> Result<(), Error> {
         match value {
             Some(value) => Err(Error::new(format_args!(
                 "move.{key} = {value}: must be absent with profile \"{}\"",
@@ -190,7 +212,7 @@ impl MoveTable {
         }
     }
 
-    fn need(&self, key: &str, unit: &str, value: Option<f64>) -> Result<f64, Error> {
+    pub(super) fn need(&self, key: &str, unit: &str, value: Option<f64>) -> Result<f64, Error> {
         match value {
             Some(value) => Ok(value),
             None => Err(Error::new(format_args!(
@@ -206,5 +228,15 @@ fn unknown(name: &str) -> Error {
 }
 
 fn profiles() -> String {
-    format!("{}, still, spin-up or dwell", Profile::ALL.map(Profile::name).join(", "))
+    let shapes = Profile::ALL.map(Profile::name).join(", ");
+    format!("{shapes}, still, reach, ramp, spin-up or dwell")
+}
+
+impl Planning<'_> {
+    /// Returns the limits with that of the torque lowered to what is aimed at: a method's own
+    /// setpoints, good to a hundredth of the peak, then keep the limit too.
+    pub(super) fn aimed(&self) -> Limits {
+        let torque = self.limits.torque.map(|most| GOAL * most);
+        Limits { torque, ..*self.limits }
+    }
 }

@@ -1,7 +1,9 @@
 //! Notes printed before a run: durations that are not whole ticks, and the time a shaper adds.
 
 use super::SceneFile;
+use crate::axis_units;
 use crate::error::Error;
+use crate::table::significant;
 use crate::trajectory::Trajectory;
 
 /// Lines of one kind that are printed. The rest is counted.
@@ -13,17 +15,24 @@ impl SceneFile {
     pub fn roundings(&self, tick: f64) -> Result<Vec<String>, Error> {
         let trajectory = self.trajectory(tick)?;
         let mut plans = trajectory.plans().iter();
-        let mut rounded = Groups::default();
+        let (mut rounded, mut found) = (Groups::default(), Groups::default());
         for (index, step) in self.moves.iter().enumerate() {
             let settle = (step.settle > 0.0).then_some(("settle", step.settle));
             let key = if step.motion.as_move().is_some() { "duration" } else { "waypoints" };
             for (key, asked) in [(key, step.motion.duration())].into_iter().chain(settle) {
                 let Some(plan) = plans.next() else { break };
+                let whole = f64::from(plan.summary.ticks) * tick;
+                let whole = (whole * 1e9).round() / 1e9;
+                if key == "duration" && self.shortest.contains(&index) {
+                    // One that was found is in whole ticks; a time-optimal move's own need not be.
+                    let own = whole - if asked > 0.0 { 0.0 } else { plan.summary.rounded_by };
+                    let own = (own * 1e9).round() / 1e9;
+                    found.add(index, format!("duration = {own} s, the shortest within the limits"));
+                    continue;
+                }
                 // Not worth a word: what a decimal fraction of a second lacks in binary, and a move
                 // that has asked for no duration.
                 if asked > 0.0 && plan.summary.rounded_by.abs() > 1e-9 * asked {
-                    let whole = f64::from(plan.summary.ticks) * tick;
-                    let whole = (whole * 1e9).round() / 1e9;
                     rounded.add(
                         index,
                         format!(
@@ -38,13 +47,15 @@ impl SceneFile {
             let (delay, pulses) = (shaper.delay(), shaper.pulses().len());
             format!("the shaper\u{2019}s {pulses} pulses add {delay:.4} s to the motion")
         });
-        let mut found = Groups::default();
-        for &index in &self.shortest {
-            if let Some(step) = self.moves.get(index) {
-                let duration = (step.motion.duration() * 1e9).round() / 1e9;
-                found
-                    .add(index, format!("duration = {duration} s, the shortest within the limits"));
-            }
+        let units = axis_units::of(self.arm.mount.axis);
+        for &(index, rate) in &self.blended {
+            let text = if rate == 0.0 {
+                "blend = true, but the hub stops: it turns back, or a limit is exceeded".to_owned()
+            } else {
+                let rate = significant(rate, 6);
+                format!("blend = true, passes its end at {rate} {}", units.rate)
+            };
+            found.add(index, text);
         }
         let found = found.lines(self.moves.len()).into_iter();
         let lines = found.chain(rounded.lines(self.moves.len()));

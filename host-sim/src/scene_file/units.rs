@@ -73,7 +73,7 @@ pub fn angle(value: f64) -> Option<String> {
 fn motions(moves: &[MoveTable], radians: bool) -> Vec<String> {
     let mut groups = Groups::default();
     for (index, table) in moves.iter().enumerate() {
-        if table.profile.as_deref() == Some("spin-up") {
+        if matches!(table.profile.as_deref(), Some("spin-up" | "ramp")) {
             // Whoever turns on and on has angles of many turns.
             break;
         }

@@ -30,7 +30,7 @@ impl Rows<'_> {
         let mut rows: Vec<Waypoint> =
             rows.map(|(k, row)| waypoint(k, row)).collect::<Result<_, _>>()?;
         rising(&rows)?;
-        let first = self.begin(&mut rows)?;
+        let (first, acceleration) = self.begin(&mut rows)?;
         let Some(last) = rows.last().copied() else {
             return Err(Error::new(
                 "move.waypoints: must be one row at least behind t = 0, e.g. [[0.5, 0.2], [1.0, 0.3]]",
@@ -51,13 +51,16 @@ impl Rows<'_> {
         let all = (0..rounds)
             .map(f64::from)
             .flat_map(|k| rows.iter().map(move |row| row.shifted(k * last.time, k * turn)));
-        Ok(Waypoints::new(self.spline()?, all.collect(), Places::List { first, round }))
+        let path = Waypoints::new(self.spline()?, all.collect(), Places::List { first, round });
+        Ok(path.beginning_with(acceleration))
     }
 
     /// Takes away a row at t = 0, which must be where the hub is. Returns the number of the first
-    /// row that is left.
-    fn begin(&self, rows: &mut Vec<Waypoint>) -> Result<usize, Error> {
-        let Some(row) = rows.first().copied().filter(|row| row.time == 0.0) else { return Ok(0) };
+    /// row that is left, and the acceleration that the row gives.
+    fn begin(&self, rows: &mut Vec<Waypoint>) -> Result<(usize, Option<f64>), Error> {
+        let Some(row) = rows.first().copied().filter(|row| row.time == 0.0) else {
+            return Ok((0, None));
+        };
         let Some(at) = self.at else {
             return Err(Error::new(
                 "move.waypoints[0]: t = 0 s: must be absent behind a turning hub; the path begins \
@@ -77,7 +80,7 @@ impl Rows<'_> {
             )));
         }
         rows.remove(0);
-        Ok(1)
+        Ok((1, row.acceleration))
     }
 
     fn rounds(&self, rows: usize) -> Result<u32, Error> {

@@ -77,7 +77,8 @@ pub fn small<const N: usize, const W: usize>(
 /// Returns the energy of a rod that may bend far, modal coordinates `a` with rates `v`:
 ///
 /// `T = ½vᵀMv + ωhᵀv + ½ω²T_θθ` of link and payload, `½Σωₖ²aₖ²` of the strip,
-/// `g(X sinχ + Y cosχ)` of the weight. Strip and joint take `Σβₖωₖ²vₖ²`.
+/// `g(X sinχ + Y cosχ)` of the weight. The strip takes `βΣωₖ²vₖ²`, the joint `β_J k φ̇₀²`
+/// with the root at `φ₀ = Σψₖ(0)aₖ`.
 pub fn exact<const K: usize>(
     rod: &Rod<K>,
     hub: &HubState<f64>,
@@ -92,7 +93,8 @@ pub fn exact<const K: usize>(
         + 0.5 * omega * omega * kinetics.inertia;
     let stiffness = rod.frequency().map(|omega| omega * omega);
     let elastic = |x: &[f64; K]| dot(&stiffness, &x.map(|x| x * x));
-    let lost: [f64; K] = core::array::from_fn(|k| stiffness[k] * v[k] * v[k]);
+    let root = dot(rod.root_slope(), v);
+    let joint = scene.damping.joint * scene.hub.stiffness.unwrap_or(0.0);
     let [x, y] = kinetics.moment;
     // Link, payload and carriage rise with the carriage.
     let y = match scene.mount.axis {
@@ -104,7 +106,9 @@ pub fn exact<const K: usize>(
         carried,
         bending: 0.5 * elastic(a),
         raised: scene.in_plane_gravity() * (hub.sin * x + hub.cos * y),
-        dissipation: 2.0 * scene.damping.alpha * carried + dot(&rod.stiffness_damping(), &lost),
+        dissipation: 2.0 * scene.damping.alpha * carried
+            + scene.damping.beta * elastic(v)
+            + joint * root * root,
     }
 }
 

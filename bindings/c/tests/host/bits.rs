@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use stillbeam::axis::{Axis, Cause, Change, Policy, Tick};
+use stillbeam::axis::{Axis, Cause, Change, Policy, StopLimits, Tick};
 use stillbeam::drive::{cia402, moteus, odrive};
 use stillbeam::model::Rod;
 use stillbeam::motion::{Spline, Waypoint};
@@ -45,7 +45,7 @@ impl Run {
     fn new() -> Self {
         let limits =
             Limits { rate: Some(15.0), acceleration: Some(ACCELERATION), ..Limits::default() };
-        let policy = Policy { limits, patience: 0.2, missed: 2 };
+        let policy = Policy { limits, stop: StopLimits::OF_MOVES, patience: 0.2, missed: 2 };
         let origin = Angle { turns: 0, part: 0.0 };
         let axis = Axis::new(stepper(0.030), origin, policy).expect("an axis");
         Self { axis, printed: String::new() }

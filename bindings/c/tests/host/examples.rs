@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use stillbeam::axis::{Axis, Policy};
+use stillbeam::axis::{Axis, Policy, StopLimits};
 use stillbeam::drive::odrive;
 use stillbeam::motor::{Direction, Drivetrain, Joint, Ratio};
 use stillbeam::prepared::Prepared;
@@ -50,7 +50,7 @@ fn words() -> Vec<u32> {
 fn core() -> Vec<Row> {
     let stepper = Elastica2::<f32>::load(&words(), 0.01).expect("the exported arm");
     let limits = Limits { rate: Some(15.0), acceleration: Some(150.0), ..Limits::default() };
-    let policy = Policy { limits, patience: 0.0, missed: 0 };
+    let policy = Policy { limits, stop: StopLimits::OF_MOVES, patience: 0.0, missed: 0 };
     let origin = Angle { turns: 0, part: 0.0 };
     let mut axis = Axis::<_, 8>::new(stepper, origin, policy).expect("an axis");
     let joint = Joint { ratio: Ratio { motor: 6, link: 1 }, ..Joint::direct(1.0) };

@@ -1,8 +1,9 @@
 //! The angles that the modes of the rod are made of.
 
+use super::POINTS;
+use super::polynomials::{rule, slopes};
 use super::stations::{Stations, end_of_polynomial};
 use super::varied::VariedLink;
-use super::{POINTS, rule, slopes};
 use crate::math::Band;
 use crate::scene::{LinkShape, Scene};
 

@@ -2,20 +2,23 @@
 
 mod basis;
 mod expansion;
+mod kinetics;
 pub(crate) mod monomials;
 mod points;
+mod polynomials;
 mod stations;
 mod varied;
 
 pub(crate) use expansion::Expansion;
+pub use kinetics::Kinetics;
 pub(crate) use points::{Load, RodPoints};
 pub(crate) use stations::{LINK_STATIONS, Stations};
 
 use basis::Basis;
+use polynomials::{legendre, rule};
 
 use crate::Error;
-use crate::hub::HubState;
-use crate::math::{Band, GAUSS_POINTS, Scalar, dot, gauss_points, generalized_eigen, sqrt};
+use crate::math::{Band, GAUSS_POINTS, Scalar, dot, generalized_eigen, sqrt};
 use crate::scene::{LinkShape, Scene, Uniform};
 
 /// Polynomials that [`Rod::new`] makes its modes of: slopes of degree 1 to 5.
@@ -42,24 +45,6 @@ pub struct Rod<const K: usize> {
     root: [f64; K],
     tip_slope: [f64; K],
     stations: Stations,
-}
-
-/// The rod at modal coordinates `a`, hub-frame axes, nothing moving.
-///
-/// `ω` is the hub's rate. On a linear axis it is the carriage's velocity `v` along hub-frame Y:
-/// then `h = ∂/∂a (∫ρA Y dx + m_p Y_L)`, and `T_vv` is the mass of link and payload.
-#[derive(Clone, Copy, Debug)]
-pub struct Kinetics<const K: usize> {
-    /// `M(a)`: `T = ½ȧᵀMȧ + ω hᵀȧ + ½ω² T_θθ`.
-    pub mass: [[f64; K]; K],
-    /// `h(a)`.
-    pub coupling: [f64; K],
-    /// `T_θθ(a)`, the hub's inertia or the carriage's mass left out.
-    pub inertia: f64,
-    /// `∫(X, Y) dm`, payload included: gravity's potential is `g (x sinχ + y cosχ)`.
-    pub moment: [f64; 2],
-    /// The tip `(X, Y)`.
-    pub tip: [f64; 2],
 }
 
 impl<const K: usize> Rod<K> {
@@ -132,13 +117,22 @@ impl<const K: usize> Rod<K> {
     }
 
     /// `βₖ` of each mode, s: `β`, and the joint's own damping by the mode's share in its strain
-    /// energy. What the joint's damping couples of two modes is left out.
+    /// energy. What the joint's damping couples of two modes is left to `elastica`.
     pub fn stiffness_damping(&self) -> [f64; K] {
         let (damping, hub) = (&self.scene.damping, &self.scene.hub);
         let loss = damping.joint * hub.stiffness.unwrap_or(0.0);
         core::array::from_fn(|k| {
             let share = self.root[k] / self.frequency[k];
             damping.beta + loss * share * share
+        })
+    }
+
+    /// `c ψₖ(0)ψⱼ(0)`, 1/s: what a joint with the damping `c` (N m s/rad) couples of two modes; 0
+    /// on the diagonal, which [`Self::stiffness_damping`] holds.
+    pub(crate) fn joint_damping(&self) -> [[f64; K]; K] {
+        let c = self.scene.damping.joint * self.scene.hub.stiffness.unwrap_or(0.0);
+        core::array::from_fn(|k| {
+            core::array::from_fn(|j| if j == k { 0.0 } else { c * self.root[k] * self.root[j] })
         })
     }
 
@@ -194,144 +188,6 @@ impl<const K: usize> Rod<K> {
     pub fn scene(&self) -> &Scene<f64, Uniform> {
         &self.scene
     }
-
-    /// Largest tip angle relative to the hub to expect of a motion with accelerations up to that
-    /// many rad/s² (a carriage's: m/s²), rad: twice the quasi-static one, and the sag under
-    /// gravity; first mode.
-    pub fn bend(&self, acceleration: f64) -> f64 {
-        let rest = self.kinetics(&[0.0; K]);
-        let compliance = self.tip_slope[0] / (self.frequency[0] * self.frequency[0]);
-        let mut a = [0.0; K];
-        a[0] = 1e-4 * self.scene.link.length;
-        // A hub that turns meets gravity across the link somewhere; a carriage holds it one way.
-        let across = if self.scene.mount.is_linear() {
-            let mut hub = HubState::ZERO;
-            self.scene.gravity_direction().aim(&mut hub);
-            f64::abs(hub.cos)
-        } else {
-            1.0
-        };
-        let weight = self.scene.in_plane_gravity() * across * self.kinetics(&a).moment[1] / a[0];
-        compliance * (2.0 * rest.coupling[0].abs() * acceleration + weight)
-    }
-
-    /// Modal coordinates to expect with tip angles up to `bend` rad: the first mode alone makes the
-    /// bend, the others reach six times their quasi-static share.
-    pub(crate) fn range(&self, bend: f64) -> [f64; K] {
-        let coupling = self.kinetics(&[0.0; K]).coupling;
-        let share: [f64; K] =
-            core::array::from_fn(|k| (coupling[k] / (self.frequency[k] * self.frequency[k])).abs());
-        core::array::from_fn(|k| {
-            let of_first = if k == 0 { 1.0 } else { 6.0 * share[k] / share[0] };
-            of_first * bend / self.tip_slope[0]
-        })
-    }
-
-    /// Everything that depends on the shape alone.
-    pub fn kinetics(&self, a: &[f64; K]) -> Kinetics<K> {
-        let (scene, stations) = (&self.scene, &self.stations);
-        let length = scene.link.length;
-        let mut sin = [0.0; POINTS];
-        let mut cos = [0.0; POINTS];
-        for p in 0..POINTS {
-            let phi: f64 = (0..K).map(|k| self.slope[k][p] * a[k]).sum();
-            (sin[p], cos[p]) = (phi / core::f64::consts::TAU).sin_cos_turns();
-        }
-        // Each as its values at the stations, and last at the payload's centre.
-        let integral = |f: &[f64; POINTS]| -> ([f64; LINK_STATIONS], f64) {
-            let at_payload = length * dot(&stations.to_payload, f);
-            (stations.running.map(|row| length * dot(&row, f)), at_payload)
-        };
-        let times = |f: &[f64; POINTS], g: &[f64; POINTS]| -> [f64; POINTS] {
-            core::array::from_fn(|p| f[p] * g[p])
-        };
-        let (mut x, mut x_p) = integral(&cos);
-        x = x.map(|x| x + scene.hub.radius);
-        x_p += scene.hub.radius;
-        let (y, y_p) = integral(&sin);
-        let along: [_; K] = core::array::from_fn(|k| {
-            let (f, end) = integral(&times(&self.slope[k], &sin));
-            (f.map(|f| -f), -end)
-        });
-        let across: [_; K] = core::array::from_fn(|k| integral(&times(&self.slope[k], &cos)));
-        let link = |f: [f64; LINK_STATIONS]| stations.mass * dot(&stations.weights, &f);
-        let sum = |f: &dyn Fn(usize) -> f64| link(core::array::from_fn(f));
-        let (m_p, j_p) = (scene.payload.mass, scene.payload.inertia);
-        let tip_slope = &self.tip_slope;
-        let carried = scene.mount.is_linear();
-        Kinetics {
-            mass: core::array::from_fn(|i| {
-                core::array::from_fn(|j| {
-                    sum(&|s| along[i].0[s] * along[j].0[s] + across[i].0[s] * across[j].0[s])
-                        + m_p * (along[i].1 * along[j].1 + across[i].1 * across[j].1)
-                        + j_p * tip_slope[i] * tip_slope[j]
-                })
-            }),
-            coupling: core::array::from_fn(|i| {
-                if carried {
-                    return link(across[i].0) + m_p * across[i].1;
-                }
-                sum(&|s| x[s] * across[i].0[s] - y[s] * along[i].0[s])
-                    + m_p * (x_p * across[i].1 - y_p * along[i].1)
-                    + j_p * tip_slope[i]
-            }),
-            inertia: if carried {
-                stations.mass + m_p
-            } else {
-                sum(&|s| x[s] * x[s] + y[s] * y[s]) + m_p * (x_p * x_p + y_p * y_p) + j_p
-            },
-            moment: [link(x) + m_p * x_p, link(y) + m_p * y_p],
-            tip: [
-                length * dot(&stations.to_tip, &cos) + scene.hub.radius,
-                length * dot(&stations.to_tip, &sin),
-            ],
-        }
-    }
-}
-
-/// The whole Gauss rule.
-pub(super) fn rule() -> ([f64; POINTS], [f64; POINTS]) {
-    (gauss_points().map(|(xi, _)| xi), gauss_points().map(|(_, weight)| weight))
-}
-
-/// Legendre polynomials `P₀ … P_{N−1}` of `2ξ − 1`.
-pub(super) fn legendre<const N: usize>(xi: f64) -> [f64; N] {
-    let u = 2.0 * xi - 1.0;
-    let mut p = [1.0; N];
-    for k in 1..N {
-        let before = if k > 1 { p[k - 2] } else { 0.0 };
-        p[k] = ((2 * k - 1) as f64 * u * p[k - 1] - (k - 1) as f64 * before) / k as f64;
-    }
-    p
-}
-
-/// `ψⱼ(ξ) = ∫₀^ξ P_{j}(2ξ' − 1) dξ'`, `j = 0..N`: degree 1 to `N`, zero at the clamp.
-fn slopes<const N: usize>(xi: f64) -> [f64; N] {
-    let p = legendre::<POINTS>(xi);
-    core::array::from_fn(
-        |j| {
-            if j == 0 { xi } else { (p[j + 1] - p[j - 1]) / (2 * (2 * j + 1)) as f64 }
-        },
-    )
-}
-
-/// Integrates the interpolation through the points from the clamp to each point.
-fn running_integrals(points: &[f64; POINTS], weights: &[f64; POINTS]) -> [[f64; POINTS]; POINTS] {
-    let at = points.map(legendre::<{ POINTS + 1 }>);
-    core::array::from_fn(|i| {
-        core::array::from_fn(|j| {
-            let mut sum = 0.0;
-            for k in 0..POINTS {
-                let integral = if k == 0 {
-                    points[i]
-                } else {
-                    (at[i][k + 1] - at[i][k - 1]) / (2 * (2 * k + 1)) as f64
-                };
-                sum += (2 * k + 1) as f64 * weights[j] * at[j][k] * integral;
-            }
-            sum
-        })
-    })
 }
 
 #[cfg(test)]

@@ -5,8 +5,9 @@
 //! two of them over the mass is a sum over pairs of points with constant weights `W_pq = ∫I_p I_q
 //! dm`, the payload included, `I_p` the integrals of the Lagrange polynomials.
 
+use super::polynomials::{legendre, rule};
 use super::varied::VariedLink;
-use super::{LINK_STATIONS, POINTS as FINE, Rod, legendre, rule};
+use super::{LINK_STATIONS, POINTS as FINE, Rod};
 use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, Scalar, cast, dot, words};
 use crate::scene::{LinkShape, Scene, Varied};

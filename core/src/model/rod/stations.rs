@@ -1,7 +1,8 @@
 //! The places that carry the link's mass, and how their positions follow from the angle at the
 //! points.
 
-use super::{POINTS, legendre, rule, running_integrals};
+use super::POINTS;
+use super::polynomials::{legendre, rule, running_integrals};
 
 /// Stations of the link: one more than there are points, so that the integrals of any distribution
 /// of mass can be had. A uniform link leaves the last without mass.

@@ -7,9 +7,10 @@
 //! interpolated in the space of a constant, the angles, and higher polynomials in `s`: in it the
 //! linear arm is exact.
 
+use super::POINTS;
 use super::basis::Basis;
+use super::polynomials::{legendre, rule, running_integrals};
 use super::stations::{LINK_STATIONS, Stations};
-use super::{POINTS, legendre, rule, running_integrals};
 use crate::math::{Band, dot, sqrt};
 use crate::scene::{Piece, Varied};
 

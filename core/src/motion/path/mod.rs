@@ -84,6 +84,20 @@ impl Path {
         })
     }
 
+    /// Returns the path with an acceleration of its own at its beginning, rad/s², in place of the
+    /// hub's: a quintic path only. Where the two differ the acceleration jumps, and a limit of jerk
+    /// refuses the first row. Rows that are taken already stay as they are.
+    ///
+    /// # Errors
+    /// An acceleration that is out of range, or one for a cubic spline, which has its own.
+    pub fn beginning_with(mut self, acceleration: f64) -> Result<Self, Error> {
+        let acceleration = self.check_acceleration(acceleration)?;
+        if self.joiner.ticks() == 0 {
+            self.joiner = Joiner::new(HubState { acceleration, ..self.start }, self.tick);
+        }
+        Ok(self)
+    }
+
     /// True if another row can be offered.
     pub fn has_room(&self) -> bool {
         !self.closed && !self.rows.is_full()
@@ -114,12 +128,12 @@ impl Path {
         if let Some(rate) = row.rate {
             Error::check("waypoint.rate", rate, -MAX_ANGLE, MAX_ANGLE, "rad/s")?;
         }
-        if let Some(acceleration) = row.acceleration {
-            let (least, most) =
-                if self.spline == Spline::Cubic { (0.0, 0.0) } else { (-1e12, 1e12) };
-            Error::check("waypoint.acceleration", acceleration, least, most, "rad/s^2")?;
-        }
-        Ok(())
+        row.acceleration.map_or(Ok(()), |given| self.check_acceleration(given).map(drop))
+    }
+
+    fn check_acceleration(&self, acceleration: f64) -> Result<f64, Error> {
+        let (least, most) = if self.spline == Spline::Cubic { (0.0, 0.0) } else { (-1e12, 1e12) };
+        Error::check("waypoint.acceleration", acceleration, least, most, "rad/s^2")
     }
 
     /// Ends the path with the row that was offered last.

@@ -27,7 +27,8 @@ pub(crate) struct NextPiece {
 pub(crate) struct Rest {
     /// Stop from the row on. None if the hub rests at the row, or if it is the last.
     pub stop: Option<Segment<f64>>,
-    /// State of the hub behind it, at a tick; it keeps its rate.
+    /// State of the hub behind it, at a tick, with the acceleration just before. It keeps its rate
+    /// unless another motion begins there.
     pub end: HubState<f64>,
     /// Moment of the last border within the tick before, see [`Segment::kink_moment`].
     pub kink_moment: f64,
@@ -92,7 +93,8 @@ impl Path {
         let most = JUMP * peaks.acceleration.max(self.peaks.acceleration);
         let jumps = |jump: f64| jump.abs() > most;
         let ends = self.closed && self.rows.len() == 1;
-        let begin = curve.begin_acceleration - self.joiner.here().acceleration;
+        let before = if self.row == 0 { &self.start } else { self.joiner.here() };
+        let begin = curve.begin_acceleration - before.acceleration;
         if jumps(begin) || (ends && jumps(curve.end.acceleration)) {
             return Peaks { jerk: f64::INFINITY, ..peaks };
         }
@@ -110,7 +112,11 @@ impl Path {
             let curve = self.braking(&here, peaks)?.curve(&joiner);
             joiner.append(&curve)
         };
-        let (end, kink_moment) = joiner.finish();
+        let (mut end, kink_moment) = joiner.finish();
+        // A quintic goes on from the acceleration that the last row gives, if it ends at a tick.
+        if ends && self.spline == Spline::Quintic && joiner.border() == joiner.ticks() as f64 {
+            end.acceleration = here.acceleration;
+        }
         Ok(Rest { stop, end, kink_moment })
     }
 

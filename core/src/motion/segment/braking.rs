@@ -22,6 +22,9 @@ pub struct Braking<T> {
 /// `4 − 1.1716 x`.
 const CHORD: f64 = 1.171_572_875_253_81;
 
+/// Chord on 1..2: `2(1 − x) + 2√(1 + x)` is at least `4.1928 − 1.3643 x`.
+const STEEP_CHORD: [f64; 2] = [4.192_752_634_354_62, 1.364_325_509_608_43];
+
 /// Longest stop, ticks: counts up to here are exact in an f32.
 const LONGEST: u32 = 1 << 20;
 
@@ -50,9 +53,10 @@ impl<T: Scalar> Braking<T> {
     ///
     /// `θ̇(s) = (1 − s)²[v + s(2v + aT)]`, `s = t/T`: from rate `v` and acceleration `a` to rest
     /// with no acceleration, never turning back. With `β = 6v/T` its peak is `(2a + β)²/4(3a + β)`,
-    /// so `T = 1.5 v/A` while slowing down and at most 2.12 v/A while speeding up stays within the
-    /// limit `A`; the jerk limit stretches it. Where a hub that speeds up would pass the limit of
-    /// rate on its way, its acceleration drops to zero at once, as it jumps at the ends of a cubic.
+    /// so `T = 1.5 v/A` while slowing down and at most 2.12 v/A while speeding up by `A` stays
+    /// within the limit `A` of deceleration; the jerk limit stretches it. Where a hub that speeds up
+    /// would pass the limit of rate on its way, or speeds up by more than `2A`, its acceleration
+    /// drops to zero at once, as it jumps at the ends of a cubic.
     /// Order of precedence: angle and rate without a step, acceleration, rate, jerk.
     pub(crate) fn stop(&self, hub: &HubState<T>) -> (Segment<T>, Angle<T>, T) {
         let (a, ticks) = self.begin(hub.rate, hub.acceleration);
@@ -64,7 +68,9 @@ impl<T: Scalar> Braking<T> {
     fn begin(&self, rate: T, acceleration: T) -> (T, u32) {
         let sign = if rate < T::ZERO { -T::ONE } else { T::ONE };
         let (v, mut a) = (sign * rate, sign * acceleration);
-        if a > T::ZERO && self.rate.is_some_and(|limit| self.peak_rate(v, a) > limit) {
+        let steep = a > T::TWO * self.acceleration;
+        let passes = |limit: T| self.peak_rate(v, a) > limit;
+        if a > T::ZERO && (steep || self.rate.is_some_and(passes)) {
             a = T::ZERO;
         }
         let mut ticks = self.ticks(v, a);
@@ -79,9 +85,13 @@ impl<T: Scalar> Braking<T> {
     /// `T` that the acceleration allows, s.
     fn duration(&self, v: T, a: T) -> T {
         let x = if a > T::ZERO { a / self.acceleration } else { T::ZERO };
-        let x = if x > T::ONE { T::ONE } else { x };
-        let six = T::from_u32(6);
-        six * v / (self.acceleration * (T::from_u32(4) - T::from_f64(CHORD) * x))
+        let chord = if x > T::ONE {
+            let [at_zero, slope] = STEEP_CHORD.map(T::from_f64);
+            at_zero - slope * x
+        } else {
+            T::from_u32(4) - T::from_f64(CHORD) * x
+        };
+        T::from_u32(6) * v / (self.acceleration * chord)
     }
 
     /// Peak of the rate while it still grows, `a > 0`.

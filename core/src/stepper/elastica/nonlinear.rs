@@ -3,7 +3,7 @@
 use super::polynomial::{Axial, Even, Local, Odd, Order, Shape};
 use super::reach::Reach;
 use crate::hub::HubState;
-use crate::math::{Scalar, cast, words};
+use crate::math::{Scalar, cast, dot, words};
 use crate::model::rod::monomials::{EVEN, ODD};
 use crate::model::{Expansion, Rod};
 use crate::scene::AxisKind;
@@ -32,8 +32,12 @@ pub(super) struct Nonlinear<T, const K: usize> {
     /// `α` and `α/ωₖ`.
     alpha: T,
     drag: [T; K],
+    /// `Dₖⱼ/ωₖ` of the joint's own damping, which couples the modes; 0 for `j = k`, which `loss`
+    /// has.
+    joint: [[T; K]; K],
     gravity: bool,
     damping: bool,
+    joint_damping: bool,
     /// The hub turns, so that what holds the arm against gravity depends on its shape.
     turns: bool,
     /// Keeps the arguments bounded.
@@ -108,6 +112,10 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
             loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
             alpha: f(scene.damping.alpha),
             drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
+            joint: core::array::from_fn(|k| {
+                cast(&rod.joint_damping()[k].map(|coupling| coupling / omega[k]))
+            }),
+            joint_damping: scene.damping.joint > 0.0,
             gravity: g != 0.0,
             damping: !scene.damping.is_zero(),
             turns: !scene.mount.is_linear(),
@@ -154,6 +162,11 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         let mut weight = T::ZERO;
         if ALL && self.gravity {
             weight = self.weigh(&shape, hub, &mut gradient);
+        }
+        if ALL && K > 1 && self.joint_damping {
+            for (gradient, row) in gradient.iter_mut().zip(&self.joint) {
+                *gradient += dot(row, &flow.rate);
+            }
         }
         let (torque, inertia) = self.torque::<ALL, TURNS>(&shape, &forms, &flow, &gradient);
         let torque = if ALL { torque + weight } else { torque };
@@ -336,5 +349,6 @@ fn at_least<T: Scalar>(x: T, least: f64) -> T {
 
 words! {
     [T: Scalar, const K: usize] Nonlinear<T, K>: c, d, e, second, coupling,
-        inertia_at_rest, hub_inertia, moment_at_rest, moment, tip_at_rest, tip, omega, loss, alpha, drag, gravity, damping, turns, reach;
+        inertia_at_rest, hub_inertia, moment_at_rest, moment, tip_at_rest, tip, omega, loss, alpha, drag, joint, gravity, damping,
+        joint_damping, turns, reach;
 }

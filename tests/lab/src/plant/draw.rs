@@ -2,7 +2,7 @@
 
 use rand::Rng;
 use rand::rngs::StdRng;
-use stillbeam::axis::Policy;
+use stillbeam::axis::{Policy, StopLimits};
 use stillbeam::motor::{Direction, Ratio};
 use stillbeam::{Damping, Limits, Link, Payload, Scene, UniformScene};
 use stillbeam_board::machine::Configuration;
@@ -58,7 +58,7 @@ impl Case {
             acceleration: Some(8.0 * turn.abs() / (duration * duration)),
             ..Limits::default()
         };
-        let policy = Policy { limits, patience: 0.1, missed: 2 };
+        let policy = Policy { limits, stop: StopLimits::OF_MOVES, patience: 0.1, missed: 2 };
         let direction = if rng.random() { Direction::Same } else { Direction::Opposite };
         let joint = parts.joint(rng.random());
         let zero = rng.random_range(-2.0..2.0);

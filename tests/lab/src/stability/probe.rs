@@ -91,6 +91,7 @@ pub fn scene(arm: &Scene, omega: f64, tick: f64, task: Task, after: f64) -> Scen
     };
     SceneFile {
         shortest: Vec::new(),
+        blended: Vec::new(),
         name: "probe".into(),
         arm: *arm,
         from: 0.0,

@@ -110,6 +110,7 @@ pub fn draw_plain(seed: u64, index: u64) -> Drawn {
     let solvers = solvers(rng, tick);
     let scene = SceneFile {
         shortest: Vec::new(),
+        blended: Vec::new(),
         shaper: None,
         name: format!("stress {seed}/{index}"),
         arm,
