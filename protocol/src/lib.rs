@@ -9,7 +9,8 @@
 //! The firmware answers every request with one report that carries the request's sequence number.
 //! Moves and payloads are answered once they are planned, in the order in which they came; every
 //! other request is at once, even while a move is being planned. In between the firmware sends, for
-//! every tick and axis, the setpoint ([`Report::Tick`]).
+//! every tick and axis, the setpoint ([`Report::Tick`]), and of an axis that is recorded a
+//! [`Report::Sample`].
 //!
 //! [`slcan`] is the text form of CAN frames, for a bus that is captured.
 
@@ -18,5 +19,5 @@ mod message;
 mod refusal;
 pub mod slcan;
 
-pub use message::{Command, Description, Report, Request, Status};
+pub use message::{Command, Description, Report, Request, Sample, Status};
 pub use refusal::Refusal;

@@ -44,6 +44,8 @@ pub enum Refusal<'a> {
     NoPlanner,
     /// There are only so many axes.
     Axis(u8),
+    /// The board reads no sensor of this axis.
+    NoSensor,
     /// For a reason that this version of the protocol has no word for.
     Other,
 }
@@ -126,6 +128,9 @@ impl fmt::Display for Refusal<'_> {
                 write!(f, "still = no planner: use a firmware with the feature `still`")
             }
             Self::Axis(axes) => write!(f, "axis: must be 0 to {}", axes.saturating_sub(1)),
+            Self::NoSensor => {
+                write!(f, "record = no sensor: use a board whose file reads one for this axis")
+            }
             Self::Other => {
                 write!(f, "request: refused for a reason that needs a newer program to name")
             }

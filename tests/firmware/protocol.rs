@@ -5,7 +5,7 @@ use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::motor::{Direction, Joint};
 use stillbeam::{Angle, Hub, Limits, Link, Payload, PlainMove, Profile, Setpoint, UniformScene};
 use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
-use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status};
+use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Sample, Status};
 
 fn profiles() -> impl Strategy<Value = Profile> {
     prop::sample::select(Profile::ALL.to_vec())
@@ -37,6 +37,7 @@ fn commands() -> impl Strategy<Value = Command> {
             offset: 0.0
         })),
         any().prop_map(Command::Home),
+        proptest::bool::ANY.prop_map(Command::Record),
     ]
 }
 
@@ -49,7 +50,7 @@ fn requests() -> impl Strategy<Value = Request> {
 }
 
 /// The longest reports there are: every varint at its longest.
-fn longest() -> [Report<'static>; 4] {
+fn longest() -> [Report<'static>; 7] {
     let big = Angle { turns: i32::MIN, part: 0.5 };
     let limits = Limits {
         rate: Some(1.0),
@@ -123,6 +124,16 @@ fn longest() -> [Report<'static>; 4] {
             },
             cause: Some(Cause::MissedTicks),
         },
+        Report::Recording {
+            sequence: u16::MAX,
+            tick: u32::MAX,
+            column: "tip_angular_acceleration_rad_s2",
+        },
+        Report::Sample {
+            axis: 255,
+            sample: Sample { time: u32::MAX, hub: big, value: f32::MIN_POSITIVE },
+        },
+        Report::Recorded { sequence: u16::MAX, samples: u32::MAX, lost: u32::MAX },
     ]
 }
 

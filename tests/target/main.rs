@@ -11,3 +11,4 @@ mod instructions;
 mod mechanisms;
 mod no_panic;
 mod portability;
+mod record;

@@ -302,6 +302,8 @@ fn said(answer: &Answer) -> String {
             status.garbled,
             status.stack
         ),
+        Answer::Recording(column) => format!("recording {column}"),
+        Answer::Recorded { samples, lost } => format!("{samples} samples, {lost} lost"),
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use stillbeam::axis::Tick;
 use stillbeam_protocol::frame::{self, Splitter, decode};
-use stillbeam_protocol::{Command, Report, Request, Status};
+use stillbeam_protocol::{Command, Report, Request, Sample, Status};
 
 use super::comparison::Comparison;
 use super::{Machine, Replica};
@@ -28,6 +28,15 @@ pub enum Answer {
     Refused(String),
     /// The status of the axis.
     Status(Status),
+    /// A recording has begun, of a sensor's column of that name.
+    Recording(String),
+    /// A recording has ended.
+    Recorded {
+        /// Samples that were sent.
+        samples: u32,
+        /// Samples that the line was too slow for, or that found no hub angle.
+        lost: u32,
+    },
 }
 
 /// A request that was sent.
@@ -56,6 +65,8 @@ pub struct Session {
     unheard: bool,
     /// True if the drives turn machines.
     loaded: bool,
+    /// Samples of the axis that is recorded, if one is.
+    samples: Option<(u8, Vec<Sample>)>,
 }
 
 impl Session {
@@ -95,6 +106,7 @@ impl Session {
             beaten: 0,
             unheard: false,
             loaded,
+            samples: None,
         };
         let mut axis = 0;
         let mut axes = 1;
@@ -227,6 +239,16 @@ impl Session {
     /// An error is returned if the line is broken.
     pub fn disturb(&mut self, bytes: &[u8]) -> Result<(), Error> {
         self.machine.send(bytes)
+    }
+
+    /// Keeps the samples of an axis from now on.
+    pub(super) fn keep_samples(&mut self, axis: u8) {
+        self.samples = Some((axis, Vec::new()));
+    }
+
+    /// Returns the samples that were kept, and keeps no more.
+    pub(super) fn take_samples(&mut self) -> Vec<Sample> {
+        self.samples.take().map(|(_, samples)| samples).unwrap_or_default()
     }
 
     /// Number of axes.
@@ -412,6 +434,19 @@ impl Session {
                 (sequence, Answer::Refused(refusal.to_string()))
             }
             Report::Status { sequence, status } => (sequence, Answer::Status(status)),
+            Report::Recording { sequence, column, .. } => {
+                (sequence, Answer::Recording(column.to_owned()))
+            }
+            Report::Sample { axis, sample } => {
+                // Those of a recording that another host has begun are not kept.
+                if let Some((_, samples)) = self.samples.as_mut().filter(|(of, _)| *of == axis) {
+                    samples.push(sample);
+                }
+                return Ok(());
+            }
+            Report::Recorded { sequence, samples, lost } => {
+                (sequence, Answer::Recorded { samples, lost })
+            }
         };
         let known = self.open.contains(&sequence);
         self.open.retain(|open| *open != sequence);
