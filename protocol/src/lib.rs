@@ -14,10 +14,12 @@
 //!
 //! [`slcan`] is the text form of CAN frames, for a bus that is captured.
 
+mod change;
 pub mod frame;
 mod message;
 mod refusal;
 pub mod slcan;
 
+pub use change::Change;
 pub use message::{Command, Description, Report, Request, Sample, Status};
 pub use refusal::Refusal;

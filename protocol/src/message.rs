@@ -5,7 +5,7 @@ use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::motor::{Direction, Joint};
 use stillbeam::{Angle, Payload, PlainMove, UniformScene};
 
-use crate::Refusal;
+use crate::{Change, Refusal};
 
 /// A request from the host.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -48,6 +48,8 @@ pub enum Command {
     Status,
     /// Begin a recording of the axis, or with `false` end it.
     Record(bool),
+    /// Change the motion from the next tick on, at any tick, with the hub turning or not.
+    Change(Change),
 }
 
 /// A report from the firmware.

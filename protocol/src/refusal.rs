@@ -44,6 +44,8 @@ pub enum Refusal<'a> {
     NoPlanner,
     /// There are only so many axes.
     Axis(u8),
+    /// No move is under way.
+    NoMove,
     /// The board reads no sensor of this axis.
     NoSensor,
     /// For a reason that this version of the protocol has no word for.
@@ -94,6 +96,7 @@ impl From<Error> for Refusal<'static> {
             Error::WrongMode { mode } => Self::Mode(mode),
             Error::Moving => Self::NotAtRest,
             Error::Stale => Self::Stale,
+            Error::NoMove => Self::NoMove,
             // The core may learn of faults that this version of the protocol has no word for.
             _ => Self::Other,
         }
@@ -120,6 +123,7 @@ impl fmt::Display for Refusal<'_> {
             Self::Mode(mode) => write!(f, "{}", Error::WrongMode { mode }),
             Self::NotAtRest => write!(f, "{}", Error::Moving),
             Self::Stale => write!(f, "move = planned before a stop: send it again"),
+            Self::NoMove => write!(f, "{}", Error::NoMove),
             Self::NotMeasured => {
                 write!(f, "drive = silent: wait until it has reported an encoder angle")
             }

@@ -5,7 +5,7 @@ use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::motor::{Direction, Joint};
 use stillbeam::{Angle, Hub, Limits, Link, Payload, PlainMove, Profile, Setpoint, UniformScene};
 use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
-use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Sample, Status};
+use stillbeam_protocol::{Change, Command, Description, Refusal, Report, Request, Sample, Status};
 
 fn profiles() -> impl Strategy<Value = Profile> {
     prop::sample::select(Profile::ALL.to_vec())
@@ -38,6 +38,12 @@ fn commands() -> impl Strategy<Value = Command> {
         })),
         any().prop_map(Command::Home),
         proptest::bool::ANY.prop_map(Command::Record),
+        (any(), any(), any()).prop_map(|(angle, rate, duration)| {
+            Command::Change(Change::Target { angle, rate, duration })
+        }),
+        any().prop_map(|duration| Command::Change(Change::Duration(duration))),
+        Just(Command::Change(Change::Hold)),
+        Just(Command::Change(Change::Cancel)),
     ]
 }
 

@@ -4,6 +4,7 @@
 mod application;
 mod boards;
 mod c;
+mod changes;
 mod emulator;
 mod footprint;
 mod golden;

@@ -12,6 +12,7 @@
 
 #[cfg_attr(feature = "_other-axes", path = "../../target/firmware/axes.rs")]
 pub mod axes;
+mod change;
 mod configuration;
 pub mod drive;
 mod joint;

@@ -34,7 +34,8 @@ impl Work {
             | Command::Heartbeat
             | Command::Describe
             | Command::Status
-            | Command::Record(_) => None,
+            | Command::Record(_)
+            | Command::Change(_) => None,
         }
     }
 }

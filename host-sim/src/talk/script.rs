@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use stillbeam::{Payload, PlainMove, Profile};
-use stillbeam_protocol::Command;
+use stillbeam_protocol::{Change, Command};
 
 use super::{Answer, Session};
 use crate::error::Error;
@@ -127,7 +127,7 @@ pub const MACHINE: [&str; 20] = [
 
 /// Steps that are accepted.
 const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, still A TO \
-     [DURATION], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest, \
+     [DURATION], target A TO DURATION [RATE], duration A DURATION, hold A, cancel A, spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest, \
      jump A TURNS, fault A, clear A";
 
 impl FromStr for Step {
@@ -175,6 +175,14 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
             let (duration, rate) = (number(words.next())?, number(words.next())?);
             Command::Move(PlainMove::SpinUp { duration, rate })
         }
+        "target" => {
+            let (angle, duration) = (number(words.next())?, number(words.next())?);
+            let rate = words.next().map_or(Some(0.0), |word| number(Some(word)))?;
+            Command::Change(Change::Target { angle, rate, duration })
+        }
+        "duration" => Command::Change(Change::Duration(number(words.next())?)),
+        "hold" => Command::Change(Change::Hold),
+        "cancel" => Command::Change(Change::Cancel),
         "dwell" => Command::Move(PlainMove::Dwell { duration: number(words.next())? }),
         "payload" => {
             let mass = number(words.next())?;
