@@ -7,8 +7,8 @@
 //! [`frame::MAX`] bytes; what is garbled is dropped whole and decoding never panics.
 //!
 //! The firmware answers every request with one report that carries the request's sequence number.
-//! Moves and payloads are answered once they are planned, in the order in which they came; every
-//! other request is at once, even while a move is being planned. In between the firmware sends, for
+//! Moves, rows of paths and payloads are answered once they are planned, in the order in which they
+//! came; every other request is at once, even while a move is being planned. In between the firmware sends, for
 //! every tick and axis, the setpoint ([`Report::Tick`]), and of an axis that is recorded a
 //! [`Report::Sample`].
 //!

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
+use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::motor::{Direction, Joint};
 use stillbeam::{Angle, Payload, PlainMove, UniformScene};
 
@@ -50,6 +51,17 @@ pub enum Command {
     Record(bool),
     /// Change the motion from the next tick on, at any tick, with the hub turning or not.
     Change(Change),
+    /// Begin a path of any length at the end of the moves; its rows follow one by one. A path
+    /// whose rows stay away ends at rest.
+    Path(Spline),
+    /// One more row of the path that was begun. Refused with [`Refusal::Queue`] while there is no
+    /// room: it is to be sent again then.
+    Waypoint {
+        /// Time, angle and what else is given.
+        row: Waypoint,
+        /// True of the path's last row.
+        last: bool,
+    },
 }
 
 /// A report from the firmware.

@@ -46,6 +46,10 @@ pub enum Refusal<'a> {
     Axis(u8),
     /// No move is under way.
     NoMove,
+    /// No path has been begun, or it is over.
+    NoPath,
+    /// The row came after the hub had begun to stop at the one before.
+    Starved,
     /// The board reads no sensor of this axis.
     NoSensor,
     /// For a reason that this version of the protocol has no word for.
@@ -97,6 +101,7 @@ impl From<Error> for Refusal<'static> {
             Error::Moving => Self::NotAtRest,
             Error::Stale => Self::Stale,
             Error::NoMove => Self::NoMove,
+            Error::Starved => Self::Starved,
             // The core may learn of faults that this version of the protocol has no word for.
             _ => Self::Other,
         }
@@ -124,6 +129,8 @@ impl fmt::Display for Refusal<'_> {
             Self::NotAtRest => write!(f, "{}", Error::Moving),
             Self::Stale => write!(f, "move = planned before a stop: send it again"),
             Self::NoMove => write!(f, "{}", Error::NoMove),
+            Self::NoPath => write!(f, "waypoint = without a path: begin a path first"),
+            Self::Starved => write!(f, "{}", Error::Starved),
             Self::NotMeasured => {
                 write!(f, "drive = silent: wait until it has reported an encoder angle")
             }

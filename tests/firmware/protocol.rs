@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
+use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::motor::{Direction, Joint};
 use stillbeam::{Angle, Hub, Limits, Link, Payload, PlainMove, Profile, Setpoint, UniformScene};
 use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
@@ -42,6 +43,12 @@ fn commands() -> impl Strategy<Value = Command> {
             Command::Change(Change::Target { angle, rate, duration })
         }),
         any().prop_map(|duration| Command::Change(Change::Duration(duration))),
+        prop::sample::select(Spline::ALL.to_vec()).prop_map(Command::Path),
+        (any(), any(), prop::option::of(any()), prop::option::of(any()), proptest::bool::ANY)
+            .prop_map(|(time, angle, rate, acceleration, last)| {
+                let row = Waypoint { time, angle, rate, acceleration };
+                Command::Waypoint { row, last }
+            }),
         Just(Command::Change(Change::Hold)),
         Just(Command::Change(Change::Cancel)),
     ]

@@ -11,5 +11,6 @@ mod golden;
 mod instructions;
 mod mechanisms;
 mod no_panic;
+mod paths;
 mod portability;
 mod record;

@@ -75,7 +75,9 @@ mod tests {
         assert!((last.angle.radians() - 0.25).abs() < 1e-5, "{last:?}");
         assert!((last.rate - 0.1).abs() < 1e-5, "{last:?}");
         assert_eq!(change(&mut joint, Change::Hold), Ok(()));
-        (0..200).for_each(|_| drop(joint.axis.tick()));
+        for _ in 0..200 {
+            joint.axis.tick();
+        }
         assert!(joint.axis.rests());
     }
 

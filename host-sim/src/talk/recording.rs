@@ -66,8 +66,8 @@ pub fn record(
     let moves = moves(session, axis, excitation, turn)?;
     demand(session, axis, "enable", Command::Enable)?;
     let recorded = along(session, axis, &moves);
-    let off = demand(session, axis, "disable", Command::Disable);
-    recorded.and_then(|recording| off.map(|_| recording))
+    let off = demand(session, axis, "disable", Command::Disable).and_then(|_| session.wait(1));
+    recorded.and_then(|recording| off.map(|()| recording))
 }
 
 /// Plans the motion from the arm's description, for a hub at 0 rad.
@@ -159,7 +159,7 @@ fn duration(motion: &PlainMove) -> f64 {
 /// Sends a request, named by `what`, that must be accepted.
 fn demand(session: &mut Session, axis: u8, what: &str, command: Command) -> Result<Answer, Error> {
     match session.ask(axis, command)? {
-        Answer::Refused(why) => {
+        Answer::Refused(why) | Answer::Full(why) => {
             Err(Error::new(format_args!("--record: {what} {axis} was refused: {why}")))
         }
         answer => Ok(answer),

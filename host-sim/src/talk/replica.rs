@@ -53,6 +53,8 @@ impl Replica {
                 self.planner = None;
                 self.axis.reload(payload, self.tick)
             }
+            Some(Work::Path(spline)) => self.axis.begin_path(spline).map_err(apart),
+            Some(Work::Row(row, last)) => self.axis.offer(row, last).map_err(apart),
             None => self.axis.carry_out(command, shaft).map_err(apart),
         }
     }

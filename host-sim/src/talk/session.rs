@@ -3,8 +3,9 @@
 use std::collections::VecDeque;
 
 use stillbeam::axis::Tick;
+use stillbeam::motion::Waypoint;
 use stillbeam_protocol::frame::{self, Splitter, decode};
-use stillbeam_protocol::{Command, Report, Request, Sample, Status};
+use stillbeam_protocol::{Command, Refusal, Report, Request, Sample, Status};
 
 use super::comparison::Comparison;
 use super::{Machine, Replica};
@@ -26,6 +27,8 @@ pub enum Answer {
     Accepted(u32),
     /// The request was refused, for that reason.
     Refused(String),
+    /// The request was refused for want of room in the move queue, in those words.
+    Full(String),
     /// The status of the axis.
     Status(Status),
     /// A recording has begun, of a sensor's column of that name.
@@ -128,6 +131,22 @@ impl Session {
     pub fn ask(&mut self, axis: u8, command: Command) -> Result<Answer, Error> {
         let posted = self.post(axis, command)?;
         self.answer(posted)
+    }
+
+    /// Sends a row of a path, again and again until there is room for it.
+    ///
+    /// # Errors
+    /// Errors are those of [`Session::ask`].
+    pub fn offer(&mut self, axis: u8, row: Waypoint, last: bool) -> Result<Answer, Error> {
+        let mut waited = 0;
+        loop {
+            match self.ask(axis, Command::Waypoint { row, last })? {
+                // Rows before it wait for moves that take longer than a path's rows may lie apart.
+                Answer::Full(_) if waited < self.ticks(LONGEST) => self.wait(1)?,
+                answer => return Ok(answer),
+            }
+            waited += 1;
+        }
     }
 
     /// Sends a request, for [`Session::answer`]. In between others may be asked. If a move is
@@ -431,7 +450,9 @@ impl Session {
             }
             Report::Accepted { sequence, tick } => (sequence, Answer::Accepted(tick)),
             Report::Refused { sequence, refusal } => {
-                (sequence, Answer::Refused(refusal.to_string()))
+                let why = refusal.to_string();
+                let is_full = matches!(refusal, Refusal::Queue { .. });
+                (sequence, if is_full { Answer::Full(why) } else { Answer::Refused(why) })
             }
             Report::Status { sequence, status } => (sequence, Answer::Status(status)),
             Report::Recording { sequence, column, .. } => {

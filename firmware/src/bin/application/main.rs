@@ -7,7 +7,7 @@
 //! | [`command::run`] | middle | requests of the host: carries out, hands down, answers |
 //! | [`link::setpoints`] | middle | every setpoint, and what [`record`] takes, to the host |
 //! | [`report::run`] | middle | a line a second over defmt |
-//! | [`plan::run`] | lowest | plans moves, sets arms up |
+//! | [`plan::run`] | lowest | plans moves and rows of paths, sets arms up |
 //!
 //! One board, chosen by a feature; everything it differs in is in its file.
 #![no_std]
