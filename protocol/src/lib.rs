@@ -7,16 +7,19 @@
 //! [`frame::MAX`] bytes; what is garbled is dropped whole and decoding never panics.
 //!
 //! The firmware answers every request with one report that carries the request's sequence number.
-//! Moves and payloads are answered once they are planned, in the order in which they came; every
-//! other request is at once, even while a move is being planned. In between the firmware sends, for
-//! every tick and axis, the setpoint ([`Report::Tick`]).
+//! Moves, rows of paths and payloads are answered once they are planned, in the order in which they
+//! came; every other request is at once, even while a move is being planned. In between the firmware sends, for
+//! every tick and axis, the setpoint ([`Report::Tick`]), and of an axis that is recorded a
+//! [`Report::Sample`].
 //!
 //! [`slcan`] is the text form of CAN frames, for a bus that is captured.
 
+mod change;
 pub mod frame;
 mod message;
 mod refusal;
 pub mod slcan;
 
-pub use message::{Command, Description, Report, Request, Status};
+pub use change::Change;
+pub use message::{Command, Description, Report, Request, Sample, Status};
 pub use refusal::Refusal;

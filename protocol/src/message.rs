@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
+use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::motor::{Direction, Joint};
 use stillbeam::{Angle, Payload, PlainMove, UniformScene};
 
-use crate::Refusal;
+use crate::{Change, Refusal};
 
 /// A request from the host.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,6 +47,21 @@ pub enum Command {
     Describe,
     /// Say how it is.
     Status,
+    /// Begin a recording of the axis, or with `false` end it.
+    Record(bool),
+    /// Change the motion from the next tick on, at any tick, with the hub turning or not.
+    Change(Change),
+    /// Begin a path of any length at the end of the moves; its rows follow one by one. A path
+    /// whose rows stay away ends at rest.
+    Path(Spline),
+    /// One more row of the path that was begun. Refused with [`Refusal::Queue`] while there is no
+    /// room: it is to be sent again then.
+    Waypoint {
+        /// Time, angle and what else is given.
+        row: Waypoint,
+        /// True of the path's last row.
+        last: bool,
+    },
 }
 
 /// A report from the firmware.
@@ -93,6 +109,43 @@ pub enum Report<'a> {
         /// Reason for which the axis stopped, if it did.
         cause: Option<Cause>,
     },
+    /// Answer to [`Command::Record`] with `true`: a [`Report::Sample`] of every tick follows.
+    Recording {
+        /// The request's.
+        sequence: u16,
+        /// Number of the tick after it, which is the first that is recorded.
+        tick: u32,
+        /// What the sensor measures, its unit at the end: a column of a log, `tip_deflection_m`.
+        column: &'a str,
+    },
+    /// A tick of a recording.
+    Sample {
+        /// Number of the axis.
+        axis: u8,
+        /// Time, hub angle and sensor.
+        sample: Sample,
+    },
+    /// Answer to [`Command::Record`] with `false`, behind the last sample.
+    Recorded {
+        /// The request's.
+        sequence: u16,
+        /// Number of samples that were sent.
+        samples: u32,
+        /// Number of samples that the line was too slow for, or that found no hub angle.
+        lost: u32,
+    },
+}
+
+/// A row of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sample {
+    /// Time since the recording's first tick, µs, modulo 2³² (71 minutes). Missed ticks and the
+    /// lateness of this one are in it.
+    pub time: u32,
+    /// Angle of the hub by the drive's latest report.
+    pub hub: Angle<f32>,
+    /// Reading of the sensor, in the unit of its column.
+    pub value: f32,
 }
 
 /// All that a host needs to run the same axis.

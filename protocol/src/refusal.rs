@@ -44,6 +44,14 @@ pub enum Refusal<'a> {
     NoPlanner,
     /// There are only so many axes.
     Axis(u8),
+    /// No move is under way.
+    NoMove,
+    /// No path has been begun, or it is over.
+    NoPath,
+    /// The row came after the hub had begun to stop at the one before.
+    Starved,
+    /// The board reads no sensor of this axis.
+    NoSensor,
     /// For a reason that this version of the protocol has no word for.
     Other,
 }
@@ -92,6 +100,8 @@ impl From<Error> for Refusal<'static> {
             Error::WrongMode { mode } => Self::Mode(mode),
             Error::Moving => Self::NotAtRest,
             Error::Stale => Self::Stale,
+            Error::NoMove => Self::NoMove,
+            Error::Starved => Self::Starved,
             // The core may learn of faults that this version of the protocol has no word for.
             _ => Self::Other,
         }
@@ -118,6 +128,9 @@ impl fmt::Display for Refusal<'_> {
             Self::Mode(mode) => write!(f, "{}", Error::WrongMode { mode }),
             Self::NotAtRest => write!(f, "{}", Error::Moving),
             Self::Stale => write!(f, "move = planned before a stop: send it again"),
+            Self::NoMove => write!(f, "{}", Error::NoMove),
+            Self::NoPath => write!(f, "waypoint = without a path: begin a path first"),
+            Self::Starved => write!(f, "{}", Error::Starved),
             Self::NotMeasured => {
                 write!(f, "drive = silent: wait until it has reported an encoder angle")
             }
@@ -126,6 +139,9 @@ impl fmt::Display for Refusal<'_> {
                 write!(f, "still = no planner: use a firmware with the feature `still`")
             }
             Self::Axis(axes) => write!(f, "axis: must be 0 to {}", axes.saturating_sub(1)),
+            Self::NoSensor => {
+                write!(f, "record = no sensor: use a board whose file reads one for this axis")
+            }
             Self::Other => {
                 write!(f, "request: refused for a reason that needs a newer program to name")
             }

@@ -230,6 +230,25 @@ fn the_image_is_looked_for_in_cargos_target_folder() {
     assert!(error.contains("--features mps2") && error.contains("--image"), "{error}");
 }
 
+/// A log that cannot be written, and options of a recording without one, are refused before the
+/// firmware is looked for.
+#[test]
+fn a_recording_without_a_place_is_refused_before_it_begins() {
+    let folder = std::env::temp_dir();
+    let folder = folder.to_str().expect("a name in Unicode");
+    for (words, wanted) in [
+        (&["--record", folder][..], "is a folder; must be a file's path"),
+        (&["--motion", "sweep", "rest"], "--record"),
+        (&["--record", "log.csv", "--motion", "square"], "square"),
+    ] {
+        let words = [&["talk", "--image", "no-such-image"], words].concat();
+        let output = sim().args(&words).output().expect("program");
+        let error = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(2), "{words:?}: {error}");
+        assert!(error.contains(wanted) && !error.contains("no-such-image"), "{words:?}: {error}");
+    }
+}
+
 #[test]
 fn a_link_that_buckles_says_what_to_do() {
     let scene = GOOD.replace("acceleration = 0.0", "acceleration = 100.0");

@@ -2,10 +2,11 @@
 
 use proptest::prelude::*;
 use stillbeam::axis::{Cause, Mode, Policy, StopLimits, Tick};
+use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::motor::{Direction, Joint};
 use stillbeam::{Angle, Hub, Limits, Link, Payload, PlainMove, Profile, Setpoint, UniformScene};
 use stillbeam_protocol::frame::{Garbled, MAX, Splitter, decode, encode};
-use stillbeam_protocol::{Command, Description, Refusal, Report, Request, Status};
+use stillbeam_protocol::{Change, Command, Description, Refusal, Report, Request, Sample, Status};
 
 fn profiles() -> impl Strategy<Value = Profile> {
     prop::sample::select(Profile::ALL.to_vec())
@@ -37,6 +38,19 @@ fn commands() -> impl Strategy<Value = Command> {
             offset: 0.0
         })),
         any().prop_map(Command::Home),
+        proptest::bool::ANY.prop_map(Command::Record),
+        (any(), any(), any()).prop_map(|(angle, rate, duration)| {
+            Command::Change(Change::Target { angle, rate, duration })
+        }),
+        any().prop_map(|duration| Command::Change(Change::Duration(duration))),
+        prop::sample::select(Spline::ALL.to_vec()).prop_map(Command::Path),
+        (any(), any(), prop::option::of(any()), prop::option::of(any()), proptest::bool::ANY)
+            .prop_map(|(time, angle, rate, acceleration, last)| {
+                let row = Waypoint { time, angle, rate, acceleration };
+                Command::Waypoint { row, last }
+            }),
+        Just(Command::Change(Change::Hold)),
+        Just(Command::Change(Change::Cancel)),
     ]
 }
 
@@ -49,7 +63,7 @@ fn requests() -> impl Strategy<Value = Request> {
 }
 
 /// The longest reports there are: every varint at its longest.
-fn longest() -> [Report<'static>; 4] {
+fn longest() -> [Report<'static>; 7] {
     let big = Angle { turns: i32::MIN, part: 0.5 };
     let limits = Limits {
         rate: Some(1.0),
@@ -128,6 +142,16 @@ fn longest() -> [Report<'static>; 4] {
             },
             cause: Some(Cause::MissedTicks),
         },
+        Report::Recording {
+            sequence: u16::MAX,
+            tick: u32::MAX,
+            column: "tip_angular_acceleration_rad_s2",
+        },
+        Report::Sample {
+            axis: 255,
+            sample: Sample { time: u32::MAX, hub: big, value: f32::MIN_POSITIVE },
+        },
+        Report::Recorded { sequence: u16::MAX, samples: u32::MAX, lost: u32::MAX },
     ]
 }
 

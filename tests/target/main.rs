@@ -4,10 +4,13 @@
 mod application;
 mod boards;
 mod c;
+mod changes;
 mod emulator;
 mod footprint;
 mod golden;
 mod instructions;
 mod mechanisms;
 mod no_panic;
+mod paths;
 mod portability;
+mod record;

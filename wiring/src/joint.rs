@@ -7,7 +7,7 @@ use stillbeam::motor::Drivetrain;
 use stillbeam::{Angle, Error, Stepper, UniformScene};
 use stillbeam_protocol::{Command, Refusal};
 
-use crate::Configuration;
+use crate::{Configuration, change};
 
 /// Least and greatest angle that a request may give the hub, rad.
 pub const HOME_RANGE: (f64, f64) = (-1e6, 1e6);
@@ -59,8 +59,8 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
     /// only ask, change nothing.
     ///
     /// # Errors
-    /// The axis is in another mode, its drive has not reported an angle, or the angle of
-    /// [`Command::Home`] is not in [`HOME_RANGE`].
+    /// The axis is in another mode, its drive has not reported an angle, the angle of
+    /// [`Command::Home`] is not in [`HOME_RANGE`], or a [`Command::Change`] is refused.
     pub fn carry_out(&mut self, command: &Command) -> Result<(), Refusal<'static>> {
         match *command {
             Command::Enable => {
@@ -70,6 +70,7 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
             Command::Disable => self.axis.disable(),
             Command::Stop => self.axis.stop(Cause::Requested),
             Command::Home(angle) => self.home(angle)?,
+            Command::Change(change) => change::carry_out(&mut self.axis, &change)?,
             _ => {}
         }
         Ok(())

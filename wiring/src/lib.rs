@@ -6,16 +6,27 @@
 //! [`axes`] says what hangs on this machine, and is the file to edit for another one.
 //! [`Configuration`] is one axis of it. [`Joint`] is an axis at work: arm, policy, gear and
 //! encoder. [`Work`] tells the requests that need a plan from those that are carried out at once,
-//! and [`drive`] says what a drive is told at a tick. Nothing here owns a task, a clock or a
+//! and [`drive`] says what a drive is told at a tick. [`Rows`] are a path that comes row by row.
+//! [`Recorder`] samples a [`Sensor`] beside the
+//! hub's angle; [`StandIn`] takes the sensor's place where there is none. Nothing here owns a task, a clock or a
 //! device.
 
 #[cfg_attr(feature = "_other-axes", path = "../../target/firmware/axes.rs")]
 pub mod axes;
+mod change;
 mod configuration;
 pub mod drive;
 mod joint;
+mod recorder;
+mod rows;
+mod sensor;
+mod stand_in;
 mod work;
 
 pub use configuration::Configuration;
 pub use joint::{HOME_RANGE, Joint};
+pub use recorder::{Recorder, Recording};
+pub use rows::Rows;
+pub use sensor::Sensor;
+pub use stand_in::{StandIn, Truth};
 pub use work::Work;

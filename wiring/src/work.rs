@@ -1,5 +1,6 @@
 //! Requests that need a plan or a set-up, and are answered when it is there.
 
+use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::{Payload, PlainMove};
 use stillbeam_protocol::Command;
 
@@ -17,6 +18,10 @@ pub enum Work {
     },
     /// A payload, for which the arm has to be set up anew.
     Payload(Payload),
+    /// A path to begin.
+    Path(Spline),
+    /// A row of a path, and true of the last one.
+    Row(Waypoint, bool),
 }
 
 impl Work {
@@ -26,6 +31,8 @@ impl Work {
             Command::Move(motion) => Some(Self::Move(motion)),
             Command::Still { to, duration } => Some(Self::Still { to, duration }),
             Command::Payload(payload) => Some(Self::Payload(payload)),
+            Command::Path(spline) => Some(Self::Path(spline)),
+            Command::Waypoint { row, last } => Some(Self::Row(row, last)),
             // Named one by one, so that a new command is looked at here.
             Command::Enable
             | Command::Disable
@@ -33,7 +40,9 @@ impl Work {
             | Command::Home(_)
             | Command::Heartbeat
             | Command::Describe
-            | Command::Status => None,
+            | Command::Status
+            | Command::Record(_)
+            | Command::Change(_) => None,
         }
     }
 }

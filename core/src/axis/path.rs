@@ -3,7 +3,7 @@
 use super::Axis;
 use crate::Error;
 use crate::error::Mode;
-use crate::motion::{Path, RowError, Spline};
+use crate::motion::{Path, PathPiece, RowError, Spline};
 use crate::stepper::Stepper;
 
 impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
@@ -31,5 +31,17 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
             return Err(path.row_error(Error::WrongMode { mode: self.mode }));
         }
         self.generator.advance(path)
+    }
+    /// Takes a piece of a path that [`Path::next_piece`] has planned; false if there is no room for
+    /// it yet. See [`Generator::take_piece`](crate::Generator::take_piece): [`Self::advance`] in two,
+    /// so that nothing is planned while the tick waits.
+    ///
+    /// # Errors
+    /// As there; and of the axis' mode, as a row's error, if it is not enabled.
+    pub fn take_piece(&mut self, path: &mut Path, piece: &PathPiece) -> Result<bool, RowError> {
+        if self.mode != Mode::Enabled {
+            return Err(path.row_error(Error::WrongMode { mode: self.mode }));
+        }
+        self.generator.take_piece(path, piece)
     }
 }

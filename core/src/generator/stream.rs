@@ -3,7 +3,7 @@
 use super::{Generator, hold};
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::{NextPiece, Path, RowError, Spline, Stream, Waypoint};
+use crate::motion::{Path, PathPiece, RowError, Spline, Stream, Waypoint};
 use crate::stepper::Stepper;
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
@@ -35,7 +35,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     ) -> Result<bool, RowError> {
         loop {
             path.fill(rows)?;
-            if !self.take_piece(path)? {
+            if !self.plan_piece(path)? {
                 return Ok(path.is_done());
             }
         }
@@ -46,16 +46,33 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// # Errors
     /// Those of [`Self::feed`].
     pub fn advance(&mut self, path: &mut Path) -> Result<bool, RowError> {
-        while self.take_piece(path)? {}
+        while self.plan_piece(path)? {}
         Ok(path.is_done())
     }
 
-    /// Takes one row, if it is ready and there is room.
-    fn take_piece(&mut self, path: &mut Path) -> Result<bool, RowError> {
+    /// Plans one row and takes it, if it is ready and there is room.
+    fn plan_piece(&mut self, path: &mut Path) -> Result<bool, RowError> {
         if path.waits() {
             self.joins(path).map_err(|error| path.row_error(error))?;
         }
-        let Some(next) = path.next_piece()? else { return Ok(false) };
+        match path.next_piece()? {
+            Some(next) => self.take_piece(path, &next),
+            None => Ok(false),
+        }
+    }
+
+    /// Takes a piece that [`Path::next_piece`] has planned. False if there is no room for it yet:
+    /// it stays as it is, to be taken later.
+    ///
+    /// What [`Self::advance`] does in one, in two: the plan runs beside the ticks, and only its
+    /// result is handed over between two of them. The bits are the same.
+    ///
+    /// # Errors
+    /// [`Error::Starved`] and [`Error::Stale`] as of [`Self::feed`], the latter also of a piece that
+    /// is not the path's next, and what the stepper refuses.
+    pub fn take_piece(&mut self, path: &mut Path, next: &PathPiece) -> Result<bool, RowError> {
+        let joins = if path.is_next(next) { self.joins(path) } else { Err(Error::Stale) };
+        joins.map_err(|error| path.row_error(error))?;
         let kept = self.queue.len() - usize::from(path.stream.stops);
         let needed = usize::from(next.segment.is_some()) + usize::from(next.rest.stop.is_some());
         if kept + needed > QUEUE {
@@ -63,7 +80,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         let admitted = self.stepper.admit(&next.peaks, next.rest.end.rate);
         admitted.map_err(|error| path.row_error(error))?;
-        self.put(path, &next);
+        self.put(path, next);
         path.take(next);
         Ok(true)
     }
@@ -82,7 +99,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     }
 
     /// Puts a piece in place of the stop at the queue's end, and behind it the next stop.
-    fn put(&mut self, path: &mut Path, next: &NextPiece) {
+    fn put(&mut self, path: &mut Path, next: &PathPiece) {
         let first = path.stream.revision.is_none();
         let mut moment = if first { self.border_moment() } else { S::Scalar::ZERO };
         if path.stream.stops {

@@ -413,3 +413,38 @@ fn passing_costs_less_than_stopping() {
         assert_near("residual", passed[1] / smooth[1], residual, 0.01);
     }
 }
+
+/// Pieces that are planned beside the ticks and handed over are those of a path that is fed, to the
+/// bit, through any room; one that is not the path's next is refused.
+#[test]
+fn pieces_planned_beside_the_ticks_are_those_of_feeding() {
+    let rows: Vec<_> =
+        (1..60).map(|k| Waypoint::at(0.05 * f64::from(k), 0.1 * f64::from(k % 4))).collect();
+    let (mut fed, mut taken) = (generator(), generator());
+    let mut path = fed.path(Spline::Cubic).expect("a path");
+    let mut own = taken.path(Spline::Cubic).expect("a path");
+    let (mut left, mut waiting) = (rows.iter().copied(), rows.iter().copied());
+    let mut refused = 0;
+    for _ in 0..400 {
+        fed.feed(&mut path, &mut left).expect("rows");
+        while own.has_room() {
+            match waiting.next() {
+                Some(row) => own.offer(row).expect("a row"),
+                None => own.close(),
+            }
+        }
+        while let Some(piece) = own.next_piece().expect("a piece") {
+            if !taken.take_piece(&mut own, &piece).expect("room or none") {
+                refused += 1;
+                break;
+            }
+            let again = taken.take_piece(&mut own, &piece).expect_err("it has been taken");
+            assert_eq!(again.error, Error::Stale);
+            if own.has_room() {
+                break;
+            }
+        }
+        assert_eq!(fed.tick(), taken.tick());
+    }
+    assert!(refused > 10 && own.is_done() && taken.is_holding(), "{refused}");
+}

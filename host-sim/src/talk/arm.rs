@@ -1,11 +1,12 @@
 //! An axis with the method that the firmware names.
 
 use stillbeam::axis::{Cause, Mode, Tick};
+use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::motor::Drivetrain;
 use stillbeam::{Angle, Error as CoreError, Payload, PlanContext, PlannedMove, UniformScene};
 use stillbeam_methods::{Method, Visitor, visit_all};
 use stillbeam_protocol::{Command, Refusal};
-use stillbeam_wiring::{Configuration, Joint};
+use stillbeam_wiring::{Configuration, Joint, Rows};
 
 use crate::error::Error;
 
@@ -22,6 +23,10 @@ pub(super) trait Arm {
     fn take(&mut self, planned: &PlannedMove<f32>) -> Result<u32, CoreError>;
     /// Sets up the arm with another payload and replaces the old one.
     fn reload(&mut self, payload: Payload, tick: f64) -> Result<(), Error>;
+    /// Begins a path at the end of the moves.
+    fn begin_path(&mut self, spline: Spline) -> Result<(), CoreError>;
+    /// Takes a row of the path.
+    fn offer(&mut self, row: Waypoint, last: bool) -> Result<(), Refusal<'static>>;
     fn heard(&mut self);
     fn missed(&mut self, ticks: u32);
     fn tick(&mut self) -> Tick<f32>;
@@ -75,8 +80,8 @@ impl Visitor for Builder<'_> {
     }
 }
 
-/// An axis of one method.
-struct Of<M: Method>(Joint<M::Stepper, QUEUE>);
+/// An axis of one method, and the path that comes to it row by row.
+struct Of<M: Method>(Joint<M::Stepper, QUEUE>, Rows);
 
 impl<M: Method> Of<M> {
     fn boxed(
@@ -86,7 +91,7 @@ impl<M: Method> Of<M> {
     ) -> Result<Box<dyn Arm>, Error> {
         let mut joint = Joint::new(configuration, M::stepper(&configuration.scene, tick)?)?;
         joint.train.home(zero, Angle { turns: 0, part: 0.0 });
-        Ok(Box::new(Self(joint)))
+        Ok(Box::new(Self(joint, Rows::default())))
     }
 }
 
@@ -119,6 +124,16 @@ impl<M: Method> Arm for Of<M> {
         self.0.replace(scene, M::stepper(&scene, tick)?).map_err(apart)
     }
 
+    fn begin_path(&mut self, spline: Spline) -> Result<(), CoreError> {
+        self.1.begin(self.0.axis.path(spline)?);
+        Ok(())
+    }
+
+    fn offer(&mut self, row: Waypoint, last: bool) -> Result<(), Refusal<'static>> {
+        let Self(joint, rows) = self;
+        rows.offer(row, last, |path, piece| joint.axis.take_piece(path, piece))
+    }
+
     fn heard(&mut self) {
         self.0.axis.heard();
     }
@@ -128,7 +143,9 @@ impl<M: Method> Arm for Of<M> {
     }
 
     fn tick(&mut self) -> Tick<f32> {
-        self.0.axis.tick()
+        let Self(joint, rows) = self;
+        rows.advance(|path, piece| joint.axis.take_piece(path, piece));
+        joint.axis.tick()
     }
 
     fn mode(&self) -> Mode {

@@ -2,25 +2,30 @@
 //!
 //! A [`Machine`] carries bytes, a [`Session`] requests and setpoints. The host runs every axis
 //! beside it ([`Replica`]) and compares each setpoint and drive frame, bit for bit, as it comes.
-//! [`Step`]s are the user's requests, [`page()`] draws the result.
+//! [`Step`]s are the user's requests, [`page()`] draws the result, and [`record()`] brings a log home
+//! that `identify` takes.
 
 mod arm;
 mod body;
 mod comparison;
 mod drive;
 mod emulator;
+mod excitation;
 mod image;
 mod log;
 mod machine;
 mod page;
+mod recording;
 mod replica;
 mod script;
 mod session;
 
 pub use emulator::Emulator;
+pub use excitation::Excitation;
 pub use image::default_image;
 pub use machine::Machine;
 pub use page::page;
+pub use recording::{Recording, record};
 pub use replica::Replica;
 pub use script::{DEMONSTRATION, FAULTS, FIRST, MACHINE, STILL, Step, converse};
 pub use session::{Answer, Posted, Session};

@@ -4,7 +4,7 @@ use stillbeam::axis::{Cause, Mode, Policy, Tick};
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::{Demand, Drivetrain};
 use stillbeam::planner::Planner;
-use stillbeam::{Angle, PlainMove};
+use stillbeam::{Angle, Limits, PlainMove, UniformScene};
 use stillbeam_protocol::{Command, Description};
 use stillbeam_wiring::drive::{Switch, demand};
 use stillbeam_wiring::{Configuration, Work};
@@ -19,6 +19,7 @@ pub struct Replica {
     tick: f64,
     node: Node,
     switch: Switch,
+    limits: Limits,
     /// Planner, set up on first use.
     planner: Option<Planner<f32, 2>>,
 }
@@ -37,7 +38,7 @@ impl Replica {
         let configuration = Configuration { scene, policy, joint, direction, zero: 0.0, node };
         let axis = arm::build(method, &configuration, zero, tick)?;
         let (node, switch) = (Node::new(node)?, Switch::default());
-        Ok(Self { axis, tick, node, switch, planner: None })
+        Ok(Self { axis, tick, node, switch, limits: policy.limits, planner: None })
     }
 
     /// Carries out a command that the firmware has accepted.
@@ -52,6 +53,8 @@ impl Replica {
                 self.planner = None;
                 self.axis.reload(payload, self.tick)
             }
+            Some(Work::Path(spline)) => self.axis.begin_path(spline).map_err(apart),
+            Some(Work::Row(row, last)) => self.axis.offer(row, last).map_err(apart),
             None => self.axis.carry_out(command, shaft).map_err(apart),
         }
     }
@@ -116,6 +119,16 @@ impl Replica {
     /// h, s.
     pub fn tick(&self) -> f64 {
         self.tick
+    }
+
+    /// The arm as it is now.
+    pub fn scene(&self) -> &UniformScene {
+        self.axis.scene()
+    }
+
+    /// Limits of the hub's motion.
+    pub fn limits(&self) -> &Limits {
+        &self.limits
     }
 
     /// Returns the drivetrain from link to motor.

@@ -3,8 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
+use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::{Payload, PlainMove, Profile};
-use stillbeam_protocol::Command;
+use stillbeam_protocol::{Change, Command};
 
 use super::{Answer, Session};
 use crate::error::Error;
@@ -127,7 +128,8 @@ pub const MACHINE: [&str; 20] = [
 
 /// Steps that are accepted.
 const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, still A TO \
-     [DURATION], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest, \
+     [DURATION], target A TO DURATION [RATE], duration A DURATION, hold A, cancel A, path A SPLINE, \
+     row A TIME ANGLE [RATE], last A TIME ANGLE [RATE], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest, \
      jump A TURNS, fault A, clear A";
 
 impl FromStr for Step {
@@ -175,6 +177,21 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
             let (duration, rate) = (number(words.next())?, number(words.next())?);
             Command::Move(PlainMove::SpinUp { duration, rate })
         }
+        "target" => {
+            let (angle, duration) = (number(words.next())?, number(words.next())?);
+            let rate = words.next().map_or(Some(0.0), |word| number(Some(word)))?;
+            Command::Change(Change::Target { angle, rate, duration })
+        }
+        "duration" => Command::Change(Change::Duration(number(words.next())?)),
+        "path" => Command::Path(Spline::named(words.next()?)?),
+        "row" | "last" => {
+            let (time, angle) = (number(words.next())?, number(words.next())?);
+            let rate = words.next().map(|word| number(Some(word)).ok_or(())).transpose().ok()?;
+            let row = Waypoint { rate, ..Waypoint::at(time, angle) };
+            Command::Waypoint { row, last: verb == "last" }
+        }
+        "hold" => Command::Change(Change::Hold),
+        "cancel" => Command::Change(Change::Cancel),
         "dwell" => Command::Move(PlainMove::Dwell { duration: number(words.next())? }),
         "payload" => {
             let mass = number(words.next())?;
@@ -203,6 +220,9 @@ impl Step {
     /// no error.
     pub fn take(&self, session: &mut Session) -> Result<String, Error> {
         match *self {
+            Self::Ask(axis, Command::Waypoint { row, last }) => {
+                session.offer(axis, row, last).map(|answer| said(&answer))
+            }
             Self::Ask(axis, command) => session.ask(axis, command).map(|answer| said(&answer)),
             Self::Wait(seconds) => {
                 session.wait(ticks(seconds, session)?)?;
@@ -287,7 +307,7 @@ fn ticks(seconds: f64, session: &Session) -> Result<u32, Error> {
 fn said(answer: &Answer) -> String {
     match answer {
         Answer::Accepted(tick) => format!("accepted before tick {tick}"),
-        Answer::Refused(why) => format!("refused: {why}"),
+        Answer::Refused(why) | Answer::Full(why) => format!("refused: {why}"),
         Answer::Status(status) => format!(
             "{:?}; a tick costs {} instructions, {} at worst; {} us late at most, {} missed, {} \
              early, {} overruns, {} dropped, {} garbled; stack {} bytes",
@@ -302,6 +322,8 @@ fn said(answer: &Answer) -> String {
             status.garbled,
             status.stack
         ),
+        Answer::Recording(column) => format!("recording {column}"),
+        Answer::Recorded { samples, lost } => format!("{samples} samples, {lost} lost"),
     }
 }
 

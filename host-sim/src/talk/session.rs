@@ -3,8 +3,9 @@
 use std::collections::VecDeque;
 
 use stillbeam::axis::Tick;
+use stillbeam::motion::Waypoint;
 use stillbeam_protocol::frame::{self, Splitter, decode};
-use stillbeam_protocol::{Command, Report, Request, Status};
+use stillbeam_protocol::{Command, Refusal, Report, Request, Sample, Status};
 
 use super::comparison::Comparison;
 use super::{Machine, Replica};
@@ -26,8 +27,19 @@ pub enum Answer {
     Accepted(u32),
     /// The request was refused, for that reason.
     Refused(String),
+    /// The request was refused for want of room in the move queue, in those words.
+    Full(String),
     /// The status of the axis.
     Status(Status),
+    /// A recording has begun, of a sensor's column of that name.
+    Recording(String),
+    /// A recording has ended.
+    Recorded {
+        /// Samples that were sent.
+        samples: u32,
+        /// Samples that the line was too slow for, or that found no hub angle.
+        lost: u32,
+    },
 }
 
 /// A request that was sent.
@@ -56,6 +68,8 @@ pub struct Session {
     unheard: bool,
     /// True if the drives turn machines.
     loaded: bool,
+    /// Samples of the axis that is recorded, if one is.
+    samples: Option<(u8, Vec<Sample>)>,
 }
 
 impl Session {
@@ -95,6 +109,7 @@ impl Session {
             beaten: 0,
             unheard: false,
             loaded,
+            samples: None,
         };
         let mut axis = 0;
         let mut axes = 1;
@@ -116,6 +131,22 @@ impl Session {
     pub fn ask(&mut self, axis: u8, command: Command) -> Result<Answer, Error> {
         let posted = self.post(axis, command)?;
         self.answer(posted)
+    }
+
+    /// Sends a row of a path, again and again until there is room for it.
+    ///
+    /// # Errors
+    /// Errors are those of [`Session::ask`].
+    pub fn offer(&mut self, axis: u8, row: Waypoint, last: bool) -> Result<Answer, Error> {
+        let mut waited = 0;
+        loop {
+            match self.ask(axis, Command::Waypoint { row, last })? {
+                // Rows before it wait for moves that take longer than a path's rows may lie apart.
+                Answer::Full(_) if waited < self.ticks(LONGEST) => self.wait(1)?,
+                answer => return Ok(answer),
+            }
+            waited += 1;
+        }
     }
 
     /// Sends a request, for [`Session::answer`]. In between others may be asked. If a move is
@@ -227,6 +258,16 @@ impl Session {
     /// An error is returned if the line is broken.
     pub fn disturb(&mut self, bytes: &[u8]) -> Result<(), Error> {
         self.machine.send(bytes)
+    }
+
+    /// Keeps the samples of an axis from now on.
+    pub(super) fn keep_samples(&mut self, axis: u8) {
+        self.samples = Some((axis, Vec::new()));
+    }
+
+    /// Returns the samples that were kept, and keeps no more.
+    pub(super) fn take_samples(&mut self) -> Vec<Sample> {
+        self.samples.take().map(|(_, samples)| samples).unwrap_or_default()
     }
 
     /// Number of axes.
@@ -409,9 +450,24 @@ impl Session {
             }
             Report::Accepted { sequence, tick } => (sequence, Answer::Accepted(tick)),
             Report::Refused { sequence, refusal } => {
-                (sequence, Answer::Refused(refusal.to_string()))
+                let why = refusal.to_string();
+                let is_full = matches!(refusal, Refusal::Queue { .. });
+                (sequence, if is_full { Answer::Full(why) } else { Answer::Refused(why) })
             }
             Report::Status { sequence, status } => (sequence, Answer::Status(status)),
+            Report::Recording { sequence, column, .. } => {
+                (sequence, Answer::Recording(column.to_owned()))
+            }
+            Report::Sample { axis, sample } => {
+                // Those of a recording that another host has begun are not kept.
+                if let Some((_, samples)) = self.samples.as_mut().filter(|(of, _)| *of == axis) {
+                    samples.push(sample);
+                }
+                return Ok(());
+            }
+            Report::Recorded { sequence, samples, lost } => {
+                (sequence, Answer::Recorded { samples, lost })
+            }
         };
         let known = self.open.contains(&sequence);
         self.open.retain(|open| *open != sequence);

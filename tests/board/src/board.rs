@@ -183,6 +183,8 @@ impl Board {
                 Work::Payload(payload) => self.set_up(payload),
                 // As a firmware without the planner of still moves.
                 Work::Still { .. } => Err(Refusal::NoPlanner),
+                // The application's own; no campaign begins one.
+                Work::Path(_) | Work::Row(..) => Err(Refusal::NoPath),
             };
             self.begin(begun);
         }

@@ -6,7 +6,7 @@ mod survey;
 mod waypoint;
 
 use heapless::Deque;
-pub(crate) use next::NextPiece;
+pub use next::PathPiece;
 pub use waypoint::{RowError, Spline, Waypoint};
 
 use super::joiner::Joiner;
@@ -181,11 +181,15 @@ impl Path {
         Ok(())
     }
 
+    /// True if a piece leads to the first row that waits.
+    pub(crate) fn is_next(&self, piece: &PathPiece) -> bool {
+        self.waits() && piece.row == self.row
+    }
+
     /// Goes on behind a piece that was planned.
-    pub(crate) fn take(&mut self, next: NextPiece) {
-        let NextPiece { peaks, joiner, .. } = next;
-        self.joiner = joiner;
-        self.peaks = greater(&self.peaks, &peaks);
+    pub(crate) fn take(&mut self, next: &PathPiece) {
+        self.joiner = next.joiner;
+        self.peaks = greater(&self.peaks, &next.peaks);
         let _ = self.rows.pop_front();
         self.row += 1;
     }

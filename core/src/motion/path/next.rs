@@ -12,18 +12,22 @@ use crate::motion::{Braking, Limits, Peaks, Segment, admit};
 /// rows beyond the window.
 const JUMP: f64 = 1e-5;
 
-/// The next piece of a path, planned and not yet taken.
-pub(crate) struct NextPiece {
+/// The next piece of a path, planned by [`Path::next_piece`] and not yet taken.
+#[derive(Clone, Debug)]
+pub struct PathPiece {
+    /// Number of the row that it leads to.
+    pub(super) row: u32,
     /// Its segment, if a tick lies within.
-    pub segment: Option<Segment<f64>>,
+    pub(crate) segment: Option<Segment<f64>>,
     /// Greatest magnitudes on it.
-    pub peaks: Peaks,
+    pub(crate) peaks: Peaks,
     /// The hub's way from its end, if no other row comes.
-    pub rest: Rest,
+    pub(crate) rest: Rest,
     pub(super) joiner: Joiner,
 }
 
 /// The hub's motion behind a row as long as no other is known.
+#[derive(Clone, Debug)]
 pub(crate) struct Rest {
     /// Stop from the row on. None if the hub rests at the row, or if it is the last.
     pub stop: Option<Segment<f64>>,
@@ -35,8 +39,16 @@ pub(crate) struct Rest {
 }
 
 impl Path {
-    /// Plans the piece up to the first row that waits, if that and its rate are known.
-    pub(crate) fn next_piece(&self) -> Result<Option<NextPiece>, RowError> {
+    /// Plans the piece up to the first row that waits, if that and its rate are known: with the
+    /// window full, the path closed, or a rate given. [`Axis::take_piece`](crate::axis::Axis::take_piece)
+    /// takes it.
+    ///
+    /// It plans in f64, some ten thousand instructions without a unit for that, and needs nothing
+    /// but the path: fit for a low priority, with the ticks going on.
+    ///
+    /// # Errors
+    /// A limit that the piece or the stop behind it exceeds.
+    pub fn next_piece(&self) -> Result<Option<PathPiece>, RowError> {
         let Some(row) = self.rows.front().filter(|row| self.is_determined(row)) else {
             return Ok(None);
         };
@@ -48,7 +60,7 @@ impl Path {
         let mut joiner = self.joiner;
         let segment = joiner.append(&curve);
         let rest = self.rest_behind(joiner, &peaks).map_err(refused)?;
-        Ok(Some(NextPiece { segment, peaks, rest, joiner }))
+        Ok(Some(PathPiece { row: self.row, segment, peaks, rest, joiner }))
     }
 
     /// True if all is known on which the way to the first row depends.

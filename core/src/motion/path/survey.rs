@@ -15,7 +15,7 @@ impl Path {
         while !path.is_done() {
             path.fill(&mut rows)?;
             while let Some(next) = path.next_piece()? {
-                path.take(next);
+                path.take(&next);
             }
         }
         Ok(path)
@@ -49,7 +49,7 @@ impl<I: Iterator<Item = Waypoint>> Iterator for Segments<I> {
             match next {
                 Ok(Some(next)) => {
                     let segment = next.segment;
-                    self.path.take(next);
+                    self.path.take(&next);
                     if let Some(segment) = segment {
                         return Some(Ok(segment));
                     }

@@ -12,6 +12,7 @@ use stillbeam_wiring::axes::{self, AXES, CONFIGURATIONS};
 
 use crate::board::LinkReader;
 use crate::plan::{DONE, Done, JOBS, Job};
+use crate::record::{self, COLUMN};
 use crate::shared::{self, Outcome, on, scene};
 use crate::{link, tick};
 
@@ -56,6 +57,12 @@ fn answer(request: &Request) -> Option<Report<'static>> {
             describe(axis).map(|description| Report::Description { sequence, description })
         }
         Command::Status => status(axis).map(|status| Report::Status { sequence, status }),
+        Command::Record(true) => {
+            record::begin(axis).map(|tick| Report::Recording { sequence, tick, column: COLUMN })
+        }
+        // Answered behind the last row.
+        Command::Record(false) if record::end(axis, sequence) => return None,
+        Command::Record(false) => Ok(Report::Recorded { sequence, samples: 0, lost: 0 }),
         _ => Ok(accepted(sequence, on(axis, |joint| joint.carry_out(&command)))),
     };
     Some(outcome.unwrap_or_else(|refusal| Report::Refused { sequence, refusal }))

@@ -1,12 +1,15 @@
 //! The serial line to the host: one writer for the answers and the setpoints.
 
+use embassy_futures::select::{Either, select};
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::mutex::Mutex;
 use embedded_io_async::Write;
 use stillbeam_protocol::{Report, frame};
+use stillbeam_wiring::Recording;
 use stillbeam_wiring::drive::Setpoint;
 
 use crate::board::LinkWriter;
+use crate::record::ROWS;
 use crate::tick::TO_HOST;
 
 /// Whoever holds it sends a whole frame.
@@ -33,11 +36,20 @@ pub async fn send(report: &Report<'_>) {
     }
 }
 
-/// Sends every setpoint.
+/// Sends every setpoint and every row of a recording. Where the line is too slow for both the
+/// setpoints go first, because the host follows the axes by them.
 #[embassy_executor::task]
 pub async fn setpoints() {
     loop {
-        let Setpoint { axis, tick, cause } = TO_HOST.receive().await;
-        send(&Report::Tick { axis, tick, cause }).await;
+        let report = match select(TO_HOST.receive(), ROWS.receive()).await {
+            Either::First(Setpoint { axis, tick, cause }) => Report::Tick { axis, tick, cause },
+            Either::Second((axis, row)) => match row {
+                Recording::Row(sample) => Report::Sample { axis, sample },
+                Recording::End { sequence, samples, lost } => {
+                    Report::Recorded { sequence, samples, lost }
+                }
+            },
+        };
+        send(&report).await;
     }
 }

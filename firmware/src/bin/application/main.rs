@@ -5,9 +5,9 @@
 //! | [`tick::run`] | highest | steps every axis, hands the setpoints on |
 //! | [`drive::send`], [`drive::receive`] | middle | frames to the drives, encoder angles from them |
 //! | [`command::run`] | middle | requests of the host: carries out, hands down, answers |
-//! | [`link::setpoints`] | middle | every setpoint to the host |
+//! | [`link::setpoints`] | middle | every setpoint, and what [`record`] takes, to the host |
 //! | [`report::run`] | middle | a line a second over defmt |
-//! | [`plan::run`] | lowest | plans moves, sets arms up |
+//! | [`plan::run`] | lowest | plans moves and rows of paths, sets arms up |
 //!
 //! One board, chosen by a feature; everything it differs in is in its file.
 #![no_std]
@@ -21,6 +21,7 @@ mod command;
 mod drive;
 mod link;
 mod plan;
+mod record;
 mod report;
 mod shared;
 mod still;
@@ -58,7 +59,8 @@ fn main() -> ! {
 async fn started(devices: board::Devices, tick: SendSpawner) {
     // SAFETY: this is a task, and it does not outlive its executor.
     let spawner = unsafe { Spawner::for_current_executor().await };
-    let board::Devices { link_reader, link_writer, bus_reader, bus_writer } = devices;
+    let board::Devices { link_reader, link_writer, bus_reader, bus_writer, sensors } = devices;
+    record::set_up(sensors);
     link::open(link_writer).await;
     spawner.spawn(command::run(link_reader).expect("one of each"));
     spawner.spawn(drive::send(bus_writer).expect("one of each"));

@@ -9,7 +9,7 @@ use stillbeam::axis::Pace;
 use stillbeam_wiring::axes::{AXES, TICK};
 use stillbeam_wiring::drive::Setpoint;
 
-use crate::{board, shared};
+use crate::{board, record, shared};
 
 /// The tick in µs, the timer's unit.
 pub const MICROSECONDS: u32 =
@@ -56,6 +56,7 @@ pub async fn run() {
                 for outlet in [&TO_DRIVE, &TO_HOST] {
                     shared.counters.dropped += u32::from(!hand_on(outlet, setpoint));
                 }
+                record::tick(i, joint, &timing);
             }
             MADE.store(MADE.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
             let took = board::counts().wrapping_sub(begin);

@@ -77,6 +77,10 @@ fn kind(refusal: &Refusal<'_>) -> &'static str {
         Refusal::Busy => "busy",
         Refusal::NoPlanner => "no planner",
         Refusal::Axis(_) => "no such axis",
+        Refusal::NoMove => "no move",
+        Refusal::NoPath => "no path",
+        Refusal::Starved => "starved",
+        Refusal::NoSensor => "no sensor",
         Refusal::Other => "other",
     }
 }

@@ -31,6 +31,7 @@ pub use lock_step::ticked;
 pub use serial::{BusReader, BusWriter};
 use serial::{Receiver, Transmitter, UARTS};
 use stillbeam_firmware::exit;
+use stillbeam_wiring::{StandIn, Truth};
 use time::time;
 
 /// Unit of [`cost`].
@@ -38,12 +39,16 @@ pub const UNIT: &str = "instructions";
 /// Rate of [`counts`].
 pub const COUNTS_PER_SECOND: u32 = 25_000_000;
 
+/// There are no arms: the sensors show modes that are computed.
+pub type Sensors = StandIn<{ Truth::ARMS.len() }>;
+
 /// The devices that the application uses.
 pub struct Devices {
     pub link_reader: LinkReader,
     pub link_writer: LinkWriter,
     pub bus_reader: BusReader,
     pub bus_writer: BusWriter,
+    pub sensors: Sensors,
 }
 
 pub type LinkReader = Receiver<0>;
@@ -68,6 +73,7 @@ pub fn set_up() -> Devices {
         link_writer: Transmitter,
         bus_reader: BusReader::new(),
         bus_writer: BusWriter,
+        sensors: StandIn::new(Truth::ARMS),
     }
 }
 

@@ -5,7 +5,8 @@
 //! RAM : ORIGIN = 0x20000000, LENGTH = 96K
 //!
 //! LPUART1 (PA2, PA3: the ST-LINK's serial port, 921,600 baud) is the host; FDCAN1 (PA11 receive,
-//! PA12 transmit, to a transceiver) the bus at 250 kbit/s, an ODrive's default. Report over RTT.
+//! PA12 transmit, to a transceiver) the bus at 250 kbit/s, an ODrive's default; ADC1 (PA0, PA1) the
+//! strain gauges, amplified. Report over RTT.
 //!
 //! Everything counts on the board's crystal X3, 24 MHz: CAN tolerates some 0.5 % between two nodes,
 //! which the processor's own oscillator may be off by alone.
@@ -15,19 +16,22 @@ use core::cell::RefCell;
 use cortex_m::peripheral::{DCB, DWT};
 use defmt_rtt as _;
 use embassy_executor::{InterruptExecutor, SendSpawner, Spawner};
+use embassy_stm32::adc::{Adc, AdcConfig, SampleTime};
 use embassy_stm32::can::config::TxBufferMode;
 use embassy_stm32::can::{self, CanConfigurator, CanRx, CanTx};
 use embassy_stm32::interrupt::{self, InterruptExt, Priority};
-use embassy_stm32::peripherals::{FDCAN1, IWDG, LPUART1};
+use embassy_stm32::peripherals::{ADC1, FDCAN1, IWDG, LPUART1, PA0, PA1};
 use embassy_stm32::rcc::{Hse, HseMode, Pll, PllMul, PllPreDiv, PllRDiv, PllSource, Sysclk, mux};
 use embassy_stm32::time::Hertz;
 use embassy_stm32::usart::{self, BufferedUart, BufferedUartRx, BufferedUartTx};
 use embassy_stm32::wdg::IndependentWatchdog;
-use embassy_stm32::{Config, bind_interrupts, interrupt as handler};
+use embassy_stm32::{Config, Peri, bind_interrupts, interrupt as handler};
 use embassy_sync::blocking_mutex::CriticalSectionMutex;
 use embedded_can::Frame;
+use stillbeam::Angle;
 use stillbeam::axis::Sequence;
 use stillbeam::drive::ClassicFrame;
+use stillbeam_wiring::Sensor;
 
 use crate::tick::MICROSECONDS;
 
@@ -55,6 +59,7 @@ pub struct Devices {
     pub link_writer: LinkWriter,
     pub bus_reader: BusReader,
     pub bus_writer: BusWriter,
+    pub sensors: Sensors,
 }
 
 pub type LinkReader = BufferedUartRx<'static>;
@@ -102,6 +107,7 @@ pub fn set_up() -> Devices {
         link_writer,
         bus_reader: BusReader { bus: reader },
         bus_writer: BusWriter { bus: writer },
+        sensors: Sensors::new(p.ADC1, p.PA0, p.PA1),
     }
 }
 
@@ -121,6 +127,7 @@ fn clocks() -> Config {
     config.rcc.sys = Sysclk::PLL1_R;
     config.rcc.boost = true;
     config.rcc.mux.fdcansel = mux::Fdcansel::HSE;
+    config.rcc.mux.adc12sel = mux::Adcsel::SYS;
     config
 }
 
@@ -193,6 +200,39 @@ fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
     }
     loop {
         cortex_m::asm::nop();
+    }
+}
+
+/// Strain gauges, amplified to 0 to 3.3 V, on PA0 and PA1.
+pub struct Sensors {
+    adc: Adc<'static, ADC1>,
+    first: Peri<'static, PA0>,
+    second: Peri<'static, PA1>,
+}
+
+impl Sensors {
+    /// Sets the converter up: 12 bit.
+    fn new(
+        adc: Peri<'static, ADC1>,
+        first: Peri<'static, PA0>,
+        second: Peri<'static, PA1>,
+    ) -> Self {
+        Self { adc: Adc::new(adc, AdcConfig::default()), first, second }
+    }
+}
+
+impl Sensor for Sensors {
+    const COLUMN: &'static str = "strain_v";
+    const AXES: usize = 2;
+
+    /// Voltage, V: 47.5 + 12.5 cycles of the converter at 42.5 MHz, 1.4 µs.
+    fn read(&mut self, axis: usize, _: u32, _: Angle<f32>) -> f32 {
+        let time = SampleTime::CYCLES47_5;
+        let counts = match axis {
+            0 => self.adc.blocking_read(&mut self.first, time),
+            _ => self.adc.blocking_read(&mut self.second, time),
+        };
+        f32::from(counts) * (3.3 / 4095.0)
     }
 }
 

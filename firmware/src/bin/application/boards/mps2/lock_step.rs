@@ -11,6 +11,7 @@ use semihosting::io::Read;
 use super::serial::UARTS;
 use super::time::{PER_MICROSECOND, time};
 use crate::link::LINK;
+use crate::record::ROWS;
 use crate::tick::{TO_DRIVE, TO_HOST};
 
 static TICKED: Signal<CriticalSectionRawMutex, ()> = Signal::new();
@@ -32,7 +33,8 @@ pub async fn keep_step() {
     let mut awaited = [0u32; 2];
     loop {
         TICKED.wait().await;
-        while !(TO_DRIVE.is_empty() && TO_HOST.is_empty() && LINK.try_lock().is_ok()) {
+        let all_out = || TO_DRIVE.is_empty() && TO_HOST.is_empty() && ROWS.is_empty();
+        while !(all_out() && LINK.try_lock().is_ok()) {
             yield_now().await;
         }
         match host.read_exact(&mut granted) {
