@@ -46,6 +46,8 @@ pub enum Command {
     Describe,
     /// Say how it is.
     Status,
+    /// The drive's errors are to be cleared; disabled only. The drive stays off.
+    Clear,
 }
 
 /// A report from the firmware.

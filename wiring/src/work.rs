@@ -33,7 +33,8 @@ impl Work {
             | Command::Home(_)
             | Command::Heartbeat
             | Command::Describe
-            | Command::Status => None,
+            | Command::Status
+            | Command::Clear => None,
         }
     }
 }

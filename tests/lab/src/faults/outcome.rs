@@ -77,6 +77,8 @@ fn kind(refusal: &Refusal<'_>) -> &'static str {
         Refusal::Busy => "busy",
         Refusal::NoPlanner => "no planner",
         Refusal::Axis(_) => "no such axis",
+        Refusal::DriveFault(_) => "drive fault",
+        Refusal::DriveSilent => "drive silent",
         Refusal::Other => "other",
     }
 }
