@@ -6,7 +6,8 @@
 //! [`axes`] says what hangs on this machine, and is the file to edit for another one.
 //! [`Configuration`] is one axis of it. [`Joint`] is an axis at work: arm, policy, gear and
 //! encoder. [`Work`] tells the requests that need a plan from those that are carried out at once,
-//! and [`drive`] says what a drive is told at a tick. Nothing here owns a task, a clock or a
+//! [`drive`] says what a drive is told at a tick, and [`watch`] what becomes of an axis whose drive
+//! fails. Nothing here owns a task, a clock or a
 //! device.
 
 #[cfg_attr(feature = "_other-axes", path = "../../target/firmware/axes.rs")]
@@ -14,8 +15,11 @@ pub mod axes;
 mod configuration;
 pub mod drive;
 mod joint;
+mod order;
+pub mod watch;
 mod work;
 
 pub use configuration::Configuration;
-pub use joint::{HOME_RANGE, Joint};
+pub use joint::{FAR, HOME_RANGE, Joint};
+pub use order::Order;
 pub use work::Work;

@@ -19,7 +19,7 @@ pub struct TalkArgs {
     #[arg(long, value_name = "PORT")]
     serial: Option<String>,
     /// The reference rod behind motor, gear and friction on every drive, in QEMU; the steps may
-    /// then be "jump A TURNS" of the encoder, "fault A" and "clear A" of the drive too
+    /// then be "jump A TURNS" of the encoder too
     #[arg(long, conflicts_with = "serial")]
     plant: bool,
     /// Baud rate of the serial port

@@ -24,8 +24,10 @@ pub enum Step {
     Rest,
     /// Lets the encoder of an axis jump, turns of the motor.
     Jump(u8, f64),
-    /// Lets the drive of an axis switch itself off; with false, clears that.
-    Fail(u8, bool),
+    /// Lets the drive of an axis switch itself off with an error.
+    Fail(u8),
+    /// Cuts the line between the bus and the drive of an axis; with false, mends it.
+    Cut(u8, bool),
 }
 
 /// Demonstration of every part of the policy. Both axes move, one is stopped on its way, one takes
@@ -100,9 +102,10 @@ pub const FAULTS: [&str; 13] = [
     "status 0",
 ];
 
-/// Faults around a machine behind its drives: a move, a stop, a cut link, an encoder that jumps, a
-/// drive that faults on its way and is cleared.
-pub const MACHINE: [&str; 20] = [
+/// Faults around a machine behind its drives: a move, a stop, an encoder that jumps, a drive that
+/// faults on its way and is cleared, one whose line is cut and that its watchdog switches off, a
+/// host that falls silent.
+pub const MACHINE: [&str; 35] = [
     "enable 0",
     "enable 1",
     "move 0 quintic 1.7 1.57",
@@ -119,16 +122,31 @@ pub const MACHINE: [&str; 20] = [
     "move 1 quintic 1.0 -0.3",
     "wait 0.5",
     "fault 1",
+    "wait 0.2",
     "rest",
+    "enable 1",
     "clear 1",
-    "disable 1",
+    "wait 0.2",
+    "enable 1",
+    "move 1 quintic 1.0 0.4",
+    "wait 0.5",
+    "cut 1",
+    "wait 0.5",
+    "rest",
+    "enable 1",
+    "mend 1",
+    "wait 0.2",
+    "clear 1",
+    "wait 0.2",
+    "enable 1",
+    "move 0 quintic 1.7 0.9",
     "silence 1.0",
 ];
 
 /// Steps that are accepted.
 const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, still A TO \
      [DURATION], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest, \
-     jump A TURNS, fault A, clear A";
+     clear A, fault A, cut A, mend A, jump A TURNS";
 
 impl FromStr for Step {
     type Err = Error;
@@ -141,8 +159,9 @@ impl FromStr for Step {
             "stall" => number(words.next()).map(Self::Stall),
             "silence" => number(words.next()).map(Self::Silence),
             "jump" => axis(words.next()).zip(number(words.next())).map(|(a, x)| Self::Jump(a, x)),
-            "fault" => axis(words.next()).map(|axis| Self::Fail(axis, true)),
-            "clear" => axis(words.next()).map(|axis| Self::Fail(axis, false)),
+            "fault" => axis(words.next()).map(Self::Fail),
+            "cut" => axis(words.next()).map(|axis| Self::Cut(axis, true)),
+            "mend" => axis(words.next()).map(|axis| Self::Cut(axis, false)),
             verb => {
                 let axis = axis(words.next());
                 axis.zip(command(verb, &mut words)).map(|(axis, command)| Self::Ask(axis, command))
@@ -159,6 +178,7 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
         "disable" => Command::Disable,
         "stop" => Command::Stop,
         "status" => Command::Status,
+        "clear" => Command::Clear,
         "home" => Command::Home(number(words.next())?),
         "move" => {
             let profile = Profile::named(words.next()?)?;
@@ -224,8 +244,12 @@ impl Step {
                 session.jump(axis, turns)?;
                 Ok(String::new())
             }
-            Self::Fail(axis, fails) => {
-                session.fail(axis, fails)?;
+            Self::Fail(axis) => {
+                session.fail(axis)?;
+                Ok(String::new())
+            }
+            Self::Cut(axis, cut) => {
+                session.cut(axis, cut)?;
                 Ok(String::new())
             }
         }
@@ -254,6 +278,12 @@ pub fn converse(
     }
     session.wait(1)?;
     logged(session, print);
+    compared(session, print);
+    Ok(())
+}
+
+/// Prints how machines followed, and how many setpoints and frames were compared.
+fn compared(session: &Session, print: &mut dyn FnMut(&str)) {
     for axis in 0..session.axes() {
         if let Some([behind, energy]) = session.followed(axis) {
             print(&format!(
@@ -265,7 +295,6 @@ pub fn converse(
     let [setpoints, frames] = session.compared();
     let what = format!("{setpoints} setpoints and {frames} drive frames");
     print(&format!("{what}, all equal to the host's to the bit"));
-    Ok(())
 }
 
 /// Prints what the firmware has logged.

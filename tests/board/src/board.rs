@@ -122,7 +122,7 @@ impl Board {
     /// Makes a tick at that reading of the clock. Returns `None` if it is not due.
     pub fn tick(&mut self, now: u32) -> Option<Step> {
         let timing = self.pace.arrive(now);
-        let Some(tick) = self.joint.axis.tick_if_due(&timing) else {
+        let Some(tick) = self.joint.tick_if_due(&timing) else {
             self.early += 1;
             return None;
         };
