@@ -5,9 +5,10 @@ use stillbeam::axis::{Axis, Cause, Mode, Tick, Timing};
 use stillbeam::drive::Condition;
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::Drivetrain;
-use stillbeam::{Angle, Error, Stepper, UniformScene};
+use stillbeam::{Angle, Error, PlannedMove, Stepper, UniformScene};
 use stillbeam_protocol::{Command, Refusal};
 
+use crate::admit::admit;
 use crate::watch::Watch;
 use crate::{Configuration, Order};
 
@@ -177,6 +178,16 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
         self.awaited = Some(shaft.part);
         self.measured = None;
         Angle { turns: 0, part: shaft.part }
+    }
+
+    /// Takes a planned move and returns the number of its first tick, as [`Axis::take`] does, if the
+    /// drive's frames can carry it.
+    ///
+    /// # Errors
+    /// The position, velocity or torque that does not fit the frame, or the axis' own refusal.
+    pub fn take(&mut self, planned: &PlannedMove<f32>) -> Result<u32, Error> {
+        admit(&self.scene, &self.train, planned)?;
+        self.axis.take(planned)
     }
 
     /// Puts another arm in the place of the old one. `stepper` is that of `scene`.

@@ -10,6 +10,7 @@
 //! fails. Nothing here owns a task, a clock or a
 //! device.
 
+mod admit;
 #[cfg_attr(feature = "_other-axes", path = "../../target/firmware/axes.rs")]
 pub mod axes;
 mod configuration;

@@ -208,7 +208,7 @@ impl Board {
     fn hand_over(&mut self, result: Ready) {
         let tick = self.joint.axis.clock();
         let done = match result {
-            Ready::Plan { motion, planned, again } => match self.joint.axis.take(&planned) {
+            Ready::Plan { motion, planned, again } => match self.joint.take(&planned) {
                 Err(Error::Stale) if again => {
                     let begun = self.plan(motion, false);
                     return self.begin(begun);
