@@ -175,6 +175,26 @@ fn an_encoder_that_jumps_moves_no_setpoint() {
     assert_ne!(jolted, quiet, "the hub feels it");
 }
 
+/// A minute of the machines' conversation, over and over: every setpoint and frame is the host's
+/// own, every round is refused the same, and no tick is late.
+#[test]
+fn a_minute_in_the_loop_does_not_drift() {
+    let mut session = loaded_session();
+    let mut lines = Vec::new();
+    stillbeam_sim::talk::endure(&mut session, &MACHINE, 60.0, &mut |line| {
+        lines.push(line.to_owned());
+    })
+    .unwrap_or_else(|error| panic!("{error}: {lines:#?}"));
+    let ticks = 60.0 / session.tick();
+    let [setpoints, frames] = session.compared();
+    assert!(setpoints as f64 >= 2.0 * ticks && frames as f64 > ticks, "{setpoints}, {frames}");
+    let status = status(&mut session);
+    let faults = [status.missed, status.early, status.overruns, status.dropped, status.garbled];
+    assert_eq!(faults, [0; 5], "{status:?}");
+    // Lock-step numbers its ticks by the firmware's own count.
+    assert_eq!(status.clock, session.now(), "{lines:#?}");
+}
+
 #[test]
 fn the_firmware_and_the_host_agree_to_the_bit_through_the_whole_policy() {
     let (mut session, lines) = demonstration();

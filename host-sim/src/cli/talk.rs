@@ -22,6 +22,9 @@ pub struct TalkArgs {
     /// then be "jump A TURNS" of the encoder too
     #[arg(long, conflicts_with = "serial")]
     plant: bool,
+    /// Repeat the steps until so many seconds of virtual time have passed; in QEMU
+    #[arg(long = "for", value_name = "SECONDS", conflicts_with = "serial")]
+    seconds: Option<f64>,
     /// Baud rate of the serial port
     #[arg(long, default_value_t = 921_600)]
     baud: u32,
@@ -47,7 +50,11 @@ impl TalkArgs {
         };
         let mut session =
             if self.plant { Session::begin_loaded(machine)? } else { Session::begin(machine)? };
-        talk::converse(&mut session, &steps, &mut |line| println!("{line}"))?;
+        let print = &mut |line: &str| println!("{line}");
+        match self.seconds {
+            Some(seconds) => talk::endure(&mut session, &steps, seconds, print)?,
+            None => talk::converse(&mut session, &steps, print)?,
+        }
         if let Some(path) = &self.plot {
             let page = talk::page(&session)?;
             output::write_whole(path, |file| file.write_all(page.as_bytes()))?;

@@ -22,5 +22,5 @@ pub use image::default_image;
 pub use machine::Machine;
 pub use page::page;
 pub use replica::Replica;
-pub use script::{DEMONSTRATION, FAULTS, FIRST, MACHINE, STILL, Step, converse};
+pub use script::{DEMONSTRATION, FAULTS, FIRST, MACHINE, STILL, Step, converse, endure};
 pub use session::{Answer, Posted, Session};

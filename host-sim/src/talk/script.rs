@@ -282,6 +282,50 @@ pub fn converse(
     Ok(())
 }
 
+/// Repeats steps until `seconds` of virtual time have passed, and hands out a line each round.
+///
+/// # Errors
+/// Errors are those of [`converse`], and that of a round in which something was refused that the
+/// first round was not, or the other way about: the firmware has drifted.
+pub fn endure(
+    session: &mut Session,
+    steps: &[&str],
+    seconds: f64,
+    print: &mut dyn FnMut(&str),
+) -> Result<(), Error> {
+    if !(seconds > 0.0 && seconds <= 1e6) {
+        return Err(Error::new(format_args!("--for = {seconds} s: must be above 0 to 1e6 s")));
+    }
+    let parsed: Vec<Step> = steps.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
+    let mut first = None;
+    let mut rounds = 0;
+    while f64::from(session.now()) * session.tick() < seconds {
+        let mut refused = Vec::new();
+        for (step, text) in parsed.iter().zip(steps) {
+            let said = step.take(session)?;
+            if let Some(why) = said.strip_prefix("refused: ") {
+                refused.push(format!("{text}: {why}"));
+            }
+        }
+        rounds += 1;
+        let time = f64::from(session.now()) * session.tick();
+        let expected = first.get_or_insert_with(|| refused.clone());
+        if *expected != refused {
+            return Err(Error::new(format_args!(
+                "round {rounds}, {time:.2} s: refused {refused:?}, in the first round {expected:?}"
+            )));
+        }
+        print(&format!("{time:7.2} s  round {rounds}, {} refused as in the first", refused.len()));
+    }
+    for axis in 0..session.axes() {
+        if let Answer::Status(status) = session.ask(axis, Command::Status)? {
+            print(&format!("axis {axis}: {}", said(&Answer::Status(status))));
+        }
+    }
+    compared(session, print);
+    Ok(())
+}
+
 /// Prints how machines followed, and how many setpoints and frames were compared.
 fn compared(session: &Session, print: &mut dyn FnMut(&str)) {
     for axis in 0..session.axes() {
