@@ -47,6 +47,8 @@ pub enum Command {
     Describe,
     /// Say how it is.
     Status,
+    /// The drive's errors are to be cleared; disabled only. The drive stays off.
+    Clear,
     /// Begin a recording of the axis, or with `false` end it.
     Record(bool),
     /// Change the motion from the next tick on, at any tick, with the hub turning or not.

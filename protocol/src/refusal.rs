@@ -54,6 +54,10 @@ pub enum Refusal<'a> {
     NoSensor,
     /// For a reason that this version of the protocol has no word for.
     Other,
+    /// The drive reports a fault, with its own number for it.
+    DriveFault(u32),
+    /// The drive has said nothing of itself for too long.
+    DriveSilent,
 }
 
 impl From<Error> for Refusal<'static> {
@@ -144,6 +148,12 @@ impl fmt::Display for Refusal<'_> {
             }
             Self::Other => {
                 write!(f, "request: refused for a reason that needs a newer program to name")
+            }
+            Self::DriveFault(code) => {
+                write!(f, "drive.errors = {code:#x}: must be 0; disable the axis, then clear them")
+            }
+            Self::DriveSilent => {
+                write!(f, "drive = silent: its heartbeat must come; check power and bus")
             }
         }
     }

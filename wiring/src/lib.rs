@@ -6,25 +6,29 @@
 //! [`axes`] says what hangs on this machine, and is the file to edit for another one.
 //! [`Configuration`] is one axis of it. [`Joint`] is an axis at work: arm, policy, gear and
 //! encoder. [`Work`] tells the requests that need a plan from those that are carried out at once,
-//! and [`drive`] says what a drive is told at a tick. [`Rows`] are a path that comes row by row.
-//! [`Recorder`] samples a [`Sensor`] beside the
-//! hub's angle; [`StandIn`] takes the sensor's place where there is none. Nothing here owns a task, a clock or a
-//! device.
+//! [`drive`] says what a drive is told at a tick, and [`watch`] what becomes of an axis whose drive
+//! fails. [`Rows`] are a path that comes row by row. [`Recorder`] samples a [`Sensor`] beside the
+//! hub's angle; [`StandIn`] takes the sensor's place where there is none. Nothing here owns a task,
+//! a clock or a device.
 
+mod admit;
 #[cfg_attr(feature = "_other-axes", path = "../../target/firmware/axes.rs")]
 pub mod axes;
 mod change;
 mod configuration;
 pub mod drive;
 mod joint;
+mod order;
 mod recorder;
 mod rows;
 mod sensor;
 mod stand_in;
+pub mod watch;
 mod work;
 
 pub use configuration::Configuration;
-pub use joint::{HOME_RANGE, Joint};
+pub use joint::{FAR, HOME_RANGE, Joint};
+pub use order::Order;
 pub use recorder::{Recorder, Recording};
 pub use rows::Rows;
 pub use sensor::Sensor;

@@ -41,6 +41,7 @@ impl Work {
             | Command::Heartbeat
             | Command::Describe
             | Command::Status
+            | Command::Clear
             | Command::Record(_)
             | Command::Change(_) => None,
         }

@@ -12,6 +12,8 @@
 //! | another target, duration, hold, cancel | from the next tick on, without a jump |
 //! | no state to follow | the acceleration is kept; beyond the allowed number of ticks, as stop |
 //! | no next row of a path | brake along the path behind the last row, then hold |
+//! | drive silent ([`Cause::DriveLost`]) | as stop |
+//! | drive faults or switches itself off ([`Cause::DriveFault`]) | as stop, then off: enabling begins where the shaft is then |
 //! | late tick | nothing: setpoints count ticks, not seconds |
 //! | missed ticks | the path waits: the next setpoint is the next on the path; beyond the allowed number, as stop |
 //! | tick not due (a burst after a freeze) | no tick is made and nothing is sent; the path does not run ahead of time |
@@ -57,6 +59,10 @@ pub enum Cause {
     MissedTicks,
     /// No state to follow has come for more ticks in a row than are allowed.
     FollowLost,
+    /// The drive has said nothing of itself for too long.
+    DriveLost,
+    /// The drive reports a fault, or is off without having been told so.
+    DriveFault,
 }
 
 impl fmt::Display for Cause {
@@ -66,6 +72,8 @@ impl fmt::Display for Cause {
             Self::LinkLost => "nothing heard from the host for too long",
             Self::MissedTicks => "too many ticks missed in a row",
             Self::FollowLost => "no state to follow for too many ticks in a row",
+            Self::DriveLost => "nothing heard from the drive for too long",
+            Self::DriveFault => "the drive reports a fault or has switched itself off",
         })
     }
 }

@@ -22,9 +22,12 @@ pub struct TalkArgs {
     #[arg(long, value_name = "PORT")]
     serial: Option<String>,
     /// The reference rod behind motor, gear and friction on every drive, in QEMU; the steps may
-    /// then be "jump A TURNS" of the encoder, "fault A" and "clear A" of the drive too
+    /// then be "jump A TURNS" of the encoder too
     #[arg(long, conflicts_with = "serial")]
     plant: bool,
+    /// Repeat the steps until so many seconds of virtual time have passed; in QEMU
+    #[arg(long = "for", value_name = "SECONDS", conflicts_with = "serial")]
+    seconds: Option<f64>,
     /// Baud rate of the serial port
     #[arg(long, default_value_t = 921_600)]
     baud: u32,
@@ -69,8 +72,12 @@ impl TalkArgs {
         };
         let mut session =
             if self.plant { Session::begin_loaded(machine)? } else { Session::begin(machine)? };
-        if !(steps.is_empty() && self.record.is_some()) {
-            talk::converse(&mut session, &steps, &mut |line| println!("{line}"))?;
+        let print = &mut |line: &str| println!("{line}");
+        match self.seconds {
+            Some(seconds) => talk::endure(&mut session, &steps, seconds, print)?,
+            // A recording alone has steps of its own.
+            None if steps.is_empty() => {}
+            None => talk::converse(&mut session, &steps, print)?,
         }
         if let Some(path) = &self.record {
             self.log(&mut session, path)?;

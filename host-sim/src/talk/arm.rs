@@ -1,12 +1,13 @@
 //! An axis with the method that the firmware names.
 
 use stillbeam::axis::{Cause, Mode, Tick};
+use stillbeam::drive::ClassicFrame;
 use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::motor::Drivetrain;
 use stillbeam::{Angle, Error as CoreError, Payload, PlanContext, PlannedMove, UniformScene};
 use stillbeam_methods::{Method, Visitor, visit_all};
 use stillbeam_protocol::{Command, Refusal};
-use stillbeam_wiring::{Configuration, Joint, Rows};
+use stillbeam_wiring::{Configuration, Joint, Order, Rows};
 
 use crate::error::Error;
 
@@ -16,8 +17,17 @@ const QUEUE: usize = 64;
 
 /// The firmware's interface of an axis, for any method.
 pub(super) trait Arm {
-    /// Carries out a command that needs no plan, the shaft being at `shaft`.
-    fn carry_out(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Refusal<'static>>;
+    /// Carries out a command that needs no plan, the shaft being at `shaft` if that is known from
+    /// elsewhere than from the drive's frames.
+    fn carry_out(
+        &mut self,
+        command: &Command,
+        shaft: Option<Angle<f32>>,
+    ) -> Result<(), Refusal<'static>>;
+    /// Takes a frame of the drive.
+    fn hear_drive(&mut self, frame: &ClassicFrame);
+    /// Returns the frame for the drive beside setpoint and switch, once.
+    fn take_order(&mut self) -> Option<Order>;
     fn stop(&mut self, cause: Cause);
     fn plan_context(&self) -> Result<PlanContext, CoreError>;
     fn take(&mut self, planned: &PlannedMove<f32>) -> Result<u32, CoreError>;
@@ -28,8 +38,8 @@ pub(super) trait Arm {
     /// Takes a row of the path.
     fn offer(&mut self, row: Waypoint, last: bool) -> Result<(), Refusal<'static>>;
     fn heard(&mut self);
-    fn missed(&mut self, ticks: u32);
-    fn tick(&mut self) -> Tick<f32>;
+    /// Makes the next tick, before which `missed` ticks did not take place.
+    fn tick(&mut self, missed: u32) -> Tick<f32>;
     fn mode(&self) -> Mode;
     fn cause(&self) -> Option<Cause>;
     fn rests(&self) -> bool;
@@ -102,13 +112,27 @@ pub(super) fn apart(refused: impl Into<Refusal<'static>>) -> Error {
 }
 
 impl<M: Method> Arm for Of<M> {
-    fn carry_out(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Refusal<'static>> {
-        self.0.measured = Some(shaft);
+    fn carry_out(
+        &mut self,
+        command: &Command,
+        shaft: Option<Angle<f32>>,
+    ) -> Result<(), Refusal<'static>> {
+        if shaft.is_some() {
+            self.0.measured = shaft;
+        }
         self.0.carry_out(command)
     }
 
+    fn hear_drive(&mut self, frame: &ClassicFrame) {
+        self.0.hear_drive(frame);
+    }
+
+    fn take_order(&mut self) -> Option<Order> {
+        self.0.take_order()
+    }
+
     fn stop(&mut self, cause: Cause) {
-        self.0.axis.stop(cause);
+        self.0.stop(cause);
     }
 
     fn plan_context(&self) -> Result<PlanContext, CoreError> {
@@ -138,14 +162,10 @@ impl<M: Method> Arm for Of<M> {
         self.0.axis.heard();
     }
 
-    fn missed(&mut self, ticks: u32) {
-        self.0.axis.missed(ticks);
-    }
-
-    fn tick(&mut self) -> Tick<f32> {
+    fn tick(&mut self, missed: u32) -> Tick<f32> {
         let Self(joint, rows) = self;
         rows.advance(|path, piece| joint.axis.take_piece(path, piece));
-        joint.axis.tick()
+        joint.tick(missed)
     }
 
     fn mode(&self) -> Mode {

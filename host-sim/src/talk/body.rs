@@ -110,6 +110,12 @@ impl Body {
         self.setpoint = self.reading;
     }
 
+    /// Calls the shaft's angle `turns` from now on.
+    pub fn call_it(&mut self, turns: f64) {
+        self.zero += turns - self.reading;
+        self.read();
+    }
+
     /// Takes a setpoint.
     pub fn command(&mut self, demand: &Demand<f32>) {
         let position = demand.position.in_turns();

@@ -34,9 +34,18 @@ pub(super) struct Axis {
     accepted: VecDeque<(u32, Command)>,
     /// Ticks before which the firmware heard the host.
     heard: VecDeque<u32>,
+    /// Frames of the drive, each with the tick before which the firmware has them.
+    reports: VecDeque<(u32, ClassicFrame)>,
     /// Ticks that did not take place, with the number of the tick after them.
     missed: VecDeque<(u32, u32)>,
     pub(super) history: Vec<Tick<f32>>,
+}
+
+impl Axis {
+    /// Records that the firmware has a frame of the drive before tick `tick`.
+    pub(super) fn report(&mut self, tick: u32, frame: ClassicFrame) {
+        self.reports.push_back((tick, frame));
+    }
 }
 
 impl Comparison {
@@ -58,8 +67,9 @@ impl Comparison {
         } else {
             Drive::new(replica.node(), shaft.in_turns() as f32)
         };
-        let (accepted, heard, missed) = Default::default();
-        self.axes.push(Axis { replica, drive, accepted, heard, missed, history: Vec::new() });
+        let (accepted, heard, reports, missed) = Default::default();
+        let history = Vec::new();
+        self.axes.push(Axis { replica, drive, accepted, heard, reports, missed, history });
         Ok(())
     }
 
@@ -176,17 +186,23 @@ impl Comparison {
         while axis.heard.pop_front_if(|heard| *heard <= tick.number).is_some() {
             axis.replica.heard();
         }
+        while let Some((_, frame)) = axis.reports.pop_front_if(|(at, _)| *at <= tick.number) {
+            axis.replica.hear_drive(&frame);
+        }
         while let Some((_, command)) = axis.accepted.pop_front_if(|(at, _)| *at <= tick.number) {
             // What the host cannot measure it takes from the setpoint that shows it.
             let shown = axis.replica.train().mapping().to_motor(tick.setpoint.angle);
-            let shaft = if emulated { axis.drive.shaft() } else { shown };
-            axis.replica.apply(&command, shaft)?;
+            axis.replica.apply(&command, (!emulated).then_some(shown))?;
         }
         while let Some((_, missed)) = axis.missed.pop_front_if(|(at, _)| *at <= tick.number) {
             axis.replica.missed(missed);
         }
         if !emulated && let (Some(cause), Mode::Enabled) = (cause, axis.replica.mode()) {
             axis.replica.stop(cause);
+        }
+        // A drive that fails while its axis holds after a stop switches it off.
+        if !emulated && tick.mode == Mode::Disabled && axis.replica.mode() == Mode::Stopped {
+            axis.replica.stop(Cause::DriveFault);
         }
         let (ours, our_cause) = axis.replica.step();
         let ours = Tick { number: tick.number, ..ours };
@@ -206,20 +222,17 @@ impl Comparison {
         if emulated { self.compare_frames(machine, number, tick) } else { Ok(()) }
     }
 
-    /// Compares the drive frames of a tick: the setpoint, and the switch if the mode has changed.
+    /// Compares the drive frames of a tick.
     fn compare_frames(
         &mut self,
         machine: &mut Machine,
         number: usize,
         tick: &Tick<f32>,
     ) -> Result<(), Error> {
-        let (demand, switched) = self.axes[number].replica.told(tick);
-        let node = self.axes[number].replica.node();
-        let position = demand.and_then(|demand| node.set_input_pos::<ClassicFrame>(&demand));
-        let switch = switched.and_then(|on| node.set_axis_state::<ClassicFrame>(on));
+        let told = self.axes[number].replica.told(tick);
         let microseconds = (1e6 * self.axes[number].replica.tick()).round() as u32;
         let stamp = slcan::stamp(tick.sequence(), microseconds);
-        for ours in position.map(|encoded| encoded.payload).into_iter().chain(switch) {
+        for ours in told {
             let theirs = self.next_frame(machine)?;
             if theirs != (ours, stamp) {
                 return Err(Error::new(format_args!(

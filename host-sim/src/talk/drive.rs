@@ -1,13 +1,27 @@
 //! Emulated drives on the bus. They follow at once and report their position, or they turn a
 //! machine and report its encoder.
 
-use stillbeam::Angle;
 use stillbeam::drive::ClassicFrame;
-use stillbeam::drive::odrive::{EncoderEstimates, Node};
+use stillbeam::drive::odrive::{EncoderEstimates, Heartbeat, Node};
 use stillbeam_protocol::slcan;
 
 use super::body::Body;
 use crate::error::Error;
+
+/// Interval of the heartbeats, s: ODrive's own default.
+const HEARTBEAT: f64 = 0.1;
+
+/// Time without a setpoint after which a drive that is on switches itself off, s: ODrive's
+/// `watchdog_timeout`.
+const WATCHDOG: f64 = 0.1;
+
+/// ODrive's `DRV_FAULT` and `WATCHDOG_TIMER_EXPIRED`.
+const DRIVER_FAULT: u32 = 0x20;
+const WATCHDOG_EXPIRED: u32 = 0x0100_0000;
+
+/// `AXIS_STATE_IDLE` and `AXIS_STATE_CLOSED_LOOP_CONTROL`.
+const IDLE: u8 = 1;
+const CLOSED_LOOP: u8 = 8;
 
 /// An ODrive. Its shaft is at its latest setpoint, or where its machine is.
 pub struct Drive {
@@ -18,15 +32,31 @@ pub struct Drive {
     velocity: f32,
     /// True in closed-loop control.
     on: bool,
-    /// True after a fault, until it is cleared.
-    faulty: bool,
+    /// What switched it off, until it is cleared; 0 for nothing.
+    errors: u32,
+    /// True while no frame comes or goes.
+    cut: bool,
+    /// Time since the latest setpoint, s.
+    starved: f64,
+    /// The latest heartbeat, with the time since then, s.
+    said: Option<(Heartbeat, f64)>,
     body: Option<Body>,
 }
 
 impl Drive {
     /// Creates a drive that is off, its shaft at `position` turns.
     pub fn new(node: Node, position: f32) -> Self {
-        Self { node, position, velocity: 0.0, on: false, faulty: false, body: None }
+        Self {
+            node,
+            position,
+            velocity: 0.0,
+            on: false,
+            errors: 0,
+            cut: false,
+            starved: 0.0,
+            said: None,
+            body: None,
+        }
     }
 
     /// Creates a drive that is off and turns a machine.
@@ -35,25 +65,32 @@ impl Drive {
         Self { body: Some(body), ..Self::new(node, position) }
     }
 
-    /// Lets the machine run for a tick, if there is one.
+    /// Goes on for a tick of `tick` s.
     ///
     /// # Errors
     /// A machine that cannot be simulated on.
-    pub fn advance(&mut self) -> Result<(), Error> {
+    pub fn advance(&mut self, tick: f64) -> Result<(), Error> {
+        self.starved += tick;
+        if self.on && self.starved > WATCHDOG + 0.5 * tick {
+            (self.on, self.errors) = (false, WATCHDOG_EXPIRED);
+        }
+        if let Some((_, since)) = &mut self.said {
+            *since += tick;
+        }
         let Some(body) = &mut self.body else { return Ok(()) };
         body.advance(self.on)?;
         self.position = body.reading() as f32;
         Ok(())
     }
 
-    /// Switches itself off, with a brake, and stays so until [`Self::clear`].
+    /// Switches itself off, with a brake, until its errors are cleared.
     pub fn fail(&mut self) {
-        (self.on, self.faulty) = (false, true);
+        (self.on, self.errors) = (false, DRIVER_FAULT);
     }
 
-    /// Clears a fault. The drive stays off until it is switched on.
-    pub fn clear(&mut self) {
-        self.faulty = false;
+    /// Cuts its line to the bus, or mends it.
+    pub fn cut(&mut self, cut: bool) {
+        self.cut = cut;
     }
 
     /// The machine behind the drive.
@@ -68,14 +105,27 @@ impl Drive {
 
     /// Takes a frame from the bus, if it is this drive's.
     pub fn hear(&mut self, frame: &ClassicFrame) {
+        if self.cut {
+            return;
+        }
+        if self.node.clears_errors(frame) {
+            self.errors = 0;
+        }
+        if let Some(turns) = self.node.absolute_position(frame) {
+            self.position = turns;
+            if let Some(body) = &mut self.body {
+                body.call_it(turns.into());
+            }
+        }
         if let Some(on) = self.node.axis_state(frame) {
-            let begins = on && !self.on && !self.faulty;
-            self.on = on && !self.faulty;
+            let begins = on && !self.on && self.errors == 0;
+            self.on = on && self.errors == 0;
             if let (true, Some(body)) = (begins, &mut self.body) {
                 body.enable();
             }
         }
         if let Some(demand) = self.node.demand(frame) {
+            self.starved = 0.0;
             if let Some(body) = &mut self.body {
                 body.command(&demand);
                 return;
@@ -85,23 +135,40 @@ impl Drive {
         }
     }
 
-    /// Returns the bus message with the position of the shaft.
-    pub fn estimates(&self) -> Vec<u8> {
+    /// Returns the frames that it sends at a tick: its position, and its heartbeat if that is due
+    /// and leaves the bus' lines within `room` bytes. With `busy`, one that says something new
+    /// waits for a tick without requests: the firmware may take either first.
+    pub fn reports(&mut self, busy: bool, room: usize) -> Vec<ClassicFrame> {
+        if self.cut {
+            return Vec::new();
+        }
         let velocity = if self.on { self.velocity } else { 0.0 };
         let estimates = EncoderEstimates { position: self.position, velocity };
-        self.node
-            .estimates_frame(&estimates)
-            .map(|frame| slcan::encode(&frame, 0).bytes().to_vec())
-            .unwrap_or_default()
+        let mut frames: Vec<ClassicFrame> =
+            self.node.estimates_frame(&estimates).into_iter().collect();
+        let state = if self.on { CLOSED_LOOP } else { IDLE };
+        let heartbeat = Heartbeat { errors: self.errors, state, procedure_result: 0 };
+        let (last, since) = self.said.map_or((None, f64::INFINITY), |(h, t)| (Some(h), t));
+        let due = since > HEARTBEAT - 1e-6;
+        let waits = busy && last.is_some_and(|last| last != heartbeat) && since < 2.0 * HEARTBEAT;
+        if due
+            && !waits
+            && let Some(frame) = self.node.heartbeat_frame(&heartbeat)
+            && line(&frame).len() + frames.iter().map(|f| line(f).len()).sum::<usize>() <= room
+        {
+            frames.push(frame);
+            self.said = Some((heartbeat, 0.0));
+        }
+        frames
     }
 
     /// True if it is in closed-loop control.
     pub fn is_on(&self) -> bool {
         self.on
     }
+}
 
-    /// Returns the shaft's angle as the firmware understands it.
-    pub fn shaft(&self) -> Angle<f32> {
-        Angle { turns: 0, part: 0.0 }.plus(self.position)
-    }
+/// Returns the bus' line of a frame from a drive.
+pub(super) fn line(frame: &ClassicFrame) -> Vec<u8> {
+    slcan::encode(frame, 0).bytes().to_vec()
 }

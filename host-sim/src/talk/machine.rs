@@ -78,6 +78,11 @@ impl Machine {
         self.outbox[1].extend(bytes);
     }
 
+    /// Bytes that the emulated bus takes before the next tick, beside those that wait for it.
+    pub fn room_on_bus(&self) -> usize {
+        CHUNK.saturating_sub(self.outbox[1].len())
+    }
+
     /// Keeps the next tick that is granted from running for `microseconds` µs.
     pub fn stall(&mut self, microseconds: u16) {
         self.stall = microseconds;

@@ -27,5 +27,5 @@ pub use machine::Machine;
 pub use page::page;
 pub use recording::{Recording, record};
 pub use replica::Replica;
-pub use script::{DEMONSTRATION, FAULTS, FIRST, MACHINE, STILL, Step, converse};
+pub use script::{DEMONSTRATION, FAULTS, FIRST, MACHINE, STILL, Step, converse, endure};
 pub use session::{Answer, Posted, Session};

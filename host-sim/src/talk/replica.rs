@@ -1,8 +1,9 @@
 //! An axis on the host, built from the firmware's description.
 
 use stillbeam::axis::{Cause, Mode, Policy, Tick};
+use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::Node;
-use stillbeam::motor::{Demand, Drivetrain};
+use stillbeam::motor::Drivetrain;
 use stillbeam::planner::Planner;
 use stillbeam::{Angle, Limits, PlainMove, UniformScene};
 use stillbeam_protocol::{Command, Description};
@@ -20,6 +21,8 @@ pub struct Replica {
     node: Node,
     switch: Switch,
     limits: Limits,
+    /// Ticks that did not take place before the coming one.
+    missed: u32,
     /// Planner, set up on first use.
     planner: Option<Planner<f32, 2>>,
 }
@@ -38,14 +41,15 @@ impl Replica {
         let configuration = Configuration { scene, policy, joint, direction, zero: 0.0, node };
         let axis = arm::build(method, &configuration, zero, tick)?;
         let (node, switch) = (Node::new(node)?, Switch::default());
-        Ok(Self { axis, tick, node, switch, limits: policy.limits, planner: None })
+        Ok(Self { axis, tick, node, switch, limits: policy.limits, missed: 0, planner: None })
     }
 
-    /// Carries out a command that the firmware has accepted.
+    /// Carries out a command that the firmware has accepted. `shaft` is where the shaft is, for a
+    /// host that does not see the drive's frames.
     ///
     /// # Errors
     /// The host's axis refuses it: the two are not in the same state.
-    pub fn apply(&mut self, command: &Command, shaft: Angle<f32>) -> Result<(), Error> {
+    pub fn apply(&mut self, command: &Command, shaft: Option<Angle<f32>>) -> Result<(), Error> {
         match Work::of(command) {
             Some(Work::Move(motion)) => self.follow(&motion),
             Some(Work::Still { to, duration }) => self.follow_still(to, duration),
@@ -80,9 +84,14 @@ impl Replica {
         self.axis.heard();
     }
 
+    /// Takes a frame that the drive has sent.
+    pub fn hear_drive(&mut self, frame: &ClassicFrame) {
+        self.axis.hear_drive(frame);
+    }
+
     /// Notes that `ticks` ticks did not take place before the coming one.
     pub fn missed(&mut self, ticks: u32) {
-        self.axis.missed(ticks);
+        self.missed = self.missed.saturating_add(ticks);
     }
 
     /// Takes the firmware's word for a stop that the host cannot foresee.
@@ -92,13 +101,19 @@ impl Replica {
 
     /// Makes the next tick. Returns it with the cause of a stop.
     pub fn step(&mut self) -> (Tick<f32>, Option<Cause>) {
-        let tick = self.axis.tick();
+        let tick = self.axis.tick(core::mem::take(&mut self.missed));
         (tick, self.axis.cause())
     }
 
-    /// Returns the messages to the drive at a tick: the demand while it is on, and a switch if any.
-    pub fn told(&mut self, tick: &Tick<f32>) -> (Option<Demand<f32>>, Option<bool>) {
-        (demand(self.axis.train(), tick), self.switch.turn(tick.mode))
+    /// Returns the frames to the drive at a tick, in their order: what was asked for beside the
+    /// setpoints, the setpoint while the drive is on, and a switch, if any.
+    pub fn told(&mut self, tick: &Tick<f32>) -> impl Iterator<Item = ClassicFrame> + use<> {
+        let node = self.node;
+        let order = self.axis.take_order().and_then(|order| order.frame(node));
+        let demand = demand(self.axis.train(), tick);
+        let position = demand.and_then(|demand| node.set_input_pos(&demand));
+        let switch = self.switch.turn(tick.mode).and_then(|on| node.set_axis_state(on));
+        order.into_iter().chain(position.map(|encoded| encoded.payload)).chain(switch)
     }
 
     /// The mode.

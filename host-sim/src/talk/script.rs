@@ -25,8 +25,10 @@ pub enum Step {
     Rest,
     /// Lets the encoder of an axis jump, turns of the motor.
     Jump(u8, f64),
-    /// Lets the drive of an axis switch itself off; with false, clears that.
-    Fail(u8, bool),
+    /// Lets the drive of an axis switch itself off with an error.
+    Fail(u8),
+    /// Cuts the line between the bus and the drive of an axis; with false, mends it.
+    Cut(u8, bool),
 }
 
 /// Demonstration of every part of the policy. Both axes move, one is stopped on its way, one takes
@@ -101,9 +103,10 @@ pub const FAULTS: [&str; 13] = [
     "status 0",
 ];
 
-/// Faults around a machine behind its drives: a move, a stop, a cut link, an encoder that jumps, a
-/// drive that faults on its way and is cleared.
-pub const MACHINE: [&str; 20] = [
+/// Faults around a machine behind its drives: a move, a stop, an encoder that jumps, a drive that
+/// faults on its way and is cleared, one whose line is cut and that its watchdog switches off, a
+/// host that falls silent.
+pub const MACHINE: [&str; 35] = [
     "enable 0",
     "enable 1",
     "move 0 quintic 1.7 1.57",
@@ -120,17 +123,33 @@ pub const MACHINE: [&str; 20] = [
     "move 1 quintic 1.0 -0.3",
     "wait 0.5",
     "fault 1",
+    "wait 0.2",
     "rest",
+    "enable 1",
     "clear 1",
-    "disable 1",
+    "wait 0.2",
+    "enable 1",
+    "move 1 quintic 1.0 0.4",
+    "wait 0.5",
+    "cut 1",
+    "wait 0.5",
+    "rest",
+    "enable 1",
+    "mend 1",
+    "wait 0.2",
+    "clear 1",
+    "wait 0.2",
+    "enable 1",
+    "move 0 quintic 1.7 0.9",
     "silence 1.0",
 ];
 
 /// Steps that are accepted.
 const ACCEPTED: &str = "enable A, disable A, stop A, move A PROFILE DURATION TO, still A TO \
      [DURATION], target A TO DURATION [RATE], duration A DURATION, hold A, cancel A, path A SPLINE, \
-     row A TIME ANGLE [RATE], last A TIME ANGLE [RATE], spin A DURATION RATE, dwell A DURATION, payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, rest, \
-     jump A TURNS, fault A, clear A";
+     row A TIME ANGLE [RATE], last A TIME ANGLE [RATE], spin A DURATION RATE, dwell A DURATION, \
+     payload A MASS [INERTIA], home A ANGLE, status A, wait SECONDS, silence SECONDS, stall SECONDS, \
+     rest, clear A, fault A, cut A, mend A, jump A TURNS";
 
 impl FromStr for Step {
     type Err = Error;
@@ -143,8 +162,9 @@ impl FromStr for Step {
             "stall" => number(words.next()).map(Self::Stall),
             "silence" => number(words.next()).map(Self::Silence),
             "jump" => axis(words.next()).zip(number(words.next())).map(|(a, x)| Self::Jump(a, x)),
-            "fault" => axis(words.next()).map(|axis| Self::Fail(axis, true)),
-            "clear" => axis(words.next()).map(|axis| Self::Fail(axis, false)),
+            "fault" => axis(words.next()).map(Self::Fail),
+            "cut" => axis(words.next()).map(|axis| Self::Cut(axis, true)),
+            "mend" => axis(words.next()).map(|axis| Self::Cut(axis, false)),
             verb => {
                 let axis = axis(words.next());
                 axis.zip(command(verb, &mut words)).map(|(axis, command)| Self::Ask(axis, command))
@@ -161,6 +181,7 @@ fn command<'a>(verb: &str, words: &mut impl Iterator<Item = &'a str>) -> Option<
         "disable" => Command::Disable,
         "stop" => Command::Stop,
         "status" => Command::Status,
+        "clear" => Command::Clear,
         "home" => Command::Home(number(words.next())?),
         "move" => {
             let profile = Profile::named(words.next()?)?;
@@ -244,8 +265,12 @@ impl Step {
                 session.jump(axis, turns)?;
                 Ok(String::new())
             }
-            Self::Fail(axis, fails) => {
-                session.fail(axis, fails)?;
+            Self::Fail(axis) => {
+                session.fail(axis)?;
+                Ok(String::new())
+            }
+            Self::Cut(axis, cut) => {
+                session.cut(axis, cut)?;
                 Ok(String::new())
             }
         }
@@ -274,6 +299,56 @@ pub fn converse(
     }
     session.wait(1)?;
     logged(session, print);
+    compared(session, print);
+    Ok(())
+}
+
+/// Repeats steps until `seconds` of virtual time have passed, and hands out a line each round.
+///
+/// # Errors
+/// Errors are those of [`converse`], and that of a round in which something was refused that the
+/// first round was not, or the other way about: the firmware has drifted.
+pub fn endure(
+    session: &mut Session,
+    steps: &[&str],
+    seconds: f64,
+    print: &mut dyn FnMut(&str),
+) -> Result<(), Error> {
+    if !(seconds > 0.0 && seconds <= 1e6) {
+        return Err(Error::new(format_args!("--for = {seconds} s: must be above 0 to 1e6 s")));
+    }
+    let parsed: Vec<Step> = steps.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
+    let mut first = None;
+    let mut rounds = 0;
+    while f64::from(session.now()) * session.tick() < seconds {
+        let mut refused = Vec::new();
+        for (step, text) in parsed.iter().zip(steps) {
+            let said = step.take(session)?;
+            if let Some(why) = said.strip_prefix("refused: ") {
+                refused.push(format!("{text}: {why}"));
+            }
+        }
+        rounds += 1;
+        let time = f64::from(session.now()) * session.tick();
+        let expected = first.get_or_insert_with(|| refused.clone());
+        if *expected != refused {
+            return Err(Error::new(format_args!(
+                "round {rounds}, {time:.2} s: refused {refused:?}, in the first round {expected:?}"
+            )));
+        }
+        print(&format!("{time:7.2} s  round {rounds}, {} refused as in the first", refused.len()));
+    }
+    for axis in 0..session.axes() {
+        if let Answer::Status(status) = session.ask(axis, Command::Status)? {
+            print(&format!("axis {axis}: {}", said(&Answer::Status(status))));
+        }
+    }
+    compared(session, print);
+    Ok(())
+}
+
+/// Prints how machines followed, and how many setpoints and frames were compared.
+fn compared(session: &Session, print: &mut dyn FnMut(&str)) {
     for axis in 0..session.axes() {
         if let Some([behind, energy]) = session.followed(axis) {
             print(&format!(
@@ -285,7 +360,6 @@ pub fn converse(
     let [setpoints, frames] = session.compared();
     let what = format!("{setpoints} setpoints and {frames} drive frames");
     print(&format!("{what}, all equal to the host's to the bit"));
-    Ok(())
 }
 
 /// Prints what the firmware has logged.

@@ -8,6 +8,7 @@ use stillbeam_protocol::frame::{self, Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Report, Request, Sample, Status};
 
 use super::comparison::Comparison;
+use super::drive::line;
 use super::{Machine, Replica};
 use crate::error::Error;
 
@@ -302,17 +303,21 @@ impl Session {
         Ok(())
     }
 
-    /// Lets the drive of an axis switch itself off, or clears that.
+    /// Lets the drive of an axis switch itself off with an error.
     ///
     /// # Errors
     /// An axis that does not exist.
-    pub fn fail(&mut self, axis: u8, fails: bool) -> Result<(), Error> {
-        let drive = self.drive(axis)?;
-        if fails {
-            drive.fail()
-        } else {
-            drive.clear()
-        }
+    pub fn fail(&mut self, axis: u8) -> Result<(), Error> {
+        self.drive(axis)?.fail();
+        Ok(())
+    }
+
+    /// Cuts the line between the bus and the drive of an axis, or mends it.
+    ///
+    /// # Errors
+    /// An axis that does not exist.
+    pub fn cut(&mut self, axis: u8, cut: bool) -> Result<(), Error> {
+        self.drive(axis)?.cut(cut);
         Ok(())
     }
 
@@ -390,9 +395,13 @@ impl Session {
         if !self.machine.is_emulated() {
             return self.take_in();
         }
+        let tick = self.tick();
         for axis in self.comparison.axes_mut() {
-            axis.drive.advance()?;
-            self.machine.send_to_bus(&axis.drive.estimates());
+            axis.drive.advance(tick)?;
+            for frame in axis.drive.reports(self.unheard, self.machine.room_on_bus()) {
+                self.machine.send_to_bus(&line(&frame));
+                axis.report(self.upcoming, frame);
+            }
         }
         let all_sent = self.machine.grant()?;
         if all_sent && core::mem::take(&mut self.unheard) {

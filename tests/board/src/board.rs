@@ -122,7 +122,7 @@ impl Board {
     /// Makes a tick at that reading of the clock. Returns `None` if it is not due.
     pub fn tick(&mut self, now: u32) -> Option<Step> {
         let timing = self.pace.arrive(now);
-        let Some(tick) = self.joint.axis.tick_if_due(&timing) else {
+        let Some(tick) = self.joint.tick_if_due(&timing) else {
             self.early += 1;
             return None;
         };
@@ -210,7 +210,7 @@ impl Board {
     fn hand_over(&mut self, result: Ready) {
         let tick = self.joint.axis.clock();
         let done = match result {
-            Ready::Plan { motion, planned, again } => match self.joint.axis.take(&planned) {
+            Ready::Plan { motion, planned, again } => match self.joint.take(&planned) {
                 Err(Error::Stale) if again => {
                     let begun = self.plan(motion, false);
                     return self.begin(begun);

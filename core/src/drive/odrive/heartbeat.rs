@@ -112,4 +112,11 @@ impl Node {
         }
         F::new(self.id(SET_ABSOLUTE_POSITION), &turns.to_le_bytes())
     }
+
+    /// The turns in a Set_Absolute_Position frame of this node, if they are finite.
+    pub fn absolute_position(self, frame: &impl Frame) -> Option<f32> {
+        let ours = frame.id() == self.id(SET_ABSOLUTE_POSITION).into() && frame.is_data_frame();
+        let bytes = frame.data().try_into().ok().filter(|_| ours)?;
+        Some(f32::from_le_bytes(bytes)).filter(|turns| turns.is_finite())
+    }
 }

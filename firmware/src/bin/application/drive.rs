@@ -1,10 +1,11 @@
 //! Frames to the drives and from them. ODrive CAN simple; another protocol of `stillbeam::drive`
 //! goes in here.
 
+use stillbeam::Angle;
 use stillbeam::axis::{Freshness, Sequence, Tick};
 use stillbeam::drive::odrive::TORQUE_STEP;
-use stillbeam::drive::{ClassicFrame, TorquePeak};
-use stillbeam_wiring::axes::AXES;
+use stillbeam::drive::{ClassicFrame, Condition, Lost, TorquePeak};
+use stillbeam_wiring::axes::{AXES, COUNTS};
 use stillbeam_wiring::drive::{Setpoint, Switch, demand};
 
 use crate::board::{BusReader, BusWriter};
@@ -38,9 +39,14 @@ pub async fn send(mut bus: BusWriter) {
 }
 
 async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive) {
-    let joint =
-        shared::with(|s| s.joints.get(usize::from(axis)).map(|joint| (joint.node(), joint.train)));
-    let Some((node, train)) = joint else { return };
+    let joint = shared::with(|s| {
+        let joint = s.joints.get_mut(usize::from(axis))?;
+        Some((joint.node(), joint.train, joint.take_order()))
+    });
+    let Some((node, train, order)) = joint else { return };
+    if let Some(frame) = order.and_then(|order| order.frame::<ClassicFrame>(node)) {
+        bus.send(&frame, tick.sequence()).await;
+    }
     if let Some(demand) = demand(&train, tick) {
         // What is not finite is not sent: the drive's own watchdog is the last resort.
         let Some(encoded) = node.set_input_pos::<ClassicFrame>(&demand) else { return };
@@ -71,18 +77,53 @@ async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive)
     }
 }
 
-/// Takes note of what the encoders report.
+/// What the log has been told of a drive's reports.
+#[derive(Clone, Copy, Default)]
+struct Warned {
+    lost: bool,
+    errors: u32,
+}
+
+/// Takes note of what the drives report of encoders and of themselves.
 #[embassy_executor::task]
 pub async fn receive(mut bus: BusReader) {
+    let mut warned = [Warned::default(); AXES];
     loop {
         let frame = bus.receive().await;
-        for i in 0..AXES {
+        for (i, warned) in warned.iter_mut().enumerate() {
             // One axis at a time, so that the tick is masked no longer than one takes.
-            shared::with(|s| {
-                if let Some(joint) = s.joints.get_mut(i) {
-                    joint.hear_drive(&frame);
-                }
+            let state = shared::with(|s| {
+                let joint = s.joints.get_mut(i)?;
+                joint.hear_drive(&frame);
+                Some((joint.measured, joint.condition()))
             });
+            if let Some((measured, condition)) = state {
+                warn(i, measured, condition, warned);
+            }
         }
     }
+}
+
+/// Warns of an encoder that is so far from its zero that counts are lost, and of a drive's errors,
+/// once until they change.
+fn warn(
+    axis: usize,
+    measured: Option<Angle<f32>>,
+    condition: Option<Condition>,
+    warned: &mut Warned,
+) {
+    let turns = measured.map_or(0.0, |angle| angle.turns as f32 + angle.part);
+    let lost = Lost::at(turns, COUNTS).is_some();
+    if lost && !warned.lost {
+        defmt::warn!(
+            "axis {}: {=i32} turns from the encoder's zero, where counts are lost: home it",
+            axis,
+            turns as i32
+        );
+    }
+    let errors = if let Some(Condition::Fault(errors)) = condition { errors } else { 0 };
+    if errors != 0 && errors != warned.errors {
+        defmt::warn!("axis {}: the drive reports errors {=u32:#x}", axis, errors);
+    }
+    *warned = Warned { lost, errors };
 }

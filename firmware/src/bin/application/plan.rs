@@ -130,7 +130,7 @@ fn follow(
         })?;
         let planned = plan(&context)?;
         let taken = shared::with(|s| match s.joints.get_mut(axis) {
-            Some(joint) => joint.axis.take(&planned).map(|_| joint.axis.clock()),
+            Some(joint) => joint.take(&planned).map(|_| joint.axis.clock()),
             None => Err(last),
         });
         match taken {

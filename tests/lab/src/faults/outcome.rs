@@ -81,6 +81,8 @@ fn kind(refusal: &Refusal<'_>) -> &'static str {
         Refusal::NoPath => "no path",
         Refusal::Starved => "starved",
         Refusal::NoSensor => "no sensor",
+        Refusal::DriveFault(_) => "drive fault",
+        Refusal::DriveSilent => "drive silent",
         Refusal::Other => "other",
     }
 }
