@@ -9,7 +9,7 @@ use crate::hub::HubState;
 use crate::math::{Scalar, cast, sqrt, words};
 use crate::model::{Load, Rod, RodPoints};
 use crate::scene::{LinkShape, Scene};
-use crate::stepper::{ArmState, Forcing, Oscillator};
+use crate::stepper::{ArmState, Forcing, LONGEST_TURN, Oscillator};
 
 /// Number of times that the distance to an equilibrium is halved.
 const HALVINGS: usize = 30;
@@ -142,8 +142,11 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     /// Returns the same arm without its damping, discretised for steps of `step` s.
     pub fn undamped(&self, step: f64) -> Self {
         let modes = core::array::from_fn(|k| {
-            let [omega, coupling] = [self.frequency[k], self.coupling[k]].map(T::to_f64);
-            Oscillator::new(omega, 0.0, 0.0, coupling, step)
+            let (omega, coupling) = (self.frequency[k], self.coupling[k]);
+            if omega.to_f64() * step <= LONGEST_TURN {
+                return Oscillator::turning(omega, coupling, T::from_f64(step));
+            }
+            Oscillator::new(omega.to_f64(), 0.0, 0.0, coupling.to_f64(), step)
         });
         Self { modes, loss: [T::ZERO; K], alpha: T::ZERO, ..*self }
     }
