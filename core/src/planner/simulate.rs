@@ -151,6 +151,17 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         Self { modes, loss: [T::ZERO; K], alpha: T::ZERO, ..*self }
     }
 
+    /// Returns an arm of `factor` times the frequencies for [`Self::undamped`] simulations: with
+    /// every stiffness scaled alike, its modes keep their shapes.
+    pub fn stiffened(&self, factor: T) -> Self {
+        Self {
+            stiffness: self.stiffness.map(|square| factor * factor * square),
+            frequency: self.frequency.map(|omega| factor * omega),
+            tip_per_mode: self.tip_per_mode.map(|[tip, per_rate]| [tip, per_rate / factor]),
+            ..*self
+        }
+    }
+
     /// ω of mode `k`, rad/s, and its coupling b to the hub.
     pub fn mode(&self, k: usize) -> [T; 2] {
         [self.frequency[k], self.coupling[k]]
