@@ -62,6 +62,7 @@ fn residual(known: &Scene, real: &Scene, duration: f64) -> Result<f64, Error> {
         duration: Some(duration),
         limits: Limits::default(),
         robust: None,
+        options: plan::Options::default(),
         tick: TICK,
     };
     let plan = request.plan()?.plan;

@@ -1,5 +1,6 @@
 //! Still moves by the hundred, and in scene files.
 
+use stillbeam_lab::fastest::interrupted;
 use stillbeam_lab::still::campaign;
 use stillbeam_sim::reference::rod;
 use stillbeam_sim::scene_file::SceneFile;
@@ -83,6 +84,17 @@ fn random_interruptions_keep_limits_and_arrive_still() {
     assert_eq!(outcomes.len(), all.len(), "{all:?}");
     for outcome in outcomes {
         assert!(outcome.excess < 1e-4, "{outcome:?}");
+        assert!(outcome.residual < outcome.stated + 1e-3, "{outcome:?}");
+    }
+}
+
+#[test]
+fn random_interruptions_of_fastest_moves_keep_limits_and_arrive_still() {
+    let all = interrupted::interruptions(5, 8, 12, &|| ()).expect("a campaign");
+    let outcomes: Vec<_> = all.iter().filter_map(|one| one.ok()).collect();
+    assert!(outcomes.len() * 10 >= all.len() * 9, "{all:?}");
+    for outcome in outcomes {
+        assert!(outcome.before < 1e-4 && outcome.behind < 1e-4, "{outcome:?}");
         assert!(outcome.residual < outcome.stated + 1e-3, "{outcome:?}");
     }
 }

@@ -7,7 +7,7 @@ use stillbeam::Limits;
 use stillbeam::planner::ShortestMove;
 use stillbeam_sim::plan::request::ERRORS;
 use stillbeam_sim::plan::shortest::INTERVALS;
-use stillbeam_sim::plan::{Planned, Request};
+use stillbeam_sim::plan::{Options, Planned, Request};
 use stillbeam_sim::reference::Sample;
 use stillbeam_sim::scene_file::SceneFile;
 
@@ -38,6 +38,7 @@ fn request(file: &SceneFile, keywords: &Bound<'_, PyDict>) -> PyResult<Request> 
         duration: number("duration")?,
         limits: limits.validate().map_err(crate::error::core)?,
         robust: number("robust")?,
+        options: Options::default(),
         tick: keys::tick(file)?,
     })
 }

@@ -19,11 +19,11 @@ pub(crate) struct LeastEffort<T> {
 
 impl<T: Scalar> Linear<T> {
     /// Minimises `∫ weight x² dt`, where `x` is the derivative that the objective keeps small. The
-    /// weights are moved towards the least greatest `|x|` by Lawson's rule, except for a smooth
-    /// move.
+    /// weights are moved towards the least greatest `|x|` by Lawson's rule, except where
+    /// a mean square is the objective.
     pub fn least_effort(&self, quintic_c: &[T; 5], objective: Objective) -> LeastEffort<T> {
         let order = objective.order();
-        let rounds = if objective == Objective::Smooth { 0 } else { ROUNDS };
+        let rounds = if objective.is_mean() { 0 } else { ROUNDS };
         let mut weights = [T::ONE; NODES + 1];
         let mut found = self.weighted(quintic_c, order, &weights);
         for _ in 0..rounds {

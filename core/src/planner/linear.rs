@@ -92,7 +92,7 @@ impl<T: Scalar> Linear<T> {
             let peaks = curve_peaks(quintic_c, bulge, duration);
             match objective {
                 Objective::Rate => peaks.rate,
-                Objective::Acceleration => peaks.acceleration,
+                Objective::Acceleration | Objective::Effort => peaks.acceleration,
                 Objective::Jerk | Objective::Smooth => peaks.jerk,
             }
         };

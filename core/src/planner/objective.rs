@@ -11,6 +11,11 @@ pub enum Objective {
     Jerk,
     /// Mean square of the hub's jerk, which excites the second mode least.
     Smooth,
+    /// Integral of the squared torque, which warms the motor, by [`Planner::gentlest`]. A quintic
+    /// with a bulge keeps the mean square of the hub's acceleration small instead.
+    ///
+    /// [`Planner::gentlest`]: super::Planner::gentlest
+    Effort,
 }
 
 impl Objective {
@@ -18,8 +23,13 @@ impl Objective {
     pub(super) fn order(self) -> usize {
         match self {
             Self::Rate => 0,
-            Self::Acceleration => 1,
+            Self::Acceleration | Self::Effort => 1,
             Self::Jerk | Self::Smooth => 2,
         }
+    }
+
+    /// True if it is a mean square that is kept small, not a peak.
+    pub(super) fn is_mean(self) -> bool {
+        matches!(self, Self::Smooth | Self::Effort)
     }
 }

@@ -40,6 +40,10 @@ pub struct Request<T, const K: usize> {
     /// Greatest deflection of the tip, of L, by simulation. 0.7 by default: beyond it the arm may
     /// bend back on itself. `None`: the deflection is not looked at, which saves a simulation.
     pub deflection: Option<f64>,
+    /// Residual vibration that the arm may keep, of L, 0 to 0.2. 0 by default: as little as can be.
+    /// More makes the fastest move shorter, and lets a robust planner plan one. Other moves leave
+    /// what they leave without it.
+    pub residual: f64,
     /// Quantity that the move keeps small.
     pub objective: Objective,
     /// Model that the move is planned by.
@@ -81,6 +85,7 @@ impl<T, const K: usize> Request<T, K> {
             duration: None,
             limits: Limits::default(),
             deflection: Some(Prediction::MAX_DEFLECTION),
+            residual: 0.0,
             objective: Objective::Acceleration,
             kinematics: Kinematics::Exact,
         }
@@ -114,6 +119,11 @@ impl<T, const K: usize> Request<T, K> {
     /// Does not look at the tip's deflection: see [`Self::deflection`].
     pub fn any_deflection(self) -> Self {
         Self { deflection: None, ..self }
+    }
+
+    /// Leaves up to `residual` of L of vibration.
+    pub fn residual(self, residual: f64) -> Self {
+        Self { residual, ..self }
     }
 
     /// Keeps something else small than the acceleration.

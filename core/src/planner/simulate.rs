@@ -9,7 +9,7 @@ use crate::hub::HubState;
 use crate::math::{Scalar, cast, sqrt, words};
 use crate::model::{Load, Rod, RodPoints};
 use crate::scene::{LinkShape, Scene};
-use crate::stepper::{ArmState, Forcing, Oscillator};
+use crate::stepper::{ArmState, Forcing, LONGEST_TURN, Oscillator};
 
 /// Number of times that the distance to an equilibrium is halved.
 const HALVINGS: usize = 30;
@@ -142,10 +142,24 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     /// Returns the same arm without its damping, discretised for steps of `step` s.
     pub fn undamped(&self, step: f64) -> Self {
         let modes = core::array::from_fn(|k| {
-            let [omega, coupling] = [self.frequency[k], self.coupling[k]].map(T::to_f64);
-            Oscillator::new(omega, 0.0, 0.0, coupling, step)
+            let (omega, coupling) = (self.frequency[k], self.coupling[k]);
+            if omega.to_f64() * step <= LONGEST_TURN {
+                return Oscillator::turning(omega, coupling, T::from_f64(step));
+            }
+            Oscillator::new(omega.to_f64(), 0.0, 0.0, coupling.to_f64(), step)
         });
         Self { modes, loss: [T::ZERO; K], alpha: T::ZERO, ..*self }
+    }
+
+    /// Returns an arm of `factor` times the frequencies for [`Self::undamped`] simulations: with
+    /// every stiffness scaled alike, its modes keep their shapes.
+    pub fn stiffened(&self, factor: T) -> Self {
+        Self {
+            stiffness: self.stiffness.map(|square| factor * factor * square),
+            frequency: self.frequency.map(|omega| factor * omega),
+            tip_per_mode: self.tip_per_mode.map(|[tip, per_rate]| [tip, per_rate / factor]),
+            ..*self
+        }
     }
 
     /// ω of mode `k`, rad/s, and its coupling b to the hub.

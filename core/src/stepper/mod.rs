@@ -22,7 +22,7 @@ pub use elastica::{ArmState, Elastica, ElasticaState, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, NewmarkState};
 pub use on_carrier::OnCarrier;
-pub(crate) use oscillator::{Forcing, Oscillator};
+pub(crate) use oscillator::{Forcing, LONGEST_TURN, Oscillator};
 pub use path::{AnyMotion, AtRest, FastPaths, HubMotion, KinkMoments, Linear};
 pub use rigid::Rigid;
 

@@ -5,9 +5,9 @@ use core::f64::consts::PI;
 use stillbeam::math::Scalar;
 use stillbeam::model::Rod;
 use stillbeam::motion::{Path, Spline, Waypoint};
-use stillbeam::planner::{FastestMove, Planner, Request, ShortestMove};
+use stillbeam::planner::{FastestMove, Objective, Planner, Request, ShortestMove, Target};
 use stillbeam::stepper::{Elastica, Quality};
-use stillbeam::{Generator, HubState, Limits, Link, Profile, Scene};
+use stillbeam::{Angle, Generator, HubState, Limits, Link, Profile, Scene};
 
 /// Member A with 30 g at its tip.
 fn member_a() -> Scene {
@@ -204,4 +204,110 @@ fn other_requests_are_the_planners_own() {
     let free = Planner::<f32, 2>::new(&member_d(), 0.01).expect("planner");
     assert_eq!(free.fastest::<12>(&Request::from_rest(0.0, 1.0)), Ok(None), "no limit");
     assert_eq!(free.fastest::<12>(&request.duration(0.5)), Ok(None), "a duration");
+}
+
+/// A move that begins on its way is planned as ever: from rest only is there a fastest one.
+#[test]
+fn a_moving_start_is_the_planners_own() {
+    let planner = Planner::<f32, 2>::new(&member_d(), 0.01).expect("planner");
+    let from = HubState { acceleration: 20.0, ..HubState::turning(Angle::from_radians(0.3), 4.0) };
+    let limits = Limits { rate: Some(40.0), acceleration: Some(900.0), ..Limits::default() };
+    let request = Request::from_hub(from, Target::Angle(1.0)).limits(limits);
+    let own = planner.plan(&request).expect("a plan");
+    assert_eq!(planner.plan_fastest::<12>(&request), Ok(ShortestMove::Still(own)));
+    assert!(own.peaks.rate <= 40.0 && own.peaks.acceleration <= 900.0, "{own:?}");
+}
+
+/// Where the frequency is known to a fifth, a move within 9 π/T² leaves 3 % at most in less than
+/// two first periods. Less accuracy, a smaller range or more residual take less time.
+#[test]
+fn a_robust_move_is_as_short_as_its_range_allows() {
+    let arm = member_a();
+    let period = first_period(&arm);
+    let duration = |spread: f64, residual: f64| {
+        let planner = Planner::<f64, 2>::robust(&arm, period / 1000.0, spread).expect("planner");
+        let acceleration = Some(9.0 * PI / (4.0 * period * period));
+        let limits = Limits { acceleration, ..Limits::default() };
+        let request = Request::from_rest(0.0, PI).limits(limits).any_deflection();
+        let found = planner.fastest::<24>(&request.residual(residual)).expect("a request");
+        let found = found.expect("a fastest move");
+        assert!(found.peaks.acceleration <= limits.acceleration.unwrap(), "{found:?}");
+        found.duration() / period
+    };
+    let asked = duration(0.2, 0.03);
+    assert!(asked < 2.0, "{asked}");
+    assert!(duration(0.2, 0.1) < asked - 0.2 && duration(0.1, 0.03) < asked - 0.2);
+    // Without a residual that may be left, several arms are the other planner's.
+    let robust = Planner::<f32, 2>::robust(&arm, 0.01, 0.2).expect("planner");
+    let limits = acceleration_of(Profile::Cubic, 2.0 * period);
+    let request = Request::from_rest(0.0, PI).limits(limits);
+    assert_eq!(robust.fastest::<12>(&request), Ok(None));
+}
+
+/// A residual that may be left never makes a move longer, and is kept.
+#[test]
+fn a_residual_that_may_be_left_saves_time() {
+    for arm in [member_a(), member_d()] {
+        let period = first_period(&arm);
+        let planner = Planner::<f64, 2>::new(&arm, period / 1000.0).expect("planner");
+        let limits = all_of(Profile::SCurve, 2.0 * period);
+        let ticks = |residual: f64| {
+            let request = Request::from_rest(0.0, PI).limits(limits).any_deflection();
+            let found = planner.fastest::<24>(&request.residual(residual)).expect("a request");
+            let found = found.expect("a fastest move");
+            let most = residual.max(1e-3) * arm.link.length;
+            assert!(found.prediction.residual <= most, "{residual}: {found:?}");
+            found.ticks
+        };
+        let [none, little, much] = [0.0, 0.002, 0.02].map(ticks);
+        assert!(much < little && little <= none && much < none - 10, "{none} {little} {much}");
+    }
+    let planner = Planner::<f64, 2>::new(&member_a(), 0.01).expect("planner");
+    let request = Request::from_rest(0.0, PI).limits(acceleration_of(Profile::Cubic, 2.0));
+    let refused = planner.fastest::<24>(&request.residual(0.3)).expect_err("too much");
+    assert!(refused.to_string().contains("request.residual"), "{refused}");
+}
+
+/// In a given duration the peak of the acceleration is lower than that of a still move, with both
+/// modes at rest; the least effort takes less torque in the mean than the least peak.
+#[test]
+fn a_given_duration_is_used_for_the_least_peak_or_effort() {
+    for (arm, ratio, most) in [(member_d(), 1.0, 11.8), (member_a(), 2.0, 4.1)] {
+        let duration = ratio * first_period(&arm);
+        let planner = Planner::<f64, 2>::new(&arm, duration / 1000.0).expect("planner");
+        let request = Request::from_rest(0.0, PI).duration(duration).any_deflection();
+        let plan = |request: &Request<f64, 2>| -> FastestMove<24> {
+            planner.gentlest(request).expect("a request").expect("a move")
+        };
+        let gentle = plan(&request);
+        assert_eq!(gentle.ticks, 1000);
+        let acceleration = gentle.peaks.acceleration * duration * duration / PI;
+        assert!(acceleration < most, "{acceleration}");
+        let still = planner.plan(&request).expect("a plan");
+        assert!(gentle.peaks.acceleration < still.peaks.acceleration, "{still:?}");
+        let easy = plan(&request.objective(Objective::Effort));
+        for plan in [&gentle, &easy] {
+            assert!(plan.prediction.residual < 1e-3 * arm.link.length, "{plan:?}");
+        }
+        assert!(easy.prediction.torque < 0.96 * gentle.prediction.torque, "{easy:?}");
+        // Within limits.
+        let limits = Limits {
+            acceleration: Some(1.3 * gentle.peaks.acceleration),
+            rate: Some(1.02 * gentle.peaks.rate),
+            ..Limits::default()
+        };
+        let bound = plan(&request.objective(Objective::Effort).limits(limits));
+        assert!(bound.peaks.acceleration <= limits.acceleration.unwrap(), "{bound:?}");
+        assert!(bound.peaks.rate <= limits.rate.unwrap(), "{bound:?}");
+        let tight = Limits { acceleration: Some(0.9 * gentle.peaks.acceleration), ..limits };
+        assert_eq!(planner.gentlest::<24>(&request.limits(tight)), Ok(None));
+        // Another objective, no duration, or one too short are not its kind.
+        for other in [
+            request.objective(Objective::Jerk),
+            Request::from_rest(0.0, PI).limits(limits),
+            request.duration(0.8 * first_period(&arm)),
+        ] {
+            assert_eq!(planner.gentlest::<24>(&other), Ok(None));
+        }
+    }
 }

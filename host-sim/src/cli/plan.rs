@@ -10,7 +10,7 @@ use stillbeam_sim::console::open_arm;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::mechanism::limits::type_in;
 use stillbeam_sim::mechanism::{self, MechanismScene};
-use stillbeam_sim::plan::{Planned, Request, page, shortest};
+use stillbeam_sim::plan::{Options, Planned, Request, options, page, shortest};
 use stillbeam_sim::scene_file::angle_remark;
 use stillbeam_sim::{axis_units, println, progress};
 
@@ -54,6 +54,14 @@ pub struct PlanArgs {
     /// it
     #[arg(long, value_name = "FRACTION", allow_negative_numbers = true)]
     robust: Option<f64>,
+    /// Residual vibration that may be left, e.g. 0.2mm or 3% of the link's length: what a shortest
+    /// move gains by it; with --robust, the largest over the frequencies
+    #[arg(long, value_name = "REST")]
+    within: Option<String>,
+    /// Use of the given duration: least peak `acceleration`, or least `effort`, the integral of the
+    /// squared torque [default: a smooth still move]
+    #[arg(long, value_name = "WHAT")]
+    least: Option<String>,
     /// Folder for the page, its pictures and the run
     #[arg(long, value_name = "DIR", default_value = "plan")]
     out: PathBuf,
@@ -70,6 +78,8 @@ impl PlanArgs {
         if let Some(scene) = mechanism::scenes::open(&self.scene)? {
             super::mechanism::refuse("--robust", self.robust.is_some())?;
             super::mechanism::refuse("--max-moment", self.max_moment.is_some())?;
+            super::mechanism::refuse("--within", self.within.is_some())?;
+            super::mechanism::refuse("--least", self.least.is_some())?;
             super::mechanism::refuse("--json", self.json)?;
             super::mechanism::refuse("--open", self.open)?;
             let limits = self.limits_of_joints(&scene)?;
@@ -106,6 +116,15 @@ impl PlanArgs {
             }
             .validate()?,
             robust: self.robust,
+            options: Options {
+                residual: self
+                    .within
+                    .as_deref()
+                    .map(|text| options::residual(text, scene.arm.link.length))
+                    .transpose()?,
+                least: self.least.as_deref().map(options::least).transpose()?,
+            }
+            .validate(self.duration)?,
             tick: scene.solver.resolve()?.tick,
         };
         let bar = progress::bar("reference rod", stillbeam_sim::plan::request::ERRORS.len());
@@ -229,6 +248,9 @@ fn print(name: &str, request: &Request, planned: &Planned) {
     let Planned { plan, prediction, judgement, .. } = planned;
     let length = request.arm.link.length;
     let kind = match (request.robust, plan) {
+        (Some(spread), ShortestMove::Fastest(_)) => {
+            format!("piecewise-linear acceleration, robust to \u{b1}{} %", 100.0 * spread)
+        }
         (Some(spread), _) => format!("still, robust to \u{b1}{} %", 100.0 * spread),
         (None, ShortestMove::Fastest(_)) => "still, piecewise-linear acceleration".to_owned(),
         (None, ShortestMove::Still(_)) => "still".to_owned(),

@@ -9,6 +9,8 @@ use std::cell::OnceCell;
 use stillbeam::planner::{FastestMove, Planner, Prediction, Request, StillMove};
 use stillbeam::{Error as CoreError, Limits, Remedy};
 
+use super::Options;
+use super::judge::Motion as Judged;
 use super::shortest::{self, INTERVALS};
 use crate::error::Error;
 use crate::limits::{Case, Excess, Peak, Quantity, Refusal, Way, kinematic, load, remedy};
@@ -46,6 +48,8 @@ pub struct Asked<'a> {
     pub duration: Option<f64>,
     /// Fraction to which the arm's frequencies are known, for a robust move.
     pub robust: Option<f64>,
+    /// What it may leave and what it keeps least.
+    pub options: Options,
     /// Time after it, s.
     pub settle: f64,
     /// Number of moves in the scene.
@@ -85,21 +89,47 @@ impl Asked<'_> {
     /// the reference rod, and returns `2π/ω₁`, s, beside it. `None` for what is not its kind, or if
     /// it does not converge.
     pub fn plan_fastest(&self) -> Result<Option<(FastestMove<INTERVALS>, f64)>, Error> {
-        if self.duration.is_some() || self.robust.is_some() || !self.before.steps.is_empty() {
+        let options = self.options.validate(self.duration)?;
+        let plain = self.duration.is_none() && self.robust.is_none();
+        if !(plain || options.is_some()) || !self.before.steps.is_empty() {
             return Ok(None);
         }
+        let found = self.piecewise(&options)?;
+        if found.is_none() && options.is_some() {
+            return Err(options.unmet());
+        }
+        Ok(found)
+    }
+
+    fn piecewise(&self, options: &Options) -> Result<Option<(FastestMove<INTERVALS>, f64)>, Error> {
         let Case { arm, tick, .. } = self.before;
         let planner = Planner::<f32, 2>::new(arm, tick)?;
         let search = Search { asked: self, planner, state: OnceCell::new() };
         search.weight()?;
-        let precise = Planner::<f64, 2>::new(arm, tick)?;
+        let precise = match self.robust {
+            Some(spread) => Planner::<f64, 2>::robust(arm, tick, spread)?,
+            None => Planner::<f64, 2>::new(arm, tick)?,
+        };
         let mut limits = *self.limits;
+        let mut residual = options.residual.unwrap_or(0.0);
         for _ in 0..ROUNDS {
-            let request = Request::from_rest(self.from, self.to).limits(limits);
-            let Some(found) = precise.fastest(&request)? else { return Ok(None) };
+            let request = Request::from_rest(self.from, self.to).limits(limits).residual(residual);
+            let found = match (self.duration, options.least) {
+                (Some(duration), Some(least)) => {
+                    precise.gentlest(&request.duration(duration).objective(least))?
+                }
+                _ => precise.fastest(&request)?,
+            };
+            let Some(found) = found else { return Ok(None) };
             let over = search.over_along(shortest::path(&found), self.limits)?;
-            if over.is_empty() {
+            let left = self.left(&found, options)?;
+            let most = options.residual.unwrap_or(f64::INFINITY);
+            if over.is_empty() && left <= most {
                 return Ok(Some((found, search.planner.first_period())));
+            }
+            if left > most {
+                // The planner does not see the third mode.
+                residual = (residual * 0.99 * most / left).max(0.5 * residual);
             }
             for excess in over {
                 if let Some(limit) = excess.quantity.of_mut(&mut limits) {
@@ -108,6 +138,22 @@ impl Asked<'_> {
             }
         }
         Ok(None)
+    }
+}
+
+impl Asked<'_> {
+    /// Returns the largest residual in the reference rod, of L, over the frequencies to which the
+    /// arm is known; 0 if nobody asks.
+    fn left(&self, found: &FastestMove<INTERVALS>, options: &Options) -> Result<f64, Error> {
+        if options.residual.is_none() {
+            return Ok(0.0);
+        }
+        let motion = Judged::of(self.from, shortest::path(found), self.before.tick);
+        let spread = self.robust.unwrap_or(0.0);
+        let looks: &[f64] = if spread > 0.0 { &[-1.0, -0.5, 0.0, 0.5, 1.0] } else { &[0.0] };
+        looks.iter().try_fold(0.0, |most, look| {
+            Ok(f64::max(most, motion.judge(self.before.arm, look * spread)?.residual))
+        })
     }
 }
 

@@ -5,10 +5,12 @@ pub mod comparison;
 pub mod judge;
 pub mod kept;
 mod moving;
+pub mod options;
 pub mod page;
 pub mod picture;
 pub mod request;
 pub mod shortest;
 
 pub use judge::Judgement;
+pub use options::Options;
 pub use request::{Planned, Request};

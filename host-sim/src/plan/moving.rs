@@ -235,13 +235,15 @@ fn path(frame: &[[f64; 2]], view: &View) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Options;
     use crate::scenes;
     use stillbeam::Limits;
 
     fn request(to: f64) -> Request {
         let arm = scenes::open("b-tip30").expect("a scene").arm;
         let (limits, robust, tick) = (Limits::default(), None, 0.01);
-        Request { arm, from: 0.0, to, duration: Some(1.0), limits, robust, tick }
+        let options = Options::default();
+        Request { arm, from: 0.0, to, duration: Some(1.0), limits, robust, options, tick }
     }
 
     #[test]

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use stillbeam::planner::{Prediction, ShortestMove};
 use stillbeam::{Limits, Scene};
 
+use super::Options;
 use super::judge::{Judgement, Motion};
 use super::kept::{Asked, Kept};
 use super::shortest::{self, INTERVALS};
@@ -32,6 +33,8 @@ pub struct Request {
     pub limits: Limits,
     /// Fraction to which the arm's frequencies are known, for a robust move.
     pub robust: Option<f64>,
+    /// What the move may leave and what it keeps least.
+    pub options: Options,
     /// h, s.
     pub tick: f64,
 }
@@ -60,10 +63,11 @@ impl Request {
     }
 
     fn asked(&self) -> Asked<'_> {
-        let Self { arm, from, to, duration, limits, robust, tick } = self;
+        let Self { arm, from, to, duration, limits, robust, options, tick } = self;
         let before = Case { arm, from: *from, steps: &[], shaper: None, tick: *tick };
         let (from, to, duration, robust) = (*from, *to, *duration, *robust);
-        Asked { before, limits, from, to, duration, robust, settle: 0.0, count: 1 }
+        let (options, settle, count) = (*options, 0.0, 1);
+        Asked { before, limits, from, to, duration, robust, options, settle, count }
     }
 
     /// Returns the rod's peak loads along a motion.

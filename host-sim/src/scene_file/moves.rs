@@ -7,6 +7,7 @@ use super::Step;
 use super::waypoints::Rows;
 use crate::error::Error;
 use crate::limits::{self, Case};
+use crate::plan::Options;
 use crate::plan::kept::{Asked, GOAL};
 use crate::step::Motion;
 
@@ -140,7 +141,8 @@ impl MoveTable {
         *here = Here { angle: Some(to), rate: 0.0 };
         let Planning { before, limits, count } = *planning;
         let Self { duration, robust, settle, .. } = *self;
-        let asked = Asked { before, limits, from, to, duration, robust, settle, count };
+        let options = Options::default();
+        let asked = Asked { before, limits, from, to, duration, robust, options, settle, count };
         Ok(asked.plan()?.plan.motion().into())
     }
 

@@ -274,6 +274,7 @@ fn still(scene: &SceneFile) -> Result<SceneFile, Error> {
                     duration: Some(duration),
                     limits: Limits::default(),
                     robust: None,
+                    options: crate::plan::Options::default(),
                     tick,
                 };
                 step.motion = request.plan()?.plan.motion().into();

@@ -5,6 +5,8 @@ use super::program::{AIMS, Program};
 use super::response::{Mode, Response};
 use super::rigid::{Rigid, rigid};
 use super::rows::{Bounds, Rows};
+use super::search::BEYOND;
+use super::window::Windows;
 use crate::hub::HubState;
 use crate::math::Scalar;
 use crate::model::RodPoints;
@@ -39,8 +41,25 @@ pub(super) struct Case<'a, T, const K: usize> {
     pub cruise: Option<f64>,
     /// Duration of the rigid arm, s.
     pub rigid: f64,
+    /// L, m.
+    pub length: f64,
+    /// Residual that may be left; `None`: none.
+    pub windows: Option<Windows>,
+    /// What is to be least where the duration is given.
+    pub least: Option<Least>,
     /// Torque by an acceleration of 1 rad/s² on the arm at rest, `J − Σb²`, kg m².
     bare: T,
+    /// The same of the arm as a rigid body, J, kg m².
+    inertia: f64,
+}
+
+/// What a move of a given duration keeps least.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Least {
+    /// Peak of the acceleration.
+    Acceleration,
+    /// Integral of the squared torque.
+    Effort,
 }
 
 /// A trial of a search: what the program is made for.
@@ -61,7 +80,7 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
     pub fn new(
         arm: &'a Arm<T, K>,
         points: &'a RodPoints<T, K>,
-        angle: f64,
+        [angle, length]: [f64; 2],
         limits: &Limits,
     ) -> Option<Self> {
         let hub = HubState { acceleration: T::ONE, ..HubState::ZERO };
@@ -76,8 +95,35 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
         let ramp = ramp + 0.5 * period;
         // With little time between them, two ramps are better as one curve.
         let cruise = (0.5 * (duration + 0.25 * period) > ramp).then_some(ramp);
-        let limits = *limits;
-        Some(Self { arm, points, angle, limits, period, cruise, rigid: duration, bare })
+        let (limits, windows, least) = (*limits, None, None);
+        Some(Self {
+            arm,
+            points,
+            angle,
+            limits,
+            period,
+            cruise,
+            rigid: duration,
+            length,
+            windows,
+            least,
+            bare,
+            inertia,
+        })
+    }
+
+    /// The same move in `duration` s, with something kept least.
+    pub fn lasting(mut self, duration: f64, least: Least) -> Self {
+        (self.rigid, self.cruise, self.least) = (duration, None, Some(least));
+        if least == Least::Acceleration {
+            self.limits.acceleration = Some(self.natural(duration));
+        }
+        self
+    }
+
+    /// Acceleration of twice a rigid arm's least, rad/s², in a move of `duration` s.
+    fn natural(&self, duration: f64) -> f64 {
+        8.0 * self.angle / (duration * duration)
     }
 
     /// Number of modes that are brought to rest.
@@ -91,6 +137,11 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
         if self.cruise.is_some() { 2 } else { 1 }
     }
 
+    /// Amplitudes of the first mode that a search has to bring to rest; none that have windows.
+    pub fn sought(&self) -> usize {
+        if self.windows.is_some() { 0 } else { self.each() }
+    }
+
     /// Duration of an interval of a trial, s.
     pub fn interval<const N: usize>(&self, trial: &Trial<T, N>) -> f64 {
         let half = 0.5 * trial.duration;
@@ -101,7 +152,7 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
     pub fn unit<const N: usize>(&self, trial: &Trial<T, N>) -> f64 {
         let natural = match (self.cruise, self.limits.rate) {
             (Some(ramp), Some(rate)) => 2.0 * rate / ramp,
-            _ => 8.0 * self.angle / (trial.duration * trial.duration),
+            _ => self.natural(trial.duration),
         };
         self.limits.acceleration.unwrap_or(natural)
     }
@@ -126,9 +177,12 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
         let each = self.each();
         for (k, response) in responses.iter().flatten().enumerate() {
             let tip = self.arm.tip_per_mode(k) * T::from_f64(unit);
-            aims[each * k] = at_end(&response.hat[1], &response.half[1]).map(|a| tip * a);
+            if k == 0 && self.windows.is_some() {
+                continue;
+            }
+            aims[each * k] = response.deflections().map(|a| tip * a);
             if each == 2 {
-                aims[2 * k + 1] = at_end(&response.hat_rate, &response.half_rate).map(|v| tip * v);
+                aims[2 * k + 1] = response.rates().map(|v| tip * v);
             }
             for i in 0..each {
                 weights[each * k + i] = T::from_f64(WEIGHTS[k]);
@@ -144,6 +198,12 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
             smooth: self.limits.jerk.is_some(),
             rows: self.rows(trial, &responses),
             offsets: trial.offsets,
+            turn: T::from_f64(1.0 + BEYOND),
+            effort: if self.least == Some(Least::Effort) {
+                T::ONE / T::from_u32(N as u32)
+            } else {
+                T::ZERO
+            },
             gap: T::from_f64(gap),
         }
     }
@@ -164,13 +224,14 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
         responses: &[Option<Response<T, N>>; MODES],
     ) -> Rows<T, N> {
         let (interval, unit) = (self.interval(trial), self.unit(trial));
-        let limit =
-            |limit: Option<f64>, per: f64| limit.map(|x| T::from_f64(x * trial.scale / per));
+        let limit = |limit: Option<f64>, per: f64| limit.map(|x| T::from_f64(x / per));
+        let scale = self.scale(trial);
         let bounds = Bounds {
-            acceleration: limit(self.limits.acceleration, unit),
-            jerk: limit(self.limits.jerk, unit / interval),
-            rate: limit(self.limits.rate, unit * interval),
-            torque: limit(self.limits.torque, unit),
+            acceleration: limit(self.limits.acceleration, unit / trial.scale),
+            jerk: limit(self.limits.jerk, unit / (interval * scale)),
+            rate: limit(self.limits.rate, unit * interval / scale),
+            torque: limit(self.limits.torque, unit / scale),
+            effort: limit(self.effort_unit(trial), unit),
         };
         let (mut hat, mut half): (Nodes<T, N>, Nodes<T, N>) =
             ([[T::ZERO; N]; 2], [[T::ZERO; N]; 2]);
@@ -190,18 +251,29 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
                 }
             }
         }
-        Rows::new(&bounds, hat, half)
+        let rows = Rows::new(&bounds, hat, half);
+        match &self.windows {
+            Some(windows) => rows.within(&self.window_rows(windows, trial)),
+            None => rows,
+        }
     }
 
-    /// The torque's limit, N m, of a trial.
+    /// Factor of the limits but the acceleration's. In a given duration the others stay.
+    pub fn scale<const N: usize>(&self, trial: &Trial<T, N>) -> f64 {
+        if self.least.is_some() { 1.0 } else { trial.scale }
+    }
+
+    /// Torque in parts of which an effort is counted, N m.
+    fn effort_unit<const N: usize>(&self, trial: &Trial<T, N>) -> Option<f64> {
+        let counts = self.least == Some(Least::Effort);
+        counts.then(|| self.inertia * self.natural(trial.duration))
+    }
+
+    /// The unit of the torque's rows, N m: its limit, or that of the effort.
     pub fn torque<const N: usize>(&self, trial: &Trial<T, N>) -> Option<T> {
-        self.limits.torque.map(|torque| T::from_f64(torque * trial.scale))
+        let limit = self.limits.torque.map(|torque| torque * self.scale(trial));
+        limit.or_else(|| self.effort_unit(trial)).map(T::from_f64)
     }
-}
-
-/// Values at the end of the last interval by each knot, from those after the beginning of a hat.
-fn at_end<T: Scalar, const N: usize>(hat: &[T; N], half: &[T; N]) -> [T; N] {
-    core::array::from_fn(|k| if k == 0 { half[N - 1] } else { hat[N - k] })
 }
 
 impl<T: Scalar, const N: usize> Trial<T, N> {

@@ -9,7 +9,6 @@ use super::search::{Outcome, TURN};
 use crate::math::{Scalar, cast};
 use crate::motion::{Limits, Peaks};
 use crate::planner::Prediction;
-use crate::stepper::ArmState;
 
 /// Most searches with whole ticks.
 const MAX_SEARCHES: u32 = 10;
@@ -21,6 +20,9 @@ const MAX_REAL_SEARCHES: u32 = 3;
 /// Part by which a limit is tightened beyond what exceeds it. The knots shift by as much from one
 /// search to the next.
 const SPARE: f64 = 1e-4;
+
+/// Excess of the torque, of its limit, up to which no other search in real durations is made.
+const NEAR: f64 = 5e-3;
 
 /// Bound of the residual above which a plan is none, of L.
 const RINGS: f64 = 5e-3;
@@ -41,27 +43,42 @@ impl Finish {
         &self,
         case: Case<'_, T, K>,
         [from, to]: [f64; 2],
-        length: f64,
     ) -> Option<FastestMove<N>> {
         let mut search = Search::<T, K, N>::new(case);
         search.case.limits.torque =
             self.limits.torque.map(|torque| torque / (1.0 + Prediction::MARGIN));
         let power = case.power();
-        let mut duration = self.real_duration(&mut search, [from, to]);
+        let mut duration = match case.least {
+            None => self.real_duration(&mut search, to - from),
+            Some(_) => case.rigid,
+        };
         for _ in 0..MAX_SEARCHES {
-            let ticks = libm::ceil(duration / self.tick - 1e-6) as u32;
-            search.fix(f64::from(ticks) * self.tick);
+            if case.least.is_none() {
+                let ticks = libm::ceil(duration / self.tick - 1e-6) as u32;
+                search.fix(f64::from(ticks) * self.tick);
+            }
             let found = search.run();
             if !found.reach.is_finite() {
                 return None;
             }
             let Trial { duration: here, scale, .. } = found.trial;
-            let fastest = self.fastest_move(&search, &found, [from, to]);
-            let [rate, torque, others] = self.excess(&fastest);
-            if rate.max(torque).max(others) <= 1.0 && fastest.prediction.residual < RINGS * length {
-                return Some(fastest);
+            let ramp = scaled(&search, &found, to - from);
+            let peaks = peaks(&ramp);
+            let [mut rate, mut torque, others] = self.excess(&peaks, 0.0);
+            if rate.max(others) <= 1.0 {
+                let fastest = self.fastest_move(&search, &ramp, [from, to]);
+                [rate, torque, _] = self.excess(&peaks, fastest.prediction.torque);
+                let rests = rests(&mut search, &found, &fastest);
+                if torque <= 1.0 && rests {
+                    return Some(fastest);
+                }
             }
-            if scale > 1.0 + 1e-5 || others > 1.0 {
+            if case.least.is_some() {
+                if rate.max(torque) <= 1.0 || others > 1.0 {
+                    return None;
+                }
+                tighten(&mut search.case.limits, rate, torque);
+            } else if scale > 1.0 + 1e-5 || others > 1.0 {
                 // All limits bind: only more time helps.
                 let longer = libm::pow(scale.max(others), 1.0 / power);
                 duration = (here * longer).max(here + self.tick);
@@ -77,48 +94,50 @@ impl Finish {
     fn real_duration<T: Scalar, const K: usize, const N: usize>(
         &self,
         search: &mut Search<'_, T, K, N>,
-        ends: [f64; 2],
+        turn: f64,
     ) -> f64 {
         let mut found = search.run();
         for _ in 1..MAX_REAL_SEARCHES {
             if self.limits.torque.is_none() || !found.reach.is_finite() {
                 break;
             }
-            let [rate, torque, _] = self.excess(&self.fastest_move(search, &found, ends));
+            let peaks = peaks(&scaled(search, &found, turn));
+            let [rate, torque, _] = self.excess(&peaks, found.torque);
             if torque <= 1.0 + TURN {
                 break;
             }
             tighten(&mut search.case.limits, rate, torque);
+            if torque <= 1.0 + NEAR {
+                // The search with whole ticks does the rest.
+                return found.trial.duration * libm::sqrt(torque);
+            }
             found = search.run();
         }
         found.trial.duration
     }
 
-    /// Greatest rate and torque over their limits, and the greater of acceleration and jerk.
-    fn excess<const N: usize>(&self, fastest: &FastestMove<N>) -> [f64; 3] {
+    /// Greatest rate and torque over their limits, and the greater of acceleration and jerk; `most`
+    /// is the torque, N m.
+    fn excess(&self, peaks: &Peaks, most: f64) -> [f64; 3] {
         let Limits { rate, torque, acceleration, jerk, .. } = self.limits;
         let over = |limit: Option<f64>, peak: f64| limit.map_or(0.0, |limit| peak / limit);
         let margin = 1.0 + Prediction::MARGIN;
         [
-            over(rate, fastest.peaks.rate),
-            over(torque, margin * fastest.prediction.torque),
-            over(acceleration, fastest.peaks.acceleration).max(over(jerk, fastest.peaks.jerk)),
+            over(rate, peaks.rate),
+            over(torque, margin * most),
+            over(acceleration, peaks.acceleration).max(over(jerk, peaks.jerk)),
         ]
     }
 
-    /// The move of an outcome, scaled to the turn in the precision of set-up.
+    /// The move of a half, simulated in fine steps.
     fn fastest_move<T: Scalar, const K: usize, const N: usize>(
         &self,
         search: &Search<'_, T, K, N>,
-        found: &Outcome<T, N>,
+        half: &Half<f64, N>,
         [from, to]: [f64; 2],
     ) -> FastestMove<N> {
         let (arm, points) = (search.case.arm, search.case.points);
-        let duration = found.trial.duration;
-        let ramp = search.case.interval(&found.trial) * N as f64;
-        let unscaled = Half::<f64, N>::new(cast(&found.half.knots), ramp / N as f64);
-        let scale = (to - from) / unscaled.turn(duration);
-        let half = Half::new(unscaled.knots.map(|u| scale * u), unscaled.interval);
+        let duration = search.trial.duration;
         let flown = Half::<T, N>::new(cast(&half.knots), T::from_f64(half.interval));
         let (end, Loads { torque, moment, deflection }) = fly_finely(arm, points, &flown);
         FastestMove {
@@ -126,18 +145,46 @@ impl Finish {
             to,
             ticks: libm::round(duration / self.tick) as u32,
             tick: self.tick,
-            ramp,
+            ramp: half.interval * N as f64,
             knots: half.knots,
-            peaks: peaks(&half),
+            peaks: peaks(half),
             prediction: Prediction {
                 torque: torque.to_f64(),
                 moment: moment.to_f64(),
                 deflection: deflection.to_f64(),
-                residual: residual(&search.case, &end),
+                residual: search.case.residual(arm, &end),
             },
             simulations: search.simulations,
         }
     }
+}
+
+/// The half of an outcome, scaled to the turn (rad) in the precision of set-up.
+fn scaled<T: Scalar, const K: usize, const N: usize>(
+    search: &Search<'_, T, K, N>,
+    found: &Outcome<T, N>,
+    turn: f64,
+) -> Half<f64, N> {
+    let interval = search.case.interval(&found.trial);
+    let unscaled = Half::<f64, N>::new(cast(&found.half.knots), interval);
+    let scale = turn / unscaled.turn(found.trial.duration);
+    Half::new(unscaled.knots.map(|u| scale * u), interval)
+}
+
+/// True if the arm rests behind the move. Windows that the second mode takes too much of are made
+/// narrower for the next search.
+fn rests<T: Scalar, const K: usize, const N: usize>(
+    search: &mut Search<'_, T, K, N>,
+    found: &Outcome<T, N>,
+    fastest: &FastestMove<N>,
+) -> bool {
+    let stated = fastest.prediction.residual / search.case.length;
+    let Some(windows) = &mut search.case.windows else { return stated < RINGS };
+    let left = stated.max(found.residual);
+    if left > windows.residual {
+        windows.width *= 0.99 * windows.residual / left;
+    }
+    left <= windows.residual
 }
 
 /// Tightens the limits of rate and torque that are exceeded.
@@ -147,14 +194,6 @@ fn tighten(limits: &mut Limits, rate: f64, torque: f64) {
     };
     limits.rate = limits.rate.map(|limit| tighter(limit, rate));
     limits.torque = limits.torque.map(|limit| tighter(limit, torque));
-}
-
-/// Bound of what the move leaves, m: the second half can double what the first one does. Without a
-/// cruise the rates in the middle are the mirrored half's own.
-fn residual<T: Scalar, const K: usize>(case: &Case<'_, T, K>, end: &ArmState<T, K>) -> f64 {
-    let rate = if case.cruise.is_some() { end.rate } else { [T::ZERO; K] };
-    let end = ArmState { rate, ..*end };
-    2.0 * case.arm.ringing(case.points, &end, &ArmState::STRAIGHT)
 }
 
 /// Greatest magnitudes of the hub's motion along a half.

@@ -11,16 +11,20 @@ use crate::planner::prediction::Peak;
 use crate::planner::simulate::Arm;
 use crate::stepper::ArmState;
 
-/// Angles that the highest and the first mode may turn by in a step of a search, rad, and in the
-/// last simulation.
-pub(super) const COARSE: [f64; 2] = [1.0, 0.2];
-pub(super) const FINE: [f64; 2] = [0.5, 0.1];
+/// Angles that the highest and the first mode may turn by in a step of a search, rad: in a long
+/// move, and in any other.
+const LONG: [f64; 2] = [2.0, 0.4];
+const COARSE: [f64; 2] = [1.0, 0.2];
+/// The same in the last simulation.
+const FINE: [f64; 2] = [0.5, 0.1];
 
 /// The arm where the half ends.
 pub(super) struct Landing<T, const K: usize, const N: usize> {
     pub arm: ArmState<T, K>,
     /// Torque of largest magnitude within half a node, N m.
     pub torque: Nodes<T, N>,
+    /// Greatest magnitude of the torque, between the steps too, N m.
+    pub most: T,
 }
 
 /// Greatest magnitudes over the half.
@@ -80,23 +84,34 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Flight<'a, T, K, N> {
     }
 }
 
-/// Simulates from rest to the end of the half; with the torque at the nodes if `loaded`.
+/// How a simulation of a search looks at the arm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    /// True if the move is long enough for long steps.
+    pub long: bool,
+    /// True if the torque at the nodes is asked for.
+    pub loaded: bool,
+}
+
+/// Simulates from rest to the end of the half.
 pub(super) fn fly<T: Scalar, const K: usize, const N: usize>(
     arm: &Arm<T, K>,
     points: &RodPoints<T, K>,
     half: &Half<T, N>,
-    loaded: bool,
+    view: View,
 ) -> Landing<T, K, N> {
-    let flight = Flight::new(arm, points, half, COARSE);
+    let flight = Flight::new(arm, points, half, if view.long { LONG } else { COARSE });
     let parts = flight.parts;
     let mut torque = [[T::ZERO; N]; 2];
+    let mut most = Peak::new(T::ZERO);
     let mut done = 0;
     let end = flight.fly(|flex, hub| {
         done += 1;
-        if !loaded {
+        if !view.loaded {
             return;
         }
         let here = flight.load(flex, hub).torque;
+        most.see(here);
         // Nearest node, counted from 1: two an interval.
         let node = ((4 * done + parts) / (2 * parts)).clamp(1, 2 * N as u32) as usize - 1;
         let greatest = &mut torque[node % 2][node / 2];
@@ -104,7 +119,7 @@ pub(super) fn fly<T: Scalar, const K: usize, const N: usize>(
             *greatest = here;
         }
     });
-    Landing { arm: end, torque }
+    Landing { arm: end, torque, most: most.most }
 }
 
 /// Simulates in fine steps and returns the greatest loads.

@@ -3,12 +3,14 @@
 use super::grid::Grid;
 use crate::math::Scalar;
 
-/// Slacks or multipliers of the upper and of the lower limit of each row.
+/// Numbers of the upper and of the lower limit of each row.
 pub(super) type Pair<T, const N: usize> = [Grid<T, N>; 2];
 
 /// An interior point.
 pub(super) struct Point<T, const N: usize> {
     pub knots: [T; N],
+    /// `Ry + o`.
+    pub values: Grid<T, N>,
     pub slack: Pair<T, N>,
     pub multiplier: Pair<T, N>,
 }
@@ -19,35 +21,43 @@ pub(super) struct Step<T, const N: usize> {
     pub along: Grid<T, N>,
 }
 
+/// Goal of a step: `z s = centred − product` on each side of each row, the products being those of
+/// the predictor's changes.
+pub(super) struct Goal<T, const N: usize> {
+    pub centred: T,
+    pub products: Pair<T, N>,
+}
+
+/// Longest steps to the boundary, and what `s z` sums up to behind a step.
+pub(super) struct Ahead<T> {
+    /// Lengths of the step, of slacks and of multipliers, that leave all of them positive.
+    pub longest: [T; 2],
+    /// Sum of `s z` here, of its slopes by either length, and of the products of the changes.
+    pub sums: [T; 4],
+}
+
+impl<T: Scalar> Ahead<T> {
+    /// Sum of `s z` behind a step of the longest lengths.
+    pub fn complementarity(&self) -> T {
+        let ([primal, dual], [here, slack, multiplier, both]) = (self.longest, self.sums);
+        here + primal * slack + dual * (multiplier + primal * both)
+    }
+}
+
 /// The upper side and the lower, with their signs.
 pub(super) fn signs<T: Scalar>() -> [(usize, T); 2] {
     [(0, T::ONE), (1, -T::ONE)]
 }
 
-/// Product of the changes that the predictor makes to slack and multiplier; zero for itself.
-pub(super) fn product<T: Scalar, const N: usize>(
-    point: &Point<T, N>,
-    values: &Grid<T, N>,
-    affine: Option<&Step<T, N>>,
-    at: [usize; 3],
-) -> T {
-    affine.map_or(T::ZERO, |affine| {
-        let [s, z] = changes(point, values, affine, at, T::ZERO, T::ZERO);
-        s * z
-    })
-}
-
-/// Changes of the slack and of the multiplier of one side of a row that belong to a step.
-pub(super) fn changes<T: Scalar, const N: usize>(
-    point: &Point<T, N>,
-    values: &Grid<T, N>,
-    step: &Step<T, N>,
-    [side, kind, i]: [usize; 3],
-    centred: T,
-    product: T,
-) -> [T; 2] {
-    let sign = if side == 0 { T::ONE } else { -T::ONE };
-    let (s, z) = (point.slack[side][kind][i], point.multiplier[side][kind][i]);
-    let slack = T::ONE - sign * values[kind][i] - s - sign * step.along[kind][i];
-    [slack, (centred - product - z * slack) / s - z]
+impl<T: Scalar, const N: usize> Point<T, N> {
+    /// Changes of the slack and of the multiplier of one side of a row that belong to a step.
+    #[inline(always)]
+    pub fn changes(&self, step: &Step<T, N>, goal: &Goal<T, N>, at: [usize; 3]) -> [T; 2] {
+        let [side, kind, i] = at;
+        let sum = self.values[kind][i] + step.along[kind][i];
+        let (s, z) = (self.slack[side][kind][i], self.multiplier[side][kind][i]);
+        let slack = T::ONE - s - if side == 0 { sum } else { -sum };
+        let left = goal.centred - goal.products[side][kind][i];
+        [slack, (left - z * slack) / s - z]
+    }
 }

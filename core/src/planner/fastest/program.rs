@@ -1,12 +1,18 @@
 //! The farthest turn of a given duration within the limits: a quadratic program in the knots.
 
-use super::grid::{Grid, KINDS, zero};
-use super::point::{Point, Step, changes, product, signs};
+use super::grid::{Grid, KINDS, TORQUE, zero};
+use super::point::{Ahead, Goal, Point, Step, signs};
 use super::rows::Rows;
 use crate::math::{Band, Ldl, Scalar, dot};
 
 /// Most amplitudes that the knots are to leave: both of two modes.
 pub(super) const AIMS: usize = 4;
+
+/// Most conditions that must hold: those, and the turn where it is not what is to be greatest.
+const CONDITIONS: usize = AIMS + 1;
+
+/// Weight of the turn's condition.
+const TURN_WEIGHT: f64 = 1e5;
 
 /// Most rounds; five to nine are usual.
 const MAX_ROUNDS: u32 = 20;
@@ -18,6 +24,8 @@ const WITHIN: f64 = 0.97;
 const LEAST_SLACK: f64 = 0.1;
 
 /// The program: knots `y` that maximise `g·y − ½Σκᵢ(Eᵢy − eᵢ)² − ½ρΣ(Δy)²` with `|Ry + o| ≤ 1`.
+///
+/// With an effort it is the turn that is asked for, and `½ηΣτ²` that is least.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Program<T, const N: usize> {
     /// g: turn by each knot, in parts of the turn asked for.
@@ -37,6 +45,10 @@ pub(super) struct Program<T, const N: usize> {
     pub rows: Rows<T, N>,
     /// o.
     pub offsets: Grid<T, N>,
+    /// Turn that is asked for with an effort, in parts of the turn asked for.
+    pub turn: T,
+    /// η, the weight of the squared torque at the nodes; zero where the turn is to be greatest.
+    pub effort: T,
     /// Gap to the optimum with which the rounds end, in parts of the turn.
     pub gap: T,
 }
@@ -52,8 +64,8 @@ pub(super) struct Farthest<T, const N: usize> {
 struct Factors<T, const N: usize> {
     normal: Ldl<T, N, N>,
     /// `H⁻¹Eᵀ`.
-    across: [[T; N]; AIMS],
-    gram: Ldl<T, AIMS, AIMS>,
+    across: [[T; N]; CONDITIONS],
+    gram: Ldl<T, CONDITIONS, CONDITIONS>,
 }
 
 impl<T: Scalar, const N: usize> Program<T, N> {
@@ -62,25 +74,25 @@ impl<T: Scalar, const N: usize> Program<T, N> {
         let mut point = self.start();
         let mut infeasible = T::ONE;
         for _ in 0..MAX_ROUNDS {
-            let values = self.values(&point.knots);
-            let mu = self.complementarity(&point, None);
+            let sum = self.complementarity(&point);
             let reach = dot(&self.gain, &point.knots);
-            let gap = mu * T::from_u32(2 * self.limited());
-            if gap < self.gap * reach && infeasible < T::from_f64(1e-3) {
+            if sum < self.gap * reach && infeasible < T::from_f64(1e-3) {
                 break;
             }
             let factors = self.factors(&point);
-            let affine = self.step(&point, &values, &factors, T::ZERO, None);
-            let ahead = self.longest(&point, &values, &affine, T::ZERO, None);
-            let ratio = self.complementarity(&point, Some((&values, &affine, ahead))) / mu;
-            let centred = ratio * ratio * ratio * mu;
-            let step = self.step(&point, &values, &factors, centred, Some(&affine));
-            let [primal, dual] = self.longest(&point, &values, &step, centred, Some(&affine));
+            let mut goal = Goal { centred: T::ZERO, products: [zero(), zero()] };
+            let affine = self.step(&point, &factors, &goal);
+            let ahead = self.ahead(&point, &affine, &goal);
+            let ratio = if sum > T::ZERO { ahead.complementarity() / sum } else { T::ZERO };
+            self.set_products(&point, &affine, &mut goal);
+            goal.centred = ratio * ratio * ratio * sum / T::from_u32(2 * self.limited().max(1));
+            let step = self.step(&point, &factors, &goal);
+            let [primal, dual] = self.ahead(&point, &step, &goal).longest;
             // A matrix that rounding has made singular: the point before is good enough.
             if !dot(&self.gain, &step.knots).is_finite() || !primal.is_finite() {
                 break;
             }
-            self.advance(&mut point, &values, &step, centred, Some(&affine), [primal, dual]);
+            self.advance(&mut point, &step, &goal, [primal, dual]);
             infeasible = infeasible * (T::ONE - primal);
         }
         if self.smooth {
@@ -91,14 +103,18 @@ impl<T: Scalar, const N: usize> Program<T, N> {
 
     /// Number of limited rows.
     fn limited(&self) -> u32 {
-        (0..KINDS).filter(|&kind| self.rows.is_limited(kind)).count() as u32 * N as u32
+        self.limited_kinds().count() as u32 * N as u32
     }
 
     fn start(&self) -> Point<T, N> {
-        let mut point =
-            Point { knots: [T::ZERO; N], slack: [zero(), zero()], multiplier: [zero(), zero()] };
+        let mut point = Point {
+            knots: [T::ZERO; N],
+            values: self.offsets,
+            slack: [zero(), zero()],
+            multiplier: [zero(), zero()],
+        };
         let least = T::from_f64(LEAST_SLACK);
-        for kind in 0..KINDS {
+        for kind in self.limited_kinds() {
             for i in 0..N {
                 for (side, sign) in signs::<T>() {
                     let slack = T::ONE - sign * self.offsets[kind][i];
@@ -122,15 +138,34 @@ impl<T: Scalar, const N: usize> Program<T, N> {
         values
     }
 
+    fn limited_kinds(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..KINDS).filter(|&kind| self.rows.is_limited(kind))
+    }
+
+    /// A condition: its row, its target, its weight.
+    fn condition(&self, i: usize) -> Option<(&[T; N], T, T)> {
+        if i < self.count {
+            return Some((&self.aims[i], self.targets[i], self.weights[i]));
+        }
+        let turns = i == AIMS && self.effort != T::ZERO;
+        turns.then_some((&self.gain, self.turn, T::from_f64(TURN_WEIGHT)))
+    }
+
     /// `H = Rᵀ(z₊/s₊ + z₋/s₋)R + ρDᵀD`, and the Schur complement of the aims.
     #[inline(never)]
     fn factors(&self, point: &Point<T, N>) -> Factors<T, N> {
         let mut weights = zero();
-        for kind in 0..KINDS {
+        for kind in self.limited_kinds() {
             for i in 0..N {
-                for side in 0..2 {
-                    weights[kind][i] +=
-                        point.multiplier[side][kind][i] / point.slack[side][kind][i];
+                let [above, below] =
+                    [0, 1].map(|side| point.multiplier[side][kind][i] / point.slack[side][kind][i]);
+                weights[kind][i] = above + below;
+            }
+        }
+        if self.effort != T::ZERO {
+            for side in 0..2 {
+                for i in 0..N {
+                    weights[TORQUE + side][i] += self.effort;
                 }
             }
         }
@@ -148,57 +183,61 @@ impl<T: Scalar, const N: usize> Program<T, N> {
             normal.add(0, 0, T::from_f64(1e12));
         }
         let normal = normal.factored();
-        let mut across = [[T::ZERO; N]; AIMS];
-        let mut gram = Band::<T, AIMS, AIMS>::ZERO;
-        for i in 0..AIMS {
-            if i >= self.count {
+        let mut across = [[T::ZERO; N]; CONDITIONS];
+        let mut gram = Band::<T, CONDITIONS, CONDITIONS>::ZERO;
+        for i in 0..CONDITIONS {
+            let Some((row, _, weight)) = self.condition(i) else {
                 gram.add(i, i, T::ONE);
                 continue;
-            }
-            across[i] = normal.solve(&self.aims[i]);
+            };
+            across[i] = normal.solve(row);
             for j in 0..=i {
-                gram.add(i, j, dot(&self.aims[j], &across[i]));
+                if let Some((other, ..)) = self.condition(j) {
+                    gram.add(i, j, dot(other, &across[i]));
+                }
             }
-            gram.add(i, i, T::ONE / self.weights[i]);
+            gram.add(i, i, T::ONE / weight);
         }
         Factors { normal, across, gram: gram.factored() }
     }
 
-    /// The change of the knots by Newton's method on the conditions of optimality, `z s = centred`
-    /// less the product of the predictor's changes.
+    /// The change of the knots by Newton's method on the conditions of optimality.
     #[inline(never)]
-    fn step(
-        &self,
-        point: &Point<T, N>,
-        values: &Grid<T, N>,
-        factors: &Factors<T, N>,
-        centred: T,
-        affine: Option<&Step<T, N>>,
-    ) -> Step<T, N> {
+    fn step(&self, point: &Point<T, N>, factors: &Factors<T, N>, goal: &Goal<T, N>) -> Step<T, N> {
         let mut pull = zero();
-        for kind in 0..KINDS {
+        for kind in self.limited_kinds() {
             for i in 0..N {
-                for (side, sign) in signs::<T>() {
-                    let slack = point.slack[side][kind][i];
-                    let weight = point.multiplier[side][kind][i] / slack;
-                    let excess = sign * values[kind][i] + slack - T::ONE;
-                    let product = product(point, values, affine, [side, kind, i]);
-                    pull[kind][i] += sign * ((centred - product) / slack + weight * excess);
+                let value = point.values[kind][i];
+                let [above, below] = [(0, value), (1, -value)].map(|(side, value)| {
+                    let s = point.slack[side][kind][i];
+                    let z = point.multiplier[side][kind][i];
+                    let left = goal.centred - goal.products[side][kind][i];
+                    (left + z * (value + s - T::ONE)) / s
+                });
+                pull[kind][i] = above - below;
+            }
+        }
+        if self.effort != T::ZERO {
+            for side in 0..2 {
+                for i in 0..N {
+                    pull[TORQUE + side][i] += self.effort * point.values[TORQUE + side][i];
                 }
             }
         }
         let pulled = self.rows.transposed(&pull);
         let rough = self.rough(&point.knots);
-        let right = core::array::from_fn(|k| self.gain[k] - rough[k] - pulled[k]);
+        let gain = if self.effort == T::ZERO { T::ONE } else { T::ZERO };
+        let right = core::array::from_fn(|k| gain * self.gain[k] - rough[k] - pulled[k]);
         let free = factors.normal.solve(&right);
-        let mut miss = [T::ZERO; AIMS];
-        for i in 0..self.count {
-            let here = dot(&self.aims[i], &point.knots);
-            miss[i] = dot(&self.aims[i], &free) - (self.targets[i] - here);
+        let mut miss = [T::ZERO; CONDITIONS];
+        for i in 0..CONDITIONS {
+            if let Some((row, target, _)) = self.condition(i) {
+                miss[i] = dot(row, &free) - (target - dot(row, &point.knots));
+            }
         }
         let force = factors.gram.solve(&miss);
         let mut knots = free;
-        for i in 0..self.count {
+        for i in 0..CONDITIONS {
             for k in 0..N {
                 knots[k] -= force[i] * factors.across[i][k];
             }
@@ -216,75 +255,77 @@ impl<T: Scalar, const N: usize> Program<T, N> {
         })
     }
 
-    /// Lengths of the step, of slacks and of multipliers, that leave all of them positive.
-    fn longest(
-        &self,
-        point: &Point<T, N>,
-        values: &Grid<T, N>,
-        step: &Step<T, N>,
-        centred: T,
-        affine: Option<&Step<T, N>>,
-    ) -> [T; 2] {
+    /// Looks along a step to the boundary.
+    #[inline(never)]
+    fn ahead(&self, point: &Point<T, N>, step: &Step<T, N>, goal: &Goal<T, N>) -> Ahead<T> {
         let within = T::from_f64(WITHIN);
         let mut most = [T::ONE / within; 2];
+        let mut sums = [T::ZERO; 4];
         self.each(|at| {
             let [side, kind, i] = at;
-            let product = product(point, values, affine, at);
-            let change = changes(point, values, step, at, centred, product);
-            let here = [point.slack[side][kind][i], point.multiplier[side][kind][i]];
-            for n in 0..2 {
-                if here[n] + most[n] * change[n] < T::ZERO {
-                    most[n] = -(here[n] / change[n]);
-                }
+            let [ds, dz] = point.changes(step, goal, at);
+            let (s, z) = (point.slack[side][kind][i], point.multiplier[side][kind][i]);
+            if s + most[0] * ds < T::ZERO {
+                most[0] = -(s / ds);
             }
+            if z + most[1] * dz < T::ZERO {
+                most[1] = -(z / dz);
+            }
+            sums[0] += s * z;
+            sums[1] += z * ds;
+            sums[2] += s * dz;
+            sums[3] += ds * dz;
         });
-        most.map(|most| within * most)
+        Ahead { longest: most.map(|most| within * most), sums }
     }
 
-    /// Mean of `s z` over the limits, here or a step ahead.
-    fn complementarity(
-        &self,
-        point: &Point<T, N>,
-        ahead: Option<(&Grid<T, N>, &Step<T, N>, [T; 2])>,
-    ) -> T {
+    /// Sets the products of the changes that belong to the predictor's step.
+    #[inline(never)]
+    fn set_products(&self, point: &Point<T, N>, affine: &Step<T, N>, goal: &mut Goal<T, N>) {
+        self.each(|at| {
+            let [side, kind, i] = at;
+            let [ds, dz] = point.changes(affine, goal, at);
+            goal.products[side][kind][i] = ds * dz;
+        });
+    }
+
+    /// Sum of `s z` over the limits.
+    fn complementarity(&self, point: &Point<T, N>) -> T {
         let mut sum = T::ZERO;
-        self.each(|at| {
-            let [side, kind, i] = at;
-            let mut s = point.slack[side][kind][i];
-            let mut z = point.multiplier[side][kind][i];
-            if let Some((values, step, [primal, dual])) = ahead {
-                let [ds, dz] = changes(point, values, step, at, T::ZERO, T::ZERO);
-                (s, z) = (s + primal * ds, z + dual * dz);
-            }
-            sum += s * z;
+        self.each(|[side, kind, i]| {
+            sum += point.slack[side][kind][i] * point.multiplier[side][kind][i];
         });
-        sum / T::from_u32(2 * self.limited())
+        sum
     }
 
+    #[inline(never)]
     fn advance(
         &self,
         point: &mut Point<T, N>,
-        values: &Grid<T, N>,
         step: &Step<T, N>,
-        centred: T,
-        affine: Option<&Step<T, N>>,
+        goal: &Goal<T, N>,
         [primal, dual]: [T; 2],
     ) {
         self.each(|at| {
             let [side, kind, i] = at;
-            let product = product(point, values, affine, at);
-            let [s, z] = changes(point, values, step, at, centred, product);
+            let [s, z] = point.changes(step, goal, at);
             point.slack[side][kind][i] += primal * s;
             point.multiplier[side][kind][i] += dual * z;
         });
         for k in 0..N {
             point.knots[k] += primal * step.knots[k];
         }
+        for kind in (0..KINDS).filter(|&kind| self.rows.is_used(kind)) {
+            for i in 0..N {
+                point.values[kind][i] += primal * step.along[kind][i];
+            }
+        }
     }
 
     /// Calls for both sides of every limited row.
+    #[inline(always)]
     fn each(&self, mut call: impl FnMut([usize; 3])) {
-        for kind in (0..KINDS).filter(|&kind| self.rows.is_limited(kind)) {
+        for kind in self.limited_kinds() {
             for i in 0..N {
                 for side in 0..2 {
                     call([side, kind, i]);
@@ -301,7 +342,8 @@ mod tests {
     use crate::planner::fastest::rows::{Bounds, Rows};
 
     fn program(aim: [f64; 4], count: usize, rate: Option<f64>) -> Program<f64, 4> {
-        let bounds = Bounds { acceleration: Some(1.0), jerk: None, rate, torque: None };
+        let acceleration = Some(1.0);
+        let bounds = Bounds { acceleration, jerk: None, rate, torque: None, effort: None };
         let mut aims = [[0.0; 4]; AIMS];
         aims[0] = aim;
         Program {
@@ -314,6 +356,8 @@ mod tests {
             smooth: false,
             rows: Rows::new(&bounds, [[0.0; 4]; 2], [[0.0; 4]; 2]),
             offsets: zero(),
+            turn: 1.0,
+            effort: 0.0,
             gap: 1e-10,
         }
     }
@@ -342,5 +386,26 @@ mod tests {
         let values = program.values(&found.knots);
         let most = values[RATE..RATE + 2].iter().flatten().copied().fold(0.0, f64::max);
         assert!((most - 1.0).abs() < 1e-6, "{most} {found:?}");
+    }
+
+    /// Torques as the knots themselves: of all knots with `g·y = 1` the least sum of squares is
+    /// proportional to g.
+    #[test]
+    fn the_least_effort_is_along_the_gain() {
+        let mut program = program([0.0; 4], 0, None);
+        let none = None;
+        let effort = Some(1.0);
+        let bounds = Bounds { acceleration: none, jerk: none, rate: none, torque: none, effort };
+        // Middle of an interval: nothing. Its end: the knot that begins there.
+        let unit = [[0.0; 4], [1.0, 0.0, 0.0, 0.0]];
+        program.rows = Rows::new(&bounds, unit, [[0.0; 4]; 2]);
+        program.effort = 1.0;
+        program.gain = [0.0, 3.0, 2.0, 1.0];
+        program.smooth = true;
+        let found = program.solve();
+        assert!((found.reach - 1.0).abs() < 1e-4, "{found:?}");
+        for (knot, gain) in found.knots.iter().zip(program.gain) {
+            assert!((knot - gain / 14.0).abs() < 1e-4, "{found:?}");
+        }
     }
 }

@@ -37,6 +37,21 @@ impl<T: Scalar, const N: usize> Response<T, N> {
         let (half, half_rate) = respond(mode, interval, half);
         Self { hat, half, hat_rate, half_rate }
     }
+
+    /// a at the end of the last interval by each knot.
+    pub fn deflections(&self) -> [T; N] {
+        at_end(&self.hat[1], &self.half[1])
+    }
+
+    /// `ȧ/ω` at the end of the last interval by each knot.
+    pub fn rates(&self) -> [T; N] {
+        at_end(&self.hat_rate, &self.half_rate)
+    }
+}
+
+/// Values at the end of the last interval by each knot, from those after the beginning of a hat.
+fn at_end<T: Scalar, const N: usize>(hat: &[T; N], half: &[T; N]) -> [T; N] {
+    core::array::from_fn(|k| if k == 0 { half[N - 1] } else { hat[N - k] })
 }
 
 /// Advances a mode from rest over `N` intervals of a piecewise-linear acceleration: a at the nodes,

@@ -1,17 +1,18 @@
 //! The search for the duration and the targets with which the exact arm arrives at rest.
 
-use super::case::{Case, Trial};
-use super::flight::fly;
+use super::case::{Case, Least, Trial};
+use super::flight::{View, fly};
 use super::grid::{RATE, zero};
 use super::half::Half;
 use super::program::AIMS;
 use crate::math::{Scalar, sqrt};
+use crate::planner::LONG;
 use crate::planner::linear::MAX_AMPLITUDES;
 use crate::planner::solve;
 use crate::stepper::ArmState;
 
 /// Shortest move, first periods.
-const SHORTEST: f64 = 0.9;
+pub(super) const SHORTEST: f64 = 0.9;
 
 /// Most rounds of a search for the duration, and of one for the scale of the limits.
 const MAX_ROUNDS: u32 = 10;
@@ -22,10 +23,12 @@ pub(super) const TURN: f64 = 5e-4;
 const FIRST: f64 = 3e-5;
 const TORQUE: f64 = 4e-3;
 const SECOND: f64 = 1.5e-4;
+/// Tolerance of the amplitudes in their windows, of these.
+const WIDER: f64 = 0.01;
 
 /// Part of the turn by which a program is to reach beyond it. Scaled back to the turn, the knots
 /// are then within the limits.
-const BEYOND: f64 = 2e-4;
+pub(super) const BEYOND: f64 = 2e-4;
 
 /// Longest changes in a round: of the logarithm of duration or scale, and of a target, of L.
 const STEP: f64 = 0.2;
@@ -36,8 +39,10 @@ const TARGET_STEP: f64 = 0.15;
 pub(super) enum Free {
     /// Duration of the move.
     Duration,
-    /// Factor of every limit, the duration being whole ticks.
+    /// Factor of every limit, the duration being whole ticks, or of the acceleration's alone.
     Scale,
+    /// Nothing: the program asks for the turn.
+    Nothing,
 }
 
 /// A trial carried out.
@@ -53,6 +58,12 @@ pub(super) struct Outcome<T, const N: usize> {
     pub miss: [T; AIMS],
     /// Greatest part of the torque's limit by which that is exceeded.
     pub excess: f64,
+    /// Largest amplitude in its window, of that, less 1; −1 without windows.
+    pub wider: f64,
+    /// Bound of the residual of all arms with a window, of L.
+    pub residual: f64,
+    /// Greatest torque, N m; 0 without a limit of it.
+    pub torque: f64,
 }
 
 /// A search under way.
@@ -70,8 +81,9 @@ pub(super) struct Search<'a, T, const K: usize, const N: usize> {
 impl<'a, T: Scalar, const K: usize, const N: usize> Search<'a, T, K, N> {
     /// Begins from the rigid arm's duration, corrected by two programs without a simulation.
     pub fn new(case: Case<'a, T, K>) -> Self {
+        let longer = if case.least.is_some() { 0.0 } else { 0.25 * case.period };
         let trial = Trial {
-            duration: (case.rigid + 0.25 * case.period).max(SHORTEST * case.period),
+            duration: (case.rigid + longer).max(SHORTEST * case.period),
             scale: 1.0,
             targets: [T::ZERO; AIMS],
             offsets: zero(),
@@ -82,9 +94,24 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Search<'a, T, K, N> {
             row[i] = T::ONE;
         }
         inverse[0][0] = T::from_f64(1.0 / case.power());
-        let mut search = Self { case, trial, inverse, free: Free::Duration, gap, simulations: 0 };
+        let free = match case.least {
+            None => Free::Duration,
+            Some(Least::Acceleration) => Free::Scale,
+            Some(Least::Effort) => Free::Nothing,
+        };
+        if free == Free::Scale {
+            inverse[0][0] = T::ONE;
+        }
+        let mut search = Self { case, trial, inverse, free, gap, simulations: 0 };
         for _ in 0..2 {
+            if free == Free::Nothing {
+                break;
+            }
             let reach = case.program(&search.trial, gap).solve().reach.to_f64();
+            if free == Free::Scale {
+                search.trial.scale /= reach.clamp(0.2, 5.0);
+                continue;
+            }
             let longer = (-libm::log(reach.max(1e-3)) / case.power()).clamp(-0.5, 0.5);
             search.lengthen(longer);
         }
@@ -112,7 +139,7 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Search<'a, T, K, N> {
 
     /// Searches until all is close enough, and returns the best that was found.
     pub fn run(&mut self) -> Outcome<T, N> {
-        let each = self.case.each();
+        let each = self.case.sought();
         let mut best = self.attempt();
         let mut last = best;
         let mut second = f64::INFINITY;
@@ -142,12 +169,17 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Search<'a, T, K, N> {
     /// Distance from what is close enough, 1 where it is reached; the second mode left out.
     pub fn distance(&self, outcome: &Outcome<T, N>) -> f64 {
         let turn = (libm::log(outcome.reach) - BEYOND).abs();
-        let turn = if self.free == Free::Scale { turn / (0.75 * BEYOND) } else { turn / TURN };
+        let turn = if self.free == Free::Duration { turn / TURN } else { turn / (0.75 * BEYOND) };
         let clamped = self.free == Free::Duration
             && outcome.trial.duration <= SHORTEST * self.case.period
             && outcome.reach > 1.0;
         let turn = if clamped { 0.0 } else { turn };
-        let all = turn.max(self.amplitude(outcome, 0) / FIRST).max(outcome.excess / TORQUE);
+        let first = if self.case.windows.is_some() {
+            outcome.wider / WIDER
+        } else {
+            self.amplitude(outcome, 0) / FIRST
+        };
+        let all = turn.max(first).max(outcome.excess / TORQUE);
         if all.is_nan() { f64::INFINITY } else { all }
     }
 
@@ -163,14 +195,16 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Search<'a, T, K, N> {
 
     /// Takes the step to the next trial and returns it.
     fn advance(&mut self, from: &Outcome<T, N>) -> [T; MAX_AMPLITUDES] {
-        let each = self.case.each();
+        let (each, sought) = (self.case.each(), self.case.sought());
         let mut left = [T::ZERO; MAX_AMPLITUDES];
-        left[0] = T::from_f64(libm::log(from.reach) - BEYOND);
-        left[1..=each].copy_from_slice(&from.miss[..each]);
+        if self.free != Free::Nothing {
+            left[0] = T::from_f64(libm::log(from.reach) - BEYOND);
+        }
+        left[1..=sought].copy_from_slice(&from.miss[..sought]);
         let mut step = [T::ZERO; MAX_AMPLITUDES];
-        for i in 0..=each {
+        for i in 0..=sought {
             let mut sum = T::ZERO;
-            for j in 0..=each {
+            for j in 0..=sought {
                 sum += self.inverse[i][j] * left[j];
             }
             step[i] = crate::math::clip(-sum, T::from_f64(if i == 0 { STEP } else { TARGET_STEP }));
@@ -182,8 +216,9 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Search<'a, T, K, N> {
                 step[0] = T::from_f64(libm::log(self.trial.duration / before));
             }
             Free::Scale => self.trial.scale *= libm::exp(step[0].to_f64()),
+            Free::Nothing => step[0] = T::ZERO,
         }
-        for i in 0..each {
+        for i in 0..sought {
             self.trial.targets[i] += step[1 + i];
         }
         for i in each..each * self.case.modes() {
@@ -203,29 +238,50 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Search<'a, T, K, N> {
         let interval = T::from_f64(case.interval(trial));
         let half = Half::new(found.knots.map(|y| unit * y), interval);
         let limit = case.torque(trial);
-        let landing = fly(case.arm, case.points, &half, limit.is_some());
+        let long = trial.duration >= LONG * case.period;
+        let view = View { long, loaded: limit.is_some() };
+        let landing = fly(case.arm, case.points, &half, view);
         self.simulations += 1;
         let mut excess = 0.0_f64;
         if let Some(limit) = limit {
-            for torque in landing.torque.iter().flatten() {
-                excess = excess.max((torque.abs() / limit).to_f64() - 1.0);
+            let greatest = |most: T, torque: &T| {
+                let torque = torque.abs();
+                if torque > most { torque } else { most }
+            };
+            let most = landing.torque.iter().flatten().fold(T::ZERO, greatest);
+            if case.limits.torque.is_some() {
+                excess = (most / limit).to_f64() - 1.0;
             }
             let linear = program.values(&found.knots);
             trial.learn_torque(&landing.torque, &linear, limit);
         }
         if let Some(rate) = case.limits.rate {
-            let per = T::from_f64(1.0 / (rate * trial.scale));
+            let per = T::from_f64(1.0 / (rate * case.scale(trial)));
             let beyond = half.beyond_nodes();
             for side in 0..2 {
                 trial.offsets[RATE + side] = beyond[side].map(|rate| per * rate);
             }
         }
+        let (mut wider, mut residual) = (-1.0, 0.0);
+        if let Some(windows) = &case.windows {
+            let view = View { long, loaded: false };
+            let seen = case.look::<N>(windows, |arm| fly(arm, case.points, &half, view).arm);
+            self.simulations += windows.factors().len() as u32;
+            for amplitude in seen.amplitudes {
+                wider = f64::max(wider, amplitude.to_f64().abs() - 1.0);
+            }
+            residual = seen.residual;
+            trial.learn_windows(&seen, &program.values(&found.knots));
+        }
         Outcome {
             trial: *trial,
             half,
+            wider,
+            residual,
             reach: found.reach.to_f64(),
             miss: self.left(&landing.arm),
             excess,
+            torque: landing.most.to_f64(),
         }
     }
 

@@ -15,6 +15,8 @@ Written by commands of their own, because they take minutes or an emulator:
   docs/auto.md, its figures     cargo lab auto docs/auto.md --count N
   docs/still.md, campaigns      cargo lab still docs/still.md
   docs/still.md, fastest        cargo lab fastest docs/still.md
+  docs/still.md, gentle         cargo lab gentle docs/still.md
+  docs/still.md, broken off     cargo lab interrupted docs/still.md
   docs/identify.md, its table   cargo lab identify docs/identify.md
   docs/mechanisms.md            cargo lab mechanisms docs/mechanisms.md
   docs/stability.md, campaigns  cargo run --profile long -p stillbeam-lab -- stress docs/stability.md

@@ -5,7 +5,9 @@ mod auto;
 mod docs;
 mod fastest;
 mod faults;
+mod gentle;
 mod identify;
+mod interrupted;
 mod mechanisms;
 mod pareto;
 mod plant;
@@ -61,6 +63,11 @@ enum Command {
     /// Compare the fastest still moves with other motions within the same limits; fill their part
     /// of docs/still.md
     Fastest(fastest::FastestArgs),
+    /// Plan for arms known to a range, with a residual that may be left, and in a given duration;
+    /// fill their part of docs/still.md
+    Gentle(gentle::GentleArgs),
+    /// Break off random fastest moves; fill their part of docs/still.md
+    Interrupted(interrupted::InterruptedArgs),
     /// Identify random arms from synthetic logs, and hold what is found against the truth
     Identify(identify::IdentifyArgs),
     /// Compare the references and the core with the solutions of mechanisms
@@ -87,6 +94,8 @@ impl Cli {
             Command::Pareto(args) => args.execute(),
             Command::Shortest(args) => args.execute(),
             Command::Fastest(args) => args.execute(),
+            Command::Gentle(args) => args.execute(),
+            Command::Interrupted(args) => args.execute(),
             Command::Identify(args) => args.execute(),
             Command::Mechanisms(args) => args.execute(),
             Command::Reference(args) => args.execute(),

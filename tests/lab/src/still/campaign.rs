@@ -22,7 +22,7 @@ pub type Refusals = BTreeMap<&'static str, usize>;
 
 /// Draws a random arm: first period 0.1 to 2 s, payload to four link masses, hub radius to 0.3 L.
 /// Half of the arms are damped, a third are under gravity that bends them by at most 5 % of L.
-fn arm(rng: &mut StdRng) -> Scene {
+pub(crate) fn arm(rng: &mut StdRng) -> Scene {
     let (length, mass, period) =
         (rng.random_range(0.1..2.0), rng.random_range(0.005..2.0), rng.random_range(0.1..2.0));
     let payload: f64 = rng.random_range(0.0..4.0);
@@ -52,11 +52,11 @@ fn arm(rng: &mut StdRng) -> Scene {
 }
 
 /// Returns the setpoint interval: 10 ms, or a twentieth of a first period if that is less.
-fn tick(arm: &Scene) -> Result<f64, Error> {
+pub(crate) fn tick(arm: &Scene) -> Result<f64, Error> {
     Ok(f64::min(0.01, rod::first_period(arm)? / 20.0))
 }
 
-fn kind(error: &CoreError) -> &'static str {
+pub(crate) fn kind(error: &CoreError) -> &'static str {
     match error {
         CoreError::TooShort { .. } => "too short",
         CoreError::NotStill { .. } => "rings on",
