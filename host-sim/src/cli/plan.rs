@@ -14,6 +14,8 @@ use stillbeam_sim::plan::{Planned, Request, page, shortest};
 use stillbeam_sim::scene_file::angle_remark;
 use stillbeam_sim::{axis_units, println, progress};
 
+use super::tick::TickArgs;
+
 #[derive(clap::Args)]
 pub struct PlanArgs {
     /// Scene file, or the name of an embedded scene: its arm, first angle, limits and tick
@@ -54,6 +56,8 @@ pub struct PlanArgs {
     /// it
     #[arg(long, value_name = "FRACTION", allow_negative_numbers = true)]
     robust: Option<f64>,
+    #[command(flatten)]
+    tick: TickArgs,
     /// Folder for the page, its pictures and the run
     #[arg(long, value_name = "DIR", default_value = "plan")]
     out: PathBuf,
@@ -71,12 +75,16 @@ impl PlanArgs {
             super::mechanism::refuse("--robust", self.robust.is_some())?;
             super::mechanism::refuse("--max-moment", self.max_moment.is_some())?;
             super::mechanism::refuse("--json", self.json)?;
-            super::mechanism::refuse("--open", self.open)?;
+            let scene = self.tick.applied_to_mechanism(scene);
             let limits = self.limits_of_joints(&scene)?;
-            let Self { from, to, duration, out, .. } = self;
-            return super::mechanism::plan(&scene, from, to, duration, limits, &out);
+            let Self { from, to, duration, out, open, .. } = self;
+            let page = super::mechanism::plan(&scene, from, to, duration, limits, &out)?;
+            if open {
+                super::show(&page);
+            }
+            return Ok(ExitCode::SUCCESS);
         }
-        let scene = open_arm(&self.scene)?;
+        let scene = self.tick.applied(open_arm(&self.scene)?);
         let to = single("--to", &self.to)?;
         let from = self.from.as_ref().map(|angles| single("--from", angles)).transpose()?;
         for (key, value) in [("--from", from), ("--to", Some(to))] {
