@@ -9,6 +9,7 @@ mod model;
 mod motion;
 mod packages;
 mod pages;
+mod pictures;
 mod playground;
 mod run;
 mod stress;

@@ -68,6 +68,45 @@ fn every_published_crate_holds_the_texts_of_its_licences() {
     }
 }
 
+/// A version stands in manifests that cargo does not read, too.
+#[test]
+fn everything_has_the_version_of_the_workspace() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).expect(path);
+    let value = |text: &str, before: &str| -> String {
+        let (_, rest) = text.split_once(before).unwrap_or_else(|| panic!("no {before}"));
+        rest.split('"').next().expect("an end").trim_end().to_owned()
+    };
+    let workspace = read("Cargo.toml");
+    let version = value(&workspace, "[workspace.package]\nversion = \"");
+    let (_, dependencies) = workspace.split_once("[workspace.dependencies]").expect("a table");
+    let paths = dependencies.lines().filter(|line| line.contains("path = "));
+    let mut found = 0;
+    for line in paths {
+        assert_eq!(value(line, "version = \""), version, "{line}");
+        found += 1;
+    }
+    assert!(found >= 9, "{found}");
+    let arduino = "bindings/c/examples/arduino";
+    let properties = read(&format!("{arduino}/library.properties"));
+    let line = properties.lines().find_map(|line| line.strip_prefix("version="));
+    assert_eq!(line, Some(version.as_str()));
+    assert_eq!(value(&read(&format!("{arduino}/library.json")), "\"version\": \""), version);
+    assert_eq!(value(&read("tests/fuzz/targets/Cargo.toml"), "version = \""), version);
+    let (of_doc, _) = version.rsplit_once('.').expect("three numbers");
+    let doc = read("host-sim/src/export.rs");
+    assert_eq!(value(&doc, "//! // stillbeam-sim = { version = \""), of_doc);
+    // What is not released yet stands above what is.
+    let changelog = read("CHANGELOG.md");
+    let headings: Vec<&str> = changelog.lines().filter(|line| line.starts_with("## ")).collect();
+    assert_eq!(headings.first(), Some(&"## [Unreleased]"));
+    assert!(headings[1].starts_with(&format!("## [{version}] - ")), "{headings:?}");
+    for heading in headings {
+        let name = heading.split(['[', ']']).nth(1).expect("a name in brackets");
+        let link = format!("\n[{name}]: https://github.com/stillbeam/stillbeam/");
+        assert!(changelog.contains(&link), "{heading} has no link");
+    }
+}
+
 /// Cargo compiles a target once more for its tests unless its manifest says that it has none. Then
 /// a test written there would never run.
 #[test]

@@ -5,7 +5,7 @@
 //!
 //! ```no_run
 //! // In the `main` of build.rs; in Cargo.toml under [build-dependencies]:
-//! // stillbeam-sim = { version = "0.1", default-features = false }
+//! // stillbeam-sim = { version = "0.2", default-features = false }
 //! // Then in the firmware: include!(concat!(env!("OUT_DIR"), "/arm.rs"));
 //! if let Err(error) = stillbeam_sim::export::for_build_script("arm.toml", "arm.rs", false) {
 //!     panic!("{error}");

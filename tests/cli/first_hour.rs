@@ -185,3 +185,96 @@ fn shells_and_man_know_every_command() {
     let line = refused(folder.path(), &["completions", "cmd"]);
     assert!(line.contains("bash") && line.contains("zsh"), "{line}");
 }
+
+/// A move too quick for a still one, so that half of the trials are left out.
+const QUICK: &str = "link = { length = 0.25, mass = 0.02, bending_stiffness = 0.5 }\n\
+    payload = { mass = 0.05 }\n\
+    move = { profile = \"quintic\", duration = 0.06, to = 0.1, settle = 0.02 }\n";
+
+#[test]
+fn a_drive_is_drawn_in_the_terminal_and_moves_on_its_page() {
+    let folder = tempfile::tempdir().expect("folder");
+    fs::write(folder.path().join("quick.toml"), QUICK).expect("a scene");
+    let seen = in_terminal(folder.path(), "drive quick.toml --out drive", "");
+    for words in [
+        "hub behind its command, mrad; sent: position, over 0 to",
+        "hub behind its command, mrad; sent: position, velocity, torque, over 0 to",
+    ] {
+        assert!(seen.contains(words), "{words} is not in:\n{seen}");
+    }
+    let page = fs::read_to_string(folder.path().join("drive/index.html")).expect("page");
+    assert_eq!(page.matches("<figure class=\"moving\"").count(), 1);
+    assert!(page.contains("unpauseAnimations") && page.contains("href=\"moving.svg\""));
+    let svg = fs::read_to_string(folder.path().join("drive/moving.svg")).expect("picture");
+    let svg = roxmltree::Document::parse(&svg).expect("XML");
+    let arms = svg.descendants().filter(|node| node.attribute("attributeName") == Some("d"));
+    assert_eq!(arms.count(), 2);
+}
+
+#[test]
+fn programs_read_json_of_drives_and_references() {
+    let folder = tempfile::tempdir().expect("folder");
+    fs::write(folder.path().join("quick.toml"), QUICK).expect("a scene");
+    let output = run(folder.path(), &["drive", "quick.toml", "--json"]);
+    let drive: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let trials = drive["trials"].as_array().expect("trials");
+    let hub = |k: usize| trials[k]["hub_rad"].as_f64().expect("rad");
+    assert_eq!((trials[0]["sent"].as_str(), trials.len()), (Some("position"), 6));
+    assert!(hub(2) > 0.0 && hub(2) < 0.5 * hub(0), "{drive}");
+    assert!(drive["no_still"].is_string() && drive["page"].is_null(), "{drive}");
+    let args = ["reference", "d-fast", "--json", "--every", "0.01"];
+    let solved: Value = serde_json::from_str(&said(folder.path(), &args)).expect("JSON");
+    assert_eq!((&solved["rows"], &solved["every_s"]), (&41.into(), &0.01.into()));
+    assert!(solved["peak_effort"].as_f64().is_some_and(|torque| torque > 0.0), "{solved}");
+}
+
+#[test]
+fn a_page_that_is_not_written_is_not_shown() {
+    let folder = tempfile::tempdir().expect("folder");
+    for (args, words) in [
+        (&["drive", "d-fast", "--open"][..], "no page is written; must be beside --out DIR"),
+        (&["identify", "log.csv", "--open"], "no page is written; must be beside --page or --out"),
+        (
+            &["run", "four-bar", "--csv", "a.csv", "--open"],
+            "no page is written; must be beside --page OUT.html",
+        ),
+        (
+            &["reference", "four-bar", "--csv", "a.csv", "--open"],
+            "no page is written; must be beside --page OUT.html",
+        ),
+        (&["run", "d-fast", "--open"], "must be absent with an arm"),
+        (&["reference", "d-fast", "--open"], "must be absent with an arm"),
+    ] {
+        let line = refused(folder.path(), args);
+        assert!(line.contains(&format!("--open: {words}")), "{args:?}: {line}");
+    }
+}
+
+/// Every command that reads a scene takes a tick in place of the scene's, and means the same by it.
+#[test]
+fn a_typed_tick_takes_the_place_of_the_scenes() {
+    let folder = tempfile::tempdir().expect("folder");
+    let tick = ["--tick", "0.003"];
+    let newmark = ["--method", "newmark", "--scalar", "f64"];
+    let rows = |name: &str| fs::read_to_string(folder.path().join(name)).expect("table");
+    for args in [
+        &[&["run", "d-fast", "--csv", "run.csv"], &newmark[..], &tick].concat()[..],
+        &[&["reference", "d-fast", "--csv", "rod.csv"][..], &tick].concat(),
+    ] {
+        let output = run(folder.path(), args);
+        let notes = String::from_utf8(output.stderr).expect("text");
+        assert!(notes.contains("move.duration = 0.2 s") && notes.contains("0.201 s"), "{notes}");
+    }
+    assert_eq!(rows("run.csv").lines().count(), rows("rod.csv").lines().count());
+    let compared = ["compare", "run.csv", "rod.csv", "--scene", "d-fast"];
+    let text = said(folder.path(), &[&compared[..], &tick].concat());
+    assert!(text.starts_with("135 common times"), "{text}");
+    let args = ["plan", "b-tip30", "--to", "1", "--duration", "1", "--json", "--tick", "0.004"];
+    let plan: Value = serde_json::from_str(&said(folder.path(), &args)).expect("JSON");
+    assert_eq!((&plan["ticks"], &plan["duration_s"]), (&250.into(), &1.0.into()));
+    assert!(said(folder.path(), &["arm", "d-fast", "--tick", "0.004"]).contains("4 ms resolves"));
+    for args in [&["reference", "d-fast"][..], &["arm", "d-fast"], &compared] {
+        let line = refused(folder.path(), &[args, &["--tick", "-1"]].concat());
+        assert!(line.contains("solver.tick = -1: must be"), "{line}");
+    }
+}

@@ -91,7 +91,7 @@ fn a_ringdown_becomes_a_scene_that_runs() {
     assert!(number(&report, "offset").abs() < 1e-5);
 
     let page = fs::read_to_string(folder.join("fitted.html")).expect("a page");
-    assert!(page.contains("What to trust") && page.matches("<svg").count() == 4);
+    assert!(page.contains("What to trust") && page.matches("<svg").count() == 5);
     let described = sim().current_dir(folder).args(["arm", "fitted.toml", "--json"]).output();
     let described: Value =
         serde_json::from_slice(&described.expect("program").stdout).expect("JSON");

@@ -4,7 +4,7 @@ use stillbeam_sim::scenes;
 use stillbeam_sim::servo::bench::{Bench, Feed};
 use stillbeam_sim::servo::setpoints::Setpoints;
 use stillbeam_sim::servo::trials::{Outcome, Report, Trial, Unknown};
-use stillbeam_sim::servo::{Between, Machine, Protocol};
+use stillbeam_sim::servo::{Between, Machine, Protocol, moving};
 
 const POSITION: Trial = Trial { feed: Feed::POSITION, ..Trial::PLAIN };
 const VELOCITY: Trial = Trial { feed: Feed::VELOCITY, ..Trial::PLAIN };
@@ -55,6 +55,14 @@ fn a_stiff_drive_leaves_what_the_planner_says() {
     assert!(!text.contains(" 0.000 ") && !text.contains(" 0.00 "), "digits are lost: {text}");
     let still = of(&report, &Trial::STILL).judged.residual;
     assert!(still < 1e-3, "{still}");
+    // Its page shows the same: the arm that is still stays, the others swing on.
+    let animation = moving::animation(&report);
+    let swings = animation.panels.iter().map(|panel| {
+        let rest = panel.arms[0].poses.iter().rev().take(20).map(|pose| pose.deflection.abs());
+        rest.fold(0.0, f64::max) / animation.length
+    });
+    let swings: Vec<f64> = swings.collect();
+    assert!(swings[0] > 0.1 && swings[1] > 0.1 && swings[2] < 1e-3, "{swings:?}");
     for factor in [0.9, 1.1] {
         let outcome = of(&report, &payload(factor));
         let ratio = outcome.judged.residual / outcome.exact;

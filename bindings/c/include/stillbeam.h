@@ -535,6 +535,41 @@ typedef struct sb_accepted {
 } sb_accepted;
 
 /**
+ * A move in the shortest time, from the end of the moves before it, at rest or turning. Its bounds
+ * lie within the limits of the arm's set-up.
+ */
+typedef struct sb_reach_request {
+    /**
+     * `SB_KIND_TO`: to the angle `to`. `SB_KIND_SPIN_UP`: to the rate, at any angle.
+     */
+    int32_t kind;
+    /**
+     * Hub angle at the end, rad; of a move to an angle.
+     */
+    double to;
+    /**
+     * Rate at the end, rad/s, which the hub then keeps. 0: it comes to rest.
+     */
+    double rate;
+    /**
+     * Bound of the rate, rad/s. Must be given.
+     */
+    double max_rate;
+    /**
+     * Bound of the acceleration, rad/s^2. 0: only the jerk is bound.
+     */
+    double max_acceleration;
+    /**
+     * Bound of the deceleration, rad/s^2; 0: that of the acceleration.
+     */
+    double max_deceleration;
+    /**
+     * Bound of the jerk, rad/s^3. 0: the acceleration may jump.
+     */
+    double max_jerk;
+} sb_reach_request;
+
+/**
  * Storage of a planner of still moves.
  */
 typedef struct sb_planner {
@@ -829,6 +864,16 @@ sb_status sb_stop(struct sb_arm *arm, uint32_t then_off);
  * As of `sb_enable`.
  */
 sb_status sb_heard(struct sb_arm *arm);
+
+/**
+ * Plans a move in the shortest time behind the others, as `sb_move` does a move of given duration.
+ *
+ * # Safety
+ * As of `sb_enable`; `motion` is NULL or points to a move, `accepted` is NULL or can be written.
+ */
+sb_status sb_reach(struct sb_arm *arm,
+                   const struct sb_reach_request *motion,
+                   struct sb_accepted *accepted);
 
 /**
  * Initialises a planner of still moves from the constants of `stillbeam-sim export --c --still`.

@@ -31,6 +31,8 @@ pub mod arm;
 
 pub mod motion;
 
+pub mod reach;
+
 pub mod still;
 
 pub mod path;

@@ -7,7 +7,6 @@ use stillbeam_sim::arm;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, SolverKeys};
 
-use crate::error::refused;
 use crate::keys;
 use crate::progress::Progress;
 use crate::scene::Scene;
@@ -23,9 +22,8 @@ pub fn choose<'py>(
     let keys = SolverKeys { method: Some(Method::Auto), ..keys::of(keywords)? };
     let file = SceneFile { solver: keys.or(scene.file.solver), ..scene.commanded()?.clone() };
     let progress = Progress::new(progress);
-    let advice =
-        py.detach(|| arm::advise_with(&file, &|done| progress.tell("choosing a method", done)));
-    let advice = progress.end(advice.map_err(refused))?;
+    let told = |done| progress.tell("choosing a method", done);
+    let advice = progress.work(py, || arm::advise_with(&file, &told))?;
     let result = PyDict::new(py);
     let (method, modes, quality) = match advice.choice.rung {
         Rung::Rigid => ("rigid", None, None),

@@ -11,7 +11,6 @@ use stillbeam_sim::plan::{Options, Planned, Request};
 use stillbeam_sim::reference::Sample;
 use stillbeam_sim::scene_file::SceneFile;
 
-use crate::error::refused;
 use crate::keys;
 use crate::progress::Progress;
 use crate::scene::Scene;
@@ -53,12 +52,11 @@ pub fn plan<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let request = request(&scene.file, keywords)?;
     let progress = Progress::new(progress);
-    let planned = py.detach(|| {
-        let steps = progress.steps("reference rod", ERRORS.len());
-        request.carry_out(&|| steps.step())
-    });
     let axis = request.arm.mount.axis;
-    let planned = progress.end(planned.map_err(|error| refused(error.on(axis))))?;
+    let planned = progress.work(py, || {
+        let steps = progress.steps("reference rod", ERRORS.len());
+        request.carry_out(&|| steps.step()).map_err(|error| error.on(axis))
+    })?;
     let result = PyDict::new(py);
     result.set_item("start", request.from)?;
     figures(&result, &request, &planned)?;

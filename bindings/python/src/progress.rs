@@ -1,23 +1,39 @@
-//! Progress of long work: a call of the user's own, or the command line's bar on the terminal.
+//! Long work: its progress, told to a call of the user's own or by the command line's bar on the
+//! terminal, and its end before the time, by an interrupt or an exception of that call.
 
+use std::panic::resume_unwind;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
 
 use pyo3::prelude::*;
+use stillbeam_sim::error::Error;
 use stillbeam_sim::limits::load;
 use stillbeam_sim::progress::{Late, ProgressBar, bar, late};
+
+use crate::error::refused;
+
+/// Interval at which the interpreter is asked for an interrupt.
+const WATCH: Duration = Duration::from_millis(20);
 
 /// Report of a piece of work.
 pub struct Progress {
     call: Option<Py<PyAny>>,
-    /// The first exception of the call. Later calls are left out.
+    /// The exception that ends the work: an interrupt, or the first one of the call.
     failed: Mutex<Option<PyErr>>,
+    /// True once there is one.
+    stopped: AtomicBool,
 }
+
+/// What work that is stopped unwinds with.
+struct Stopped;
 
 impl Progress {
     /// Creates the progress of one piece of work. `call` takes a few words and a fraction.
     pub fn new(call: Option<Py<PyAny>>) -> Self {
-        Self { call, failed: Mutex::new(None) }
+        Self { call, failed: Mutex::new(None), stopped: AtomicBool::new(false) }
     }
 
     /// True if the user has a call.
@@ -25,25 +41,67 @@ impl Progress {
         self.call.is_some()
     }
 
-    /// Tells that the fraction `done` of the work is done. Also looks for an interrupt of the user,
-    /// which ends the work's result once it is there.
-    pub fn tell(&self, what: &str, done: f64) {
-        let Ok(mut failed) = self.failed.lock() else { return };
-        if failed.is_some() {
-            return;
-        }
-        *failed = Python::attach(|py| {
-            let told = self.call.as_ref().map(|call| call.call1(py, (what, done)).map(drop));
-            told.unwrap_or(Ok(())).and_then(|()| py.check_signals()).err()
+    /// Does work with the interpreter released, in a thread of its own, because the interpreter
+    /// sees an interrupt in the thread only that called it. The work ends at the next step that it
+    /// tells of.
+    ///
+    /// # Errors
+    /// The interrupt, an exception of the call, or the error of the work.
+    pub fn work<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce() -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        let ended = py.detach(|| {
+            thread::scope(|scope| {
+                let (sender, receiver) = channel::<()>();
+                let thread = scope.spawn(move || {
+                    // Dropped at the end of the work, however it ends.
+                    let _sender = sender;
+                    work()
+                });
+                while receiver.recv_timeout(WATCH) == Err(RecvTimeoutError::Timeout) {
+                    if let Err(interrupt) = Python::attach(|py| py.check_signals()) {
+                        self.stop(interrupt);
+                    }
+                }
+                thread.join()
+            })
         });
+        if let Some(error) = self.failed.lock().ok().and_then(|mut failed| failed.take()) {
+            return Err(error);
+        }
+        match ended {
+            Ok(result) => result.map_err(refused),
+            Err(panic) => resume_unwind(panic),
+        }
     }
 
-    /// Returns the work's result, or the exception that the call raised.
-    pub fn end<T>(self, result: PyResult<T>) -> PyResult<T> {
-        match self.failed.into_inner() {
-            Ok(Some(error)) => Err(error),
-            _ => result,
+    /// Notes the exception that ends the work, if it is the first one.
+    fn stop(&self, error: PyErr) {
+        if let Ok(mut failed) = self.failed.lock() {
+            failed.get_or_insert(error);
         }
+        self.stopped.store(true, Ordering::Relaxed);
+    }
+
+    /// Leaves the work if it is to end. Unwinding passes through work that knows of no end before
+    /// its time, and through threads of its own.
+    fn check(&self) {
+        if self.stopped.load(Ordering::Relaxed) {
+            resume_unwind(Box::new(Stopped));
+        }
+    }
+
+    /// Tells that the fraction `done` of the work is done.
+    pub fn tell(&self, what: &str, done: f64) {
+        self.check();
+        let Some(call) = &self.call else { return };
+        let told = Python::attach(|py| call.call1(py, (what, done)).map(drop));
+        if let Err(error) = told {
+            self.stop(error);
+        }
+        self.check();
     }
 
     /// Counts steps of a known number, from any thread.
@@ -76,7 +134,10 @@ impl Steps<'_> {
     pub fn step(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         match &self.bar {
-            Some(bar) => bar.inc(1),
+            Some(bar) => {
+                bar.inc(1);
+                self.progress.check();
+            }
             None => self.progress.tell(self.what, done as f64 / self.count as f64),
         }
     }
@@ -100,6 +161,7 @@ pub struct Limits<'a> {
 impl Limits<'_> {
     /// Shows what the check is at.
     pub fn tell(&self, at: load::Progress) {
+        self.progress.check();
         match (at, self.progress.is_called()) {
             (load::Progress::Checked(done), true) => self.progress.tell("limits", done),
             (load::Progress::Checked(done), false) => self.check.set(done),

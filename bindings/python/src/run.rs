@@ -31,7 +31,7 @@ pub fn run(
     let file = scene.commanded()?;
     let (solver, typed, keys) = keys::resolve(keywords, file)?;
     let progress = Progress::new(progress);
-    let result = py.detach(|| {
+    let (list, words, notes) = progress.work(py, || {
         let mut notes =
             if typed.method.is_none() { file.solver.unread(solver.method) } else { Vec::new() };
         notes.extend(file.roundings(solver.tick)?);
@@ -39,11 +39,8 @@ pub fn run(
         let (rows, words) =
             rows(file, &solver, &keys, &mut notes, &progress, &|at| limits.tell(at))?;
         Ok((rows, words, notes))
-    });
-    let axis = file.arm.mount.axis;
-    let outcome =
-        result.map(|(list, words, notes)| (Rows { list, axis, tick: solver.tick }, words, notes));
-    progress.end(outcome.map_err(refused))
+    })?;
+    Ok((Rows { list, axis: file.arm.mount.axis, tick: solver.tick }, words, notes))
 }
 
 /// Returns the rows of a run and its method in words.
@@ -87,7 +84,7 @@ pub fn reference(
     };
     let tick = file.solver.resolve().map_err(refused)?.tick;
     let progress = Progress::new(progress);
-    let result = py.detach(|| {
+    let (list, notes) = progress.work(py, || {
         let trajectory = file.trajectory(tick)?;
         let every = every.unwrap_or(tick);
         let longest = trajectory.duration();
@@ -107,9 +104,7 @@ pub fn reference(
             }
         };
         Ok((truth::solve(solver, file, &trajectory, &times, &told)?, file.roundings(tick)?))
-    });
-    let axis = file.arm.mount.axis;
-    let outcome = result
-        .map(|(list, notes)| (Rows { list, axis, tick }, solver.describe().to_owned(), notes));
-    progress.end(outcome.map_err(refused))
+    })?;
+    let rows = Rows { list, axis: file.arm.mount.axis, tick };
+    Ok((rows, solver.describe().to_owned(), notes))
 }

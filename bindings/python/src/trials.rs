@@ -6,7 +6,6 @@ use pyo3::types::{PyDict, PyList};
 use stillbeam_sim::servo::bench::SAMPLES;
 use stillbeam_sim::servo::trials::{Outcome, Report, Trial};
 
-use crate::error::refused;
 use crate::machine;
 use crate::progress::Progress;
 use crate::scene::Scene;
@@ -25,11 +24,10 @@ pub fn drive<'py>(
     let machine = machine::with(machine::of(on)?, drive, between)?;
     let trials = Trial::all(&file.arm);
     let progress = Progress::new(progress);
-    let report = py.detach(|| {
+    let report = progress.work(py, || {
         let steps = progress.steps("runs", trials.len());
         Report::of(file, &machine, &trials, &|| steps.step())
-    });
-    let report = progress.end(report.map_err(refused))?;
+    })?;
     let result = PyDict::new(py);
     result.set_item("tick", report.tick)?;
     result.set_item("drive", machine.drive.name())?;

@@ -1,3 +1,5 @@
+import _thread
+import signal
 import sys
 import threading
 import unittest
@@ -71,11 +73,44 @@ class Runs(unittest.TestCase):
         self.assertTrue(all(0.0 <= done <= 1.0 for _, done in told))
         self.assertEqual(told, sorted(told))
 
+    def test_an_exception_of_the_call_ends_the_work(self):
+        told = []
+
         def stop(what, done):
+            told.append(done)
             raise RuntimeError("enough")
 
+        for work in [sb.reference, sb.auto]:
+            told.clear()
+            with self.assertRaisesRegex(RuntimeError, "enough"):
+                work(self.scene, progress=stop)
+            self.assertEqual(len(told), 1)
         with self.assertRaisesRegex(RuntimeError, "enough"):
-            sb.reference(self.scene, progress=stop)
+            sb.plan(self.scene, to=1.0, progress=stop)
+
+    def test_an_interrupt_ends_long_work_before_its_time(self):
+        # Some seconds of simulation, if it is let.
+        scene = sb.Scene(
+            link={"length": 0.4, "mass": 0.0224, "bending_stiffness": 0.46},
+            move={"profile": "quintic", "duration": 1.0, "to": 1.0, "settle": 20.0},
+        )
+        told = []
+
+        def interrupt(what, done):
+            if not told:
+                _thread.interrupt_main()
+            told.append(done)
+
+        # A shell starts what runs in its background with interrupts ignored.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                sb.reference(scene, every=0.1, progress=interrupt)
+        finally:
+            signal.signal(signal.SIGINT, before)
+        self.assertLess(told[-1], 0.5)
+        # The next one is not concerned.
+        self.assertGreater(len(sb.reference(self.scene)), 10)
 
     def test_a_run_releases_the_interpreter(self):
         # With so long an interval, another thread gets on only if the run lets it.

@@ -8,10 +8,14 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::println;
 use stillbeam_sim::table::significant;
 
+use super::tick::TickArgs;
+
 #[derive(clap::Args)]
 pub struct ArmArgs {
     /// Scene file, or the name of an embedded scene; a file needs no moves here
     scene: String,
+    #[command(flatten)]
+    tick: TickArgs,
     /// Print one JSON object, for programs
     #[arg(long)]
     json: bool,
@@ -19,7 +23,7 @@ pub struct ArmArgs {
 
 impl ArmArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
-        let scene = open_arm(&self.scene)?;
+        let scene = self.tick.applied(open_arm(&self.scene)?);
         let report = describe(&scene)?;
         if self.json {
             let text = serde_json::to_string_pretty(&report).map_err(Error::new)?;

@@ -10,6 +10,7 @@ use stillbeam_sim::mechanism;
 use stillbeam_sim::{axis_units, println, table};
 
 use super::motion::MotionArgs;
+use super::tick::TickArgs;
 
 #[derive(clap::Args)]
 pub struct CompareArgs {
@@ -22,6 +23,8 @@ pub struct CompareArgs {
     scene: String,
     #[command(flatten)]
     motion: MotionArgs,
+    #[command(flatten)]
+    tick: TickArgs,
     /// Exit with 1 where the largest tip error is above this fraction of L
     #[arg(long, value_name = "FRACTION", allow_negative_numbers = true)]
     tolerance: Option<f64>,
@@ -38,9 +41,10 @@ impl CompareArgs {
         }
         if let Some(scene) = mechanism::scenes::open(&self.scene)? {
             super::mechanism::refuse("--motion", self.motion.is_given())?;
+            let scene = self.tick.applied_to_mechanism(scene);
             return super::mechanism::compare(&scene, [&self.a, &self.b], self.tolerance);
         }
-        let scene = self.motion.open(&self.scene)?;
+        let scene = self.tick.applied(self.motion.open(&self.scene)?);
         let tick = scene.solver.resolve()?.tick;
         let (scene, _) = self.motion.command(scene, tick)?;
         let (a, b) = (table::read(&self.a)?, table::read(&self.b)?);

@@ -8,7 +8,7 @@ use stillbeam_sim::identify::arm::{Free, Sensor};
 use stillbeam_sim::identify::forced::Lowpass;
 use stillbeam_sim::identify::log::{Columns, Kind, Sign};
 use stillbeam_sim::identify::report::{ArmFit, Report};
-use stillbeam_sim::identify::{Identified, Request, page, scene};
+use stillbeam_sim::identify::{Identified, Request, page as document, scene};
 use stillbeam_sim::number::Digits;
 use stillbeam_sim::output::Files;
 use stillbeam_sim::table::significant;
@@ -31,6 +31,9 @@ pub struct IdentifyArgs {
     /// Print one JSON object, for programs
     #[arg(long)]
     json: bool,
+    /// Show the page in the browser
+    #[arg(long)]
+    open: bool,
     /// Column of the time [default: t_s, time, timestamp, …]; _s, _ms, _us, _ns tell the unit
     #[arg(long, value_name = "COLUMN")]
     time: Option<String>,
@@ -79,6 +82,8 @@ pub struct IdentifyArgs {
 
 impl IdentifyArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
+        let page = self.page_path();
+        super::refuse_to_open(self.open, page.as_deref(), "--page or --out")?;
         let scene = self.scene.as_deref().map(stillbeam_sim::console::open_arm).transpose()?;
         let request = Request {
             logs: self.logs.clone(),
@@ -98,7 +103,7 @@ impl IdentifyArgs {
             scene: scene.map(|scene| (scene.name, scene.arm)),
         };
         let identified = request.carry_out()?;
-        let written = self.write(&identified)?;
+        let written = self.write(&identified, page.as_deref())?;
         if self.json {
             let text = serde_json::to_string_pretty(&identified.report).map_err(Error::new)?;
             println!("{text}");
@@ -107,6 +112,9 @@ impl IdentifyArgs {
             for path in written {
                 println!("  {}", path.display());
             }
+        }
+        if let Some(page) = page.filter(|_| self.open) {
+            super::show(&page);
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -132,19 +140,24 @@ impl IdentifyArgs {
         }
     }
 
+    /// Returns the page's path, if one is to be written.
+    fn page_path(&self) -> Option<PathBuf> {
+        let beside = self.out.as_deref().map(|out| out.with_extension("html"));
+        self.page.clone().or(beside)
+    }
+
     /// Writes the scene and the page, both or none.
-    fn write(&self, identified: &Identified) -> Result<Vec<PathBuf>, Error> {
+    fn write(&self, identified: &Identified, page: Option<&Path>) -> Result<Vec<PathBuf>, Error> {
         let mut files = Files::default();
         if let (Some(out), Some(name), Some(arm)) = (&self.out, &self.scene, &identified.arm) {
             let text =
                 scene::fitted(&scenes::text(name)?, arm, &self.free, &identified.report.logs)?;
             files.add(out, |file| file.write_all(text.as_bytes()))?;
         }
-        let beside = self.out.as_deref().map(|out| out.with_extension("html"));
-        if let Some(path) = self.page.clone().or(beside) {
+        if let Some(path) = page {
             let title = self.scene.clone().unwrap_or_else(|| name_of(&self.logs[0]));
-            let text = page::text(&title, identified)?;
-            files.add(&path, |file| file.write_all(text.as_bytes()))?;
+            let text = document::text(&title, identified)?;
+            files.add(path, |file| file.write_all(text.as_bytes()))?;
         }
         files.finish()
     }

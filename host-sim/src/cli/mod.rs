@@ -16,6 +16,7 @@ mod run;
 mod study;
 #[cfg(feature = "talk")]
 mod talk;
+mod tick;
 
 use std::io::{IsTerminal, stdout};
 use std::path::Path;
@@ -52,6 +53,16 @@ fn draw<'a>(quantities: impl IntoIterator<Item = (&'a str, Vec<f64>)>, end: f64)
             println!("\n{lines}");
         }
     }
+}
+
+/// Refuses `--open` where no page is written. `option` writes one.
+fn refuse_to_open(open: bool, page: Option<&Path>, option: &str) -> Result<(), Error> {
+    if open && page.is_none() {
+        return Err(Error::new(format_args!(
+            "--open: no page is written; must be beside {option}, which writes one"
+        )));
+    }
+    Ok(())
 }
 
 /// Shows a page in the browser. The page is written by then, so that a failure is a note.

@@ -14,6 +14,8 @@ use stillbeam_sim::plan::{Options, Planned, Request, options, page, shortest};
 use stillbeam_sim::scene_file::angle_remark;
 use stillbeam_sim::{axis_units, println, progress};
 
+use super::tick::TickArgs;
+
 #[derive(clap::Args)]
 pub struct PlanArgs {
     /// Scene file, or the name of an embedded scene: its arm, first angle, limits and tick
@@ -62,6 +64,8 @@ pub struct PlanArgs {
     /// squared torque [default: a smooth still move]
     #[arg(long, value_name = "WHAT")]
     least: Option<String>,
+    #[command(flatten)]
+    tick: TickArgs,
     /// Folder for the page, its pictures and the run
     #[arg(long, value_name = "DIR", default_value = "plan")]
     out: PathBuf,
@@ -81,12 +85,16 @@ impl PlanArgs {
             super::mechanism::refuse("--within", self.within.is_some())?;
             super::mechanism::refuse("--least", self.least.is_some())?;
             super::mechanism::refuse("--json", self.json)?;
-            super::mechanism::refuse("--open", self.open)?;
+            let scene = self.tick.applied_to_mechanism(scene);
             let limits = self.limits_of_joints(&scene)?;
-            let Self { from, to, duration, out, .. } = self;
-            return super::mechanism::plan(&scene, from, to, duration, limits, &out);
+            let Self { from, to, duration, out, open, .. } = self;
+            let page = super::mechanism::plan(&scene, from, to, duration, limits, &out)?;
+            if open {
+                super::show(&page);
+            }
+            return Ok(ExitCode::SUCCESS);
         }
-        let scene = open_arm(&self.scene)?;
+        let scene = self.tick.applied(open_arm(&self.scene)?);
         let to = single("--to", &self.to)?;
         let from = self.from.as_ref().map(|angles| single("--from", angles)).transpose()?;
         for (key, value) in [("--from", from), ("--to", Some(to))] {

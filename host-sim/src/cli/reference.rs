@@ -3,14 +3,18 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use serde::Serialize;
 use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::mechanism;
+use stillbeam_sim::mechanism::{self, MechanismScene};
+use stillbeam_sim::scene_file::SceneFile;
+use stillbeam_sim::table::Row;
 use stillbeam_sim::truth::{self, Reference};
 use stillbeam_sim::{axis_units, println, progress, run, table};
 
 use super::mechanism::Outputs;
 use super::motion::MotionArgs;
+use super::tick::TickArgs;
 
 #[derive(clap::Args)]
 pub struct ReferenceArgs {
@@ -19,28 +23,35 @@ pub struct ReferenceArgs {
     /// Reference solver
     #[arg(long, value_enum, default_value = "rod")]
     solver: Reference,
-    /// File for the rows
+    /// File for the rows [default: none is written]
     #[arg(long, value_name = "OUT.csv")]
-    csv: PathBuf,
+    csv: Option<PathBuf>,
+    /// Print one JSON object, for programs
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     motion: MotionArgs,
-    /// Interval of the rows in s [default: the scene's tick]
+    #[command(flatten)]
+    tick: TickArgs,
+    /// Interval of the rows in s [default: the tick]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     every: Option<f64>,
     /// File for a page with the mechanism drawn, of a mechanism
     #[arg(long, value_name = "OUT.html")]
     page: Option<PathBuf>,
+    /// Show the page in the browser, of a mechanism
+    #[arg(long)]
+    open: bool,
 }
 
 impl ReferenceArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
         if let Some(scene) = mechanism::scenes::open(&self.scene)? {
-            super::mechanism::refuse("--motion", self.motion.is_given())?;
-            let outputs = Outputs { csv: &self.csv, page: self.page.as_deref() };
-            return super::mechanism::reference(&scene, self.solver, self.every, &outputs);
+            return self.mechanism(scene);
         }
         super::mechanism::refuse_for_arm("--page", self.page.is_some())?;
-        let scene = self.motion.open(&self.scene)?;
+        super::mechanism::refuse_for_arm("--open", self.open)?;
+        let scene = self.tick.applied(self.motion.open(&self.scene)?);
         let tick = scene.solver.resolve()?.tick;
         let (scene, mut notes) = self.motion.command(scene, tick)?;
         notes.extend(scene.deduced.lines());
@@ -65,31 +76,93 @@ impl ReferenceArgs {
         for line in notes {
             super::note(&line);
         }
-        table::write(&self.csv, scene.arm.mount.axis, &rows)?;
+        if let Some(csv) = &self.csv {
+            table::write(csv, scene.arm.mount.axis, &rows)?;
+        }
+        let report = ReferenceReport::of(&scene, self.solver, [tick, every], &rows)?;
+        if self.json {
+            println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+        } else {
+            self.print(&scene, &report);
+            super::run::draw(&scene, &rows);
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn mechanism(&self, scene: MechanismScene) -> Result<ExitCode, Error> {
+        super::mechanism::refuse("--motion", self.motion.is_given())?;
+        super::mechanism::refuse("--json", self.json)?;
+        let csv = self
+            .csv
+            .as_deref()
+            .ok_or_else(|| Error::new("--csv: must be a file where a mechanism is solved"))?;
+        let outputs = Outputs { csv, page: self.page.as_deref(), open: self.open };
+        outputs.check()?;
+        let scene = self.tick.applied_to_mechanism(scene);
+        super::mechanism::reference(&scene, self.solver, self.every, &outputs)
+    }
+
+    fn print(&self, scene: &SceneFile, solved: &ReferenceReport) {
         let units = axis_units::of(scene.arm.mount.axis);
-        let peak = |of: fn(&table::Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
-        let bent = peak(|row| row.deflection_m.abs());
-        println!("{}: {}", scene.name, self.solver.describe());
-        println!("  {} rows to {}", rows.len(), self.csv.display());
-        println!(
-            "  peak {:<10}  {:.4} {}",
-            units.effort,
-            peak(|row| row.torque_nm.abs()),
-            units.effort_unit
-        );
+        let length = scene.arm.link.length;
+        println!("{}: {}", solved.scene, solved.solver);
+        match &self.csv {
+            Some(csv) => println!("  {} rows to {}", solved.rows, csv.display()),
+            None => println!("  {} rows; --csv OUT.csv writes them", solved.rows),
+        }
+        println!("  peak {:<10}  {:.4} {}", units.effort, solved.peak_effort, units.effort_unit);
         println!(
             "  peak deflection  {:.2} mm ({:.1} % of L)",
-            1e3 * bent,
-            100.0 * bent / scene.arm.link.length
+            1e3 * solved.peak_deflection_m,
+            100.0 * solved.peak_deflection_m / length
         );
         // Rows far apart cannot tell how much a vibration leaves.
-        if let Some(residual) = residual(&rows, &scene, tick)?.value() {
+        if let Some(residual) = solved.residual {
             println!(
                 "  residual         {:.2} mm ({:.2} % of L) in a first period after arrival",
-                1e3 * residual * scene.arm.link.length,
+                1e3 * residual * length,
                 100.0 * residual
             );
         }
-        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Figures of a reference solution, for programs.
+#[derive(Serialize)]
+struct ReferenceReport {
+    /// The scene's name or file.
+    scene: String,
+    /// The solver in words.
+    solver: &'static str,
+    rows: usize,
+    /// Setpoint interval, to which durations are rounded.
+    tick_s: f64,
+    /// Interval of the rows.
+    every_s: f64,
+    /// Largest torque, N m; on a linear axis the largest force, N.
+    peak_effort: f64,
+    peak_deflection_m: f64,
+    /// Residual vibration, fraction of L. Absent if the hub does not end at rest.
+    residual: Option<f64>,
+}
+
+impl ReferenceReport {
+    fn of(
+        scene: &SceneFile,
+        solver: Reference,
+        [tick_s, every_s]: [f64; 2],
+        rows: &[Row],
+    ) -> Result<Self, Error> {
+        let peak = |of: fn(&Row) -> f64| rows.iter().map(of).map(f64::abs).fold(0.0, f64::max);
+        Ok(Self {
+            scene: scene.name.clone(),
+            solver: solver.describe(),
+            rows: rows.len(),
+            tick_s,
+            every_s,
+            peak_effort: peak(|row| row.torque_nm),
+            peak_deflection_m: peak(|row| row.deflection_m),
+            residual: residual(rows, scene, tick_s)?.value(),
+        })
     }
 }

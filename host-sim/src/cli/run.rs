@@ -39,6 +39,9 @@ pub struct RunArgs {
     /// File for a page with the mechanism drawn, of a mechanism
     #[arg(long, value_name = "OUT.html")]
     page: Option<PathBuf>,
+    /// Show the page in the browser, of a mechanism
+    #[arg(long)]
+    open: bool,
 }
 
 impl RunArgs {
@@ -53,10 +56,12 @@ impl RunArgs {
                 .csv
                 .as_deref()
                 .ok_or_else(|| Error::new("--csv: must be a file where a mechanism is run"))?;
-            let outputs = Outputs { csv, page: self.page.as_deref() };
+            let outputs = Outputs { csv, page: self.page.as_deref(), open: self.open };
+            outputs.check()?;
             return super::mechanism::run(&scene, keys, &outputs);
         }
         super::mechanism::refuse_for_arm("--page", self.page.is_some())?;
+        super::mechanism::refuse_for_arm("--open", self.open)?;
         super::mechanism::refuse_for_arm("--coordinates", self.coordinates.is_some())?;
         let scene = self.motion.open(&self.scene)?;
         let typed = SolverKeys { spin: self.no_spin.then_some(false), ..self.solver };
@@ -134,7 +139,7 @@ impl RunArgs {
 }
 
 /// Draws deflection and effort over time, if standard output is a terminal.
-fn draw(scene: &SceneFile, rows: &[Row]) {
+pub fn draw(scene: &SceneFile, rows: &[Row]) {
     let units = axis_units::of(scene.arm.mount.axis);
     let effort = format!("{}, {}", units.effort, units.effort_unit);
     let end = rows.last().map_or(0.0, |row| row.t_s);

@@ -11,6 +11,7 @@ mod covariance;
 mod doubts;
 pub mod forced;
 pub mod log;
+mod moving;
 pub mod page;
 mod panel;
 pub mod report;

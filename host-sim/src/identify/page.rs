@@ -2,6 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::moving;
 use super::panel::Panel;
 use super::report::{ModeReport, Report};
 use super::request::Identified;
@@ -44,9 +45,19 @@ pub fn text(title: &str, identified: &Identified) -> Result<String, Error> {
             }
         }
         (trust(report))
+        @if let Some(panel) = identified.panels.first() { (moves(panel, report)) }
         @for picture in &charts { figure { div.charts { (PreEscaped(picture)) } } }
     };
     Ok(page(title, &body))
+}
+
+fn moves(panel: &Panel, report: &Report) -> Markup {
+    let animation = moving::animation(panel, report);
+    animation.figure(&html! {
+        "The arm " (animation.speed()) ", over and over: deflected as the sensor of " (panel.log)
+        " shows, and as the fit does. The sensor\u{2019}s largest reading is drawn as a fifth of the \
+         length."
+    })
 }
 
 fn modes(modes: &[ModeReport]) -> Markup {
@@ -110,7 +121,7 @@ fn trust(report: &Report) -> Markup {
 
 fn panel_charts(panel: &Panel, report: &Report) -> Result<Vec<String>, Error> {
     let unit = &report.unit;
-    let Panel { log, time, measured, fitted } = panel;
+    let Panel { log, time, measured, fitted, .. } = panel;
     let curve = |values: &[f64]| thinned(time, values);
     let pair = |title: String, from: f64, to: f64| {
         let inside = |values: &[f64]| {

@@ -10,6 +10,8 @@ pub struct Panel {
     pub log: String,
     /// Times from the first row, s.
     pub time: Vec<f64>,
+    /// Hub angle at those times, rad. Empty where the log has none.
+    pub hub: Vec<f64>,
     /// The sensor.
     pub measured: Vec<f64>,
     /// The model.
@@ -23,6 +25,7 @@ impl Panel {
         Self {
             log: name.clone(),
             time: time.iter().map(|t| begin + t).collect(),
+            hub: Vec::new(),
             measured: value.as_slice().to_vec(),
             fitted: (value - &ringdown.solution.residual).as_slice().to_vec(),
         }
@@ -34,6 +37,7 @@ impl Panel {
         Self {
             log: record.name.clone(),
             time: record.time.clone(),
+            hub: record.hub.clone(),
             measured: measured.as_slice().to_vec(),
             fitted: fitted.as_slice().to_vec(),
         }

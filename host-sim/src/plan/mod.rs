@@ -4,7 +4,7 @@
 pub mod comparison;
 pub mod judge;
 pub mod kept;
-mod moving;
+pub mod moving;
 pub mod options;
 pub mod page;
 pub mod picture;

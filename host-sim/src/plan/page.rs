@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use maud::{PreEscaped, html};
+use maud::html;
 
 use super::judge::{Judgement, Motion};
 use super::{Planned, Request, moving, shortest};
@@ -18,8 +18,7 @@ use stillbeam::planner::ShortestMove;
 use stillbeam::{Move, Profile};
 
 /// Writes `index.html`, a picture for each chart, the one that moves (`moving.svg`, of an arm that
-/// turns and bends by no more than two modes follow), and `plan.csv` into a folder. Returns the
-/// page's path.
+/// turns), and `plan.csv` into a folder. Returns the page's path.
 pub fn write(
     folder: &Path,
     name: &str,
@@ -28,8 +27,7 @@ pub fn write(
 ) -> Result<PathBuf, Error> {
     let quintic = quintic(request, planned)?;
     let charts = charts(request, planned, &quintic);
-    let left = [quintic.residual, planned.judgement.residual];
-    let moving = moving::picture(request, &planned.plan, left)?;
+    let moving = moving::animation(request, &quintic, &planned.judgement);
     let caption = html! {
         "The commanded motion, what the tip of the reference rod does with it and after it, and what \
          is left where the arm's frequency is not what the plan was made for. Dashed: a quintic of \
@@ -39,13 +37,11 @@ pub fn write(
     let body = html! {
         header { h1 { "A move that arrives still" } p.lead { (name) } }
         @if let Some(moving) = &moving {
-            figure {
-                (PreEscaped(moving))
-                figcaption {
-                    "Both arms in real time, over and over: what a quintic of the same duration leaves, and \
-                     what the still move does. Dashed: where the arm shall rest."
-                }
-            }
+            (moving.figure(&html! {
+                "Both arms " (moving.speed()) ", over and over: what a quintic of the same duration \
+                 leaves, and what the still move does. Dashed: where the arm shall rest. "
+                a href="moving.svg" { "The picture as a file" } "."
+            }))
         }
         (figure(&named, &caption, "plan.csv")?)
     };
@@ -56,7 +52,8 @@ pub fn write(
         files.add(&path, |file| file.write_all(svg.as_bytes()))?;
     }
     if let Some(moving) = &moving {
-        files.add(&folder.join("moving.svg"), |file| file.write_all(moving.as_bytes()))?;
+        let svg = moving.svg();
+        files.add(&folder.join("moving.svg"), |file| file.write_all(svg.as_bytes()))?;
     }
     let rows: Vec<Vec<f64>> = planned
         .judgement

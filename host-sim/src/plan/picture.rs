@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use stillbeam::Scene;
 
 use super::comparison::{self, Entry};
-use super::judge;
+use super::{judge, moving as moving_arm};
+use crate::animation::{Animation, Ink};
 use crate::error::Error;
 use crate::plot::{Axis, Chart, Colour, Dash, Series};
 
@@ -122,6 +123,15 @@ pub fn swing(entries: &[Entry], duration: f64, length: f64) -> Chart {
     .sized(760, 400)
     .mark(duration, "hub stops")
     .with_all(swung(entries).filter_map(line))
+}
+
+/// Draws the arms of [`swing`] as they move to the hub angle `to`, rad, side by side.
+pub fn moving(entries: &[Entry], arm: &Scene, to: f64) -> Option<Animation> {
+    let inks = [Ink::Vermilion, Ink::Orange, Ink::Blue];
+    let motions = swung(entries)
+        .zip(inks)
+        .filter_map(|(entry, ink)| Some((Style::of(&entry.name)?.label, ink, entry.nominal())));
+    moving_arm::side_by_side(arm, to, motions)
 }
 
 /// Returns the motions of [`swing`].

@@ -4,6 +4,7 @@ use maud::html;
 
 use super::Section;
 use super::parts::{figure, percent};
+use crate::animation::{Animation, Arm, INTERVALS, Ink, Panel, Pose};
 use crate::error::Error;
 use crate::plot::{Axis, Chart, Colour, Dash, Marker, Series};
 use crate::study::{Run, Study};
@@ -39,8 +40,39 @@ pub(super) fn section(study: &Study) -> Result<Section, Error> {
         " of L, is that of the swing after the hub has stopped; the path leaves the circle there \
          because a bent link is also a shorter one."
     };
-    let body = html! { (figure(&[chart], &caption, "fig1-tip-path.csv")?) };
+    let moving = moving(rigid, flexible);
+    let body = html! {
+        (moving.figure(&html! {
+            "The same move " (moving.speed()) ", over and over. Dashed: where the link shall rest."
+        }))
+        (figure(&[chart], &caption, "fig1-tip-path.csv")?)
+    };
     Ok(Section { id: "fig1", title: "Fig. 1: rigid and flexible tip path", body })
+}
+
+/// Draws the flexible link over the rigid one.
+fn moving(rigid: &Run, flexible: &Run) -> Animation {
+    let link = flexible.scene.arm.link;
+    let seconds = flexible.rows.last().map_or(0.0, |row| row.t_s);
+    let arm = |label: &str, ink, run: &Run| {
+        let samples = run.rows.iter().map(|row| (row.t_s, row.hub_angle_rad, row.deflection_m));
+        Arm { label: label.to_owned(), ink, poses: Pose::evenly(samples, seconds, INTERVALS) }
+    };
+    let arms =
+        vec![arm("rigid link", Ink::Grey, rigid), arm("flexible link", Ink::Vermilion, flexible)];
+    Animation {
+        label: "A rigid and a flexible link along the same move".to_owned(),
+        radius: flexible.scene.arm.hub.radius,
+        length: link.length,
+        goal: flexible.rows.last().map(|row| row.hub_angle_rad),
+        quantity: "deflection, mm".to_owned(),
+        factor: 1e3,
+        seconds,
+        panels: vec![Panel {
+            arms,
+            remark: format!("up to {} of L off", percent(flexible.peak(), 0)),
+        }],
+    }
 }
 
 fn path(run: &Run) -> Vec<(f64, f64)> {

@@ -2,12 +2,14 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::animation;
 use crate::error::Error;
 use crate::number::{self, Digits};
 use crate::plot::Chart;
 
-/// Returns a whole self-contained page.
+/// Returns a whole self-contained page, with the script of the animations if it holds any.
 pub fn page(title: &str, body: &Markup) -> String {
+    let is_moving = body.0.contains(&format!("<figure class=\"{}\"", animation::CLASS));
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -17,7 +19,10 @@ pub fn page(title: &str, body: &Markup) -> String {
                 title { (title) }
                 style { (PreEscaped(include_str!("style.css"))) }
             }
-            body { (body) }
+            body {
+                (body)
+                @if is_moving { script { (PreEscaped(animation::CONTROL)) } }
+            }
         }
     };
     page.into_string()

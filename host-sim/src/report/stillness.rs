@@ -1,5 +1,7 @@
 //! Still moves compared with the usual ones in the same time.
 
+use std::f64::consts::PI;
+
 use maud::html;
 
 use super::Section;
@@ -25,6 +27,7 @@ pub(super) fn section(study: &Study) -> Result<Section, Error> {
         " Largest deflection within a first period after the move, the arm\u{2019}s frequency off \
          by so much. The robust move is planned for three arms at once."
     };
+    let moving = picture::moving(&found.entries, &found.arm, PI);
     let row = |entry: &Entry| entry.cells(found.duration);
     let table = Table {
         caption: "Residual in % of L where the arm\u{2019}s frequency is off by so much. Shapers \
@@ -42,6 +45,11 @@ pub(super) fn section(study: &Study) -> Result<Section, Error> {
              angle is a quintic with a bulge, and the bulge is what leaves the arm\u{2019}s exact \
              rod, flown through the move on the microcontroller, without vibration. \
              Every motion below takes the same time."
+        }
+        @if let Some(moving) = &moving {
+            (moving.figure(&html! {
+                "The three arms " (moving.speed()) ", over and over. Dashed: where they shall rest."
+            }))
         }
         (figure(&[swing], &swing_caption, "stillness-swing.csv")?)
         (figure(&[picture::sensitivity(&found.curves)], &curves_caption, "stillness.csv")?)

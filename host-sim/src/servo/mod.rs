@@ -19,6 +19,7 @@ pub mod judge;
 pub mod machine;
 mod machine_file;
 pub mod moteus;
+pub mod moving;
 pub mod odrive;
 pub mod page;
 pub mod setpoints;

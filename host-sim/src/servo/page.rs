@@ -6,7 +6,7 @@ use maud::html;
 
 use super::between::Interpolator;
 use super::trials::{Outcome, Report};
-use super::{Between, Target};
+use super::{Between, Target, moving};
 use crate::error::Error;
 use crate::number::Digits;
 use crate::output::Files;
@@ -42,7 +42,8 @@ pub fn cells(outcome: &Outcome) -> Vec<String> {
     ]
 }
 
-/// Writes `index.html`, its pictures and `drive.csv`, the hub's errors over time, into a folder.
+/// Writes `index.html`, its pictures, the one that moves (`moving.svg`) among them, and `drive.csv`,
+/// the hub's errors over time, into a folder.
 /// Returns the page's path.
 ///
 /// # Errors
@@ -63,6 +64,7 @@ pub fn write(folder: &Path, title: &str, report: &Report) -> Result<PathBuf, Err
         rows: report.outcomes.iter().map(cells).collect(),
         key: None,
     };
+    let moving = moving::animation(report);
     let caption = html! {
         "The hub against its command, what the tip does, the motor's torque, and what a drive does \
          between two setpoints."
@@ -71,6 +73,11 @@ pub fn write(folder: &Path, title: &str, report: &Report) -> Result<PathBuf, Err
     let body = html! {
         header { h1 { "What feed-forward is worth" } p.lead { (title) } }
         p { (report.conclusion()) "." }
+        (moving.figure(&html! {
+            "The arm behind the drive " (moving.speed()) ", over and over, with less and with more that is \
+             sent. Dashed: where it shall rest. "
+            a href="moving.svg" { "The picture as a file" } "."
+        }))
         (rows.markup())
         (figure(&named, &caption, "drive.csv")?)
     };
@@ -80,6 +87,8 @@ pub fn write(folder: &Path, title: &str, report: &Report) -> Result<PathBuf, Err
         let path = folder.join(file).with_extension("svg");
         files.add(&path, |file| file.write_all(svg.as_bytes()))?;
     }
+    let svg = moving.svg();
+    files.add(&folder.join("moving.svg"), |file| file.write_all(svg.as_bytes()))?;
     add_errors(&mut files, &folder.join("drive.csv"), report)?;
     let path = folder.join("index.html");
     let text = page(title, &body);
@@ -123,20 +132,18 @@ fn drawn(report: &Report, of: &dyn Fn(&Outcome) -> Vec<(f64, f64)>) -> Vec<Serie
         .collect()
 }
 
+/// Returns the hub's error over time, (s, rad): its angle less the command, later by the drive's
+/// lag.
+pub fn hub_error(report: &Report, outcome: &Outcome) -> Vec<(f64, f64)> {
+    let shift = (4.0 * outcome.lag / report.tick).round() as usize;
+    let late: Vec<f64> = report.commanded.angles(0.0).map(|(_, angle)| angle).collect();
+    let shown = outcome.trace.shown.iter().enumerate();
+    shown.filter_map(|(k, s)| Some((s.t, s.angle - late.get(k.saturating_sub(shift))?))).collect()
+}
+
 /// Draws the hub's error over time.
 pub fn hub(report: &Report) -> Chart {
-    let error = |outcome: &Outcome| {
-        let commanded = report.commanded.angles(0.0);
-        let shift = (4.0 * outcome.lag / report.tick).round() as usize;
-        let late: Vec<f64> = commanded.map(|(_, angle)| angle).collect();
-        outcome
-            .trace
-            .shown
-            .iter()
-            .enumerate()
-            .filter_map(|(k, s)| Some((s.t, s.angle - late.get(k.saturating_sub(shift))?)))
-            .collect()
-    };
+    let error = |outcome: &Outcome| hub_error(report, outcome);
     Chart::new("Hub behind its command", Axis::tight("time, s"), Axis::linear("hub error, rad"))
         .sized(760, 400)
         .mark(report.commanded.arrival(), "arrival")

@@ -61,6 +61,8 @@ pub struct Outcome {
 /// All trials of a scene on a machine.
 #[derive(Clone, Debug)]
 pub struct Report {
+    /// The arm of the scene.
+    pub arm: Scene,
     /// The rows, in the order of the table.
     pub outcomes: Vec<Outcome>,
     /// The commanded motion of the scene's own moves.
@@ -182,7 +184,8 @@ impl Report {
             })
             .collect::<Result<Vec<_>, Error>>()?;
         let tick = plain.setpoints.tick;
-        Ok(Self { outcomes, commanded: plain.commanded, tick, no_still: stilled.err() })
+        let (arm, no_still) = (scene.arm, stilled.err());
+        Ok(Self { arm, outcomes, commanded: plain.commanded, tick, no_still })
     }
 
     /// Returns the outcome of a trial, if it was made.

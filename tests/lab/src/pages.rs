@@ -25,6 +25,16 @@ pub struct Page {
     source: Source,
 }
 
+/// What is computed for a page.
+struct Computed {
+    blocks: Vec<Block>,
+    /// Pictures that cost nothing beside the blocks: the name beside the page, and the SVG.
+    pictures: Vec<(&'static str, String)>,
+}
+
+/// Picture beside `docs/still.md` that moves. README shows it.
+const MOVING: &str = "still-moving.svg";
+
 /// Computation of the blocks of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
@@ -144,14 +154,25 @@ impl Pages {
         Self { root: root.to_owned(), rows: OnceCell::new(), findings: OnceCell::new() }
     }
 
-    /// Compares a page with the same page written now.
+    /// Compares a page, and its pictures that are drawn from the same data, with the same written
+    /// now.
     ///
     /// # Errors
     /// An error is returned if the page cannot be read or has no place for a block, or if a
     /// computation fails.
     pub fn check(&self, page: &Page) -> Result<Option<Difference>, Error> {
-        let (text, filled) = self.filled(page)?;
-        Ok(markers::difference(&text, &filled))
+        let (text, filled, pictures) = self.filled(page)?;
+        let found = markers::difference(&text, &filled);
+        if found.is_some() {
+            return Ok(found);
+        }
+        for (path, now) in pictures {
+            if read(&path)? != now {
+                let (line, new) = (1, Some("drawn differently".to_owned()));
+                return Ok(Some(Difference { line, old: Some(path.display().to_string()), new }));
+            }
+        }
+        Ok(None)
     }
 
     /// Writes a page and its pictures, all or none. Returns the paths that were written.
@@ -159,10 +180,13 @@ impl Pages {
     /// # Errors
     /// Errors are those of [`check`](Self::check), and that of a path that cannot be written.
     pub fn write(&self, page: &Page) -> Result<Vec<PathBuf>, Error> {
-        let (_, filled) = self.filled(page)?;
+        let (_, filled, pictures) = self.filled(page)?;
         let path = self.root.join(page.path);
         let mut files = Files::default();
         files.add(&path, |file| file.write_all(filled.as_bytes()))?;
+        for (path, svg) in &pictures {
+            files.add(path, |file| file.write_all(svg.as_bytes()))?;
+        }
         match page.source {
             Source::Still => {
                 with_bar("pictures", still::document::PICTURE_STEPS as u64, |done| {
@@ -183,30 +207,38 @@ impl Pages {
         files.finish()
     }
 
-    /// Returns a page as it stands, and with its blocks as they are now.
-    fn filled(&self, page: &Page) -> Result<(String, String), Error> {
+    /// Returns a page as it stands, with its blocks as they are now, and its pictures.
+    fn filled(&self, page: &Page) -> Result<(String, String, Vec<(PathBuf, String)>), Error> {
         let path = self.root.join(page.path);
         let text = read(&path)?;
         has_places(&path, &text, page.blocks.iter().copied())?;
-        let blocks = self.blocks(page, &text)?;
+        let Computed { blocks, pictures } = self.compute(page, &text)?;
         let filled = filled(&path, &text, &blocks)?;
-        Ok((text, filled))
+        let placed = pictures.into_iter().map(|(name, svg)| (path.with_file_name(name), svg));
+        Ok((text, filled, placed.collect()))
     }
 
-    fn blocks(&self, page: &Page, text: &str) -> Result<Vec<Block>, Error> {
+    fn compute(&self, page: &Page, text: &str) -> Result<Computed, Error> {
+        let mut pictures = Vec::new();
         let all = match page.source {
             Source::Figures => figures::blocks(&self.root)?,
             Source::Tables => tables::blocks(self.rows()?),
-            Source::Still => with_bar("reference rod", still::document::STEPS as u64, |done| {
-                still::document::blocks(&|| done(1))
-            })?,
+            Source::Still => {
+                let still::document::Document { blocks, moving } =
+                    with_bar("reference rod", still::document::STEPS as u64, |done| {
+                        still::document::compute(&|| done(1))
+                    })?;
+                pictures.push((MOVING, moving));
+                blocks
+            }
             Source::Stability => self.findings()?.blocks(),
             Source::Auto => choice::blocks(text)?,
             Source::Drive => with_bar("drives", plant::page::STEPS as u64, |done| {
                 plant::page::blocks(&|| done(1))
             })?,
         };
-        Ok(all.into_iter().filter(|block| page.blocks.contains(&block.name.as_str())).collect())
+        let known = |block: &Block| page.blocks.contains(&block.name.as_str());
+        Ok(Computed { blocks: all.into_iter().filter(known).collect(), pictures })
     }
 
     fn rows(&self) -> Result<&[Row], Error> {

@@ -5,12 +5,13 @@ use std::fmt::Write;
 use stillbeam::axis::{Axis, Cause, Change, Policy, StopLimits, Tick};
 use stillbeam::drive::{cia402, moteus, odrive};
 use stillbeam::model::Rod;
+use stillbeam::motion::optimal::Bounds;
 use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::motor::{Direction, Drivetrain, Joint, Ratio};
 use stillbeam::planner::Planner;
 use stillbeam::stepper::{Elastica2, Quality};
 use stillbeam::{
-    Angle, Damping, Hub, HubState, Limits, Link, Payload, PlainMove, PlannedMove, Profile,
+    Angle, Damping, Hub, HubState, Limits, Link, Move, Payload, PlainMove, PlannedMove, Profile,
     UniformScene,
 };
 
@@ -86,6 +87,12 @@ impl Run {
         let begins = self.axis.take(planned).expect("room");
         let ticks = planned.summary().ticks;
         writeln!(self.printed, "accepted {begins} {ticks}").expect("a string");
+    }
+
+    fn reach(&mut self, motion: impl FnOnce(Bounds) -> Move) {
+        let bounds = Bounds { rate: 6.0, acceleration: 40.0, deceleration: 30.0, jerk: 2000.0 };
+        let context = self.axis.plan_context().expect("an enabled axis");
+        self.take(&context.plan(&motion(bounds)).expect("a move within the limits"));
     }
 
     fn go(&mut self, motion: PlainMove) {
@@ -195,6 +202,10 @@ impl Run {
         self.tick(5);
         self.follow();
         self.enable(0.0);
+        self.reach(|bounds| Move::Reach { to: 0.8, rate: 0.5, bounds });
+        self.tick(50);
+        self.reach(|bounds| Move::Ramp { rate: 0.0, bounds });
+        self.tick(10);
         self.go(to(Profile::Cycloid, 0.5, 1.5));
         self.tick(10);
         self.axis.missed(3);

@@ -55,6 +55,20 @@ static void move(int32_t kind, int32_t profile, double duration, double to, doub
     printf("accepted %" PRIu32 " %" PRIu32 "\n", accepted.begins, accepted.ticks);
 }
 
+static void reach(int32_t kind, double to, double rate)
+{
+    const sb_reach_request request = {.kind = kind,
+                                      .to = to,
+                                      .rate = rate,
+                                      .max_rate = 6.0,
+                                      .max_acceleration = 40.0,
+                                      .max_deceleration = 30.0,
+                                      .max_jerk = 2000.0};
+    sb_accepted accepted;
+    need(&arm, sb_reach(&arm, &request, &accepted));
+    printf("accepted %" PRIu32 " %" PRIu32 "\n", accepted.begins, accepted.ticks);
+}
+
 /* Rows of a path in two calls, and in more where the queue is full. */
 static void waypoints(void)
 {
@@ -175,6 +189,10 @@ int main(void)
     tick(5);
     follow(0.0f);
     need(&arm, sb_enable(&arm, 0.0));
+    reach(SB_KIND_TO, 0.8, 0.5);
+    tick(50);
+    reach(SB_KIND_SPIN_UP, 0.0, 0.0);
+    tick(10);
     move(SB_KIND_TO, SB_PROFILE_CYCLOID, 0.5, 1.5, 0.0);
     tick(10);
     need(&arm, sb_missed(&arm, 3));

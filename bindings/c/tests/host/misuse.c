@@ -58,6 +58,7 @@ static const sb_setup SETUP = {.abi = SB_ABI,
                                .missed = 2};
 static const sb_scene SCENE = {.length = 0.4, .mass = 0.0224, .bending_stiffness = 0.46};
 static const sb_move_request MOVE = {.profile = SB_PROFILE_QUINTIC, .duration = 0.4, .to = 1.0};
+static const sb_reach_request REACH = {.to = 1.0, .max_rate = 5.0, .max_acceleration = 40.0};
 
 static sb_status init(sb_arm *to, const sb_setup *setup)
 {
@@ -114,6 +115,7 @@ static void not_initialised(int pattern)
     const char *text = "object = not initialised: call its init function first";
     EXPECT(arm, sb_enable(arm, 0.0), NOT_INITIALISED, text);
     EXPECT(arm, sb_move(arm, &MOVE, NULL), NOT_INITIALISED, text);
+    EXPECT(arm, sb_reach(arm, &REACH, NULL), NOT_INITIALISED, text);
     EXPECT(arm, sb_still(arm, planner, 0.0, 0.0, NULL), NOT_INITIALISED, text);
     EXPECT(arm, sb_waypoints(arm, path, NULL, 0, 0, NULL), NOT_INITIALISED, text);
     EXPECT(arm, sb_retarget(arm, 0.0, 0.0, 1.0), NOT_INITIALISED, text);
@@ -220,6 +222,16 @@ static void requests(void)
     EXPECT(arm, sb_move(arm, &move, NULL), OUT_OF_RANGE, "move.duration = NaN: must be");
     move.duration = 0.05;
     EXPECT(arm, sb_move(arm, &move, NULL), LIMIT, "limits.rate: the move needs");
+    sb_reach_request reach = REACH;
+    EXPECT(arm, sb_reach(arm, NULL, NULL), NULL, "reach = NULL");
+    reach.kind = 2;
+    EXPECT(arm, sb_reach(arm, &reach, NULL), OUT_OF_RANGE, "reach.kind = 2: must be 0 to 1");
+    reach = REACH;
+    reach.max_rate = 0.0;
+    EXPECT(arm, sb_reach(arm, &reach, NULL), OUT_OF_RANGE, "bounds.rate = 0: must be");
+    reach = REACH;
+    reach.rate = 2.0 * reach.max_rate;
+    EXPECT(arm, sb_reach(arm, &reach, NULL), LIMIT, "limits.rate");
     EXPECT(arm, sb_retarget(arm, (double)INFINITY, 0.0, 1.0), OUT_OF_RANGE, "target.angle = inf");
     EXPECT(arm, sb_retarget(arm, 0.0, (double)NAN, 1.0), OUT_OF_RANGE, "target.rate = NaN");
     for (int i = 0; i < 8; i++) {

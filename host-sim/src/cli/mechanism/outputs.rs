@@ -8,13 +8,19 @@ use stillbeam_sim::mechanism::{MechanismScene, page};
 use stillbeam_sim::output::Files;
 use stillbeam_sim::println;
 
-/// Where a run goes: its table, and a page if one is asked for.
+/// Where a run goes: its table, and a page if one is asked for, which may be shown.
 pub struct Outputs<'a> {
     pub csv: &'a Path,
     pub page: Option<&'a Path>,
+    pub open: bool,
 }
 
 impl Outputs<'_> {
+    /// Refuses a page that is to be shown and is not written.
+    pub fn check(&self) -> Result<(), Error> {
+        crate::cli::refuse_to_open(self.open, self.page, "--page OUT.html")
+    }
+
     /// Writes table and page, both or none. `solver` says what made the rows.
     pub fn write(&self, scene: &MechanismScene, solver: &str, rows: &[Row]) -> Result<(), Error> {
         let mut files = Files::default();
@@ -26,7 +32,7 @@ impl Outputs<'_> {
         files.finish().map(drop)
     }
 
-    /// Prints the files' names and the peaks of the run.
+    /// Prints the files' names and the peaks of the run, and shows the page.
     pub fn print(&self, scene: &MechanismScene, rows: &[Row]) {
         println!("  {} rows to {}", rows.len(), self.csv.display());
         if let Some(path) = self.page {
@@ -42,6 +48,9 @@ impl Outputs<'_> {
                 1e3 * bent,
                 100.0 * bent / link.length
             );
+        }
+        if let Some(page) = self.page.filter(|_| self.open) {
+            crate::cli::show(page);
         }
     }
 }

@@ -1,7 +1,6 @@
 //! `plan` on a mechanism.
 
-use std::path::Path;
-use std::process::ExitCode;
+use std::path::{Path, PathBuf};
 
 use stillbeam::Limits;
 use stillbeam_sim::error::Error;
@@ -18,7 +17,7 @@ pub fn plan(
     duration: Option<f64>,
     limits: Vec<Limits>,
     out: &Path,
-) -> Result<ExitCode, Error> {
+) -> Result<PathBuf, Error> {
     let joints = &scene.mechanism.joints;
     let from = from.unwrap_or_else(|| joints.iter().map(|joint| joint.angle).collect());
     let request = Request { scene, from, to, duration, limits };
@@ -32,7 +31,7 @@ pub fn plan(
     files.finish()?;
     print(&request, &planned);
     println!("  {}", path.display());
-    Ok(ExitCode::SUCCESS)
+    Ok(path)
 }
 
 fn print(request: &Request<'_>, planned: &Planned) {

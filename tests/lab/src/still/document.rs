@@ -1,4 +1,4 @@
-//! Writes the tables and the picture of `docs/still.md`.
+//! Writes the tables and the pictures of `docs/still.md`.
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -28,17 +28,29 @@ const RATIOS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
 /// Durations of the comparison of motions, first periods.
 const CONTEST: [f64; 3] = [1.5, 2.0, 3.0];
 
+/// Duration of the picture that moves, first periods: one of the comparison.
+const SHOWN: f64 = CONTEST[1];
+
 /// Bands of the table of robust moves.
 const SPREADS: [f64; 2] = [0.05, 0.15];
 
-/// Steps of [`blocks`], for a progress bar.
+/// Steps of [`compute`], for a progress bar.
 pub const STEPS: usize = 112;
 
 /// Steps of [`pictures`].
 pub const PICTURE_STEPS: usize = 28;
 
-/// Returns all blocks between markers, by name.
-pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<Block>, Error> {
+/// The page's tables, and the picture that moves.
+pub struct Document {
+    /// All blocks between markers, by name.
+    pub blocks: Vec<Block>,
+    /// The arm along three of the motions of the comparison in two first periods, as SVG.
+    pub moving: String,
+}
+
+/// Computes the tables and the picture that moves.
+pub fn compute(done: &(dyn Fn() + Sync)) -> Result<Document, Error> {
+    let mut moving = String::new();
     let mut blocks = vec![Block::new("residual", residuals(done)?)];
     let arm = arm("a-tip30")?;
     let period = rod::first_period(&arm)?;
@@ -46,10 +58,14 @@ pub fn blocks(done: &(dyn Fn() + Sync)) -> Result<Vec<Block>, Error> {
         let duration = (ratio * period / TICK).round() * TICK;
         let entries = comparison::entries(&arm, PI, duration, TICK, done)?;
         blocks.push(Block::new(format!("contest-{ratio}"), contest_table(&entries, duration)));
+        if ratio == SHOWN {
+            let picture = picture::moving(&entries, &arm, PI);
+            moving = picture.map(|picture| picture.svg()).unwrap_or_default();
+        }
     }
     blocks.push(Block::new("robust", robust_table(done)?));
     blocks.push(Block::new("durations", duration_table(&arm, period)?));
-    Ok(blocks)
+    Ok(Document { blocks, moving })
 }
 
 fn arm(scene: &str) -> Result<Scene, Error> {

@@ -1,0 +1,45 @@
+//! The arm behind the drive, with less and with more of the setpoints sent.
+
+use super::bench::Feed;
+use super::trials::{Outcome, Report, Trial};
+use crate::animation::{Animation, Arm, INTERVALS, Ink, Panel, Pose};
+use crate::number::{Digits, percent};
+
+/// Draws the arm with positions alone, with all that can be sent, and with a still move, side by
+/// side. A trial that was not made is left out.
+pub fn animation(report: &Report) -> Animation {
+    let shown = [
+        (Trial { feed: Feed::POSITION, ..Trial::PLAIN }, Ink::Vermilion),
+        (Trial::PLAIN, Ink::Orange),
+        (Trial::STILL, Ink::Blue),
+    ];
+    let made: Vec<(&Outcome, Ink)> =
+        shown.iter().filter_map(|(trial, ink)| Some((report.find(trial)?, *ink))).collect();
+    let ends = made.iter().filter_map(|(outcome, _)| outcome.trace.shown.last());
+    let seconds = ends.map(|shown| shown.t).fold(0.0, f64::max);
+    let goal = report.commanded.angles(0.0).last().map(|(_, angle)| angle);
+    Animation {
+        label: "The arm behind the drive".to_owned(),
+        radius: report.arm.hub.radius,
+        length: report.arm.link.length,
+        goal,
+        quantity: "deflection, mm".to_owned(),
+        factor: 1e3,
+        seconds,
+        panels: made.iter().map(|(outcome, ink)| panel(outcome, *ink, seconds)).collect(),
+    }
+}
+
+fn panel(outcome: &Outcome, ink: Ink, seconds: f64) -> Panel {
+    let samples = outcome.trace.shown.iter().map(|shown| (shown.t, shown.angle, shown.deflection));
+    let left = percent(outcome.judged.residual, 1.0, Digits::Three);
+    let behind = Digits::Three.show(1e3 * outcome.judged.hub);
+    Panel {
+        arms: vec![Arm {
+            label: outcome.trial.describe(),
+            ink,
+            poses: Pose::evenly(samples, seconds, INTERVALS),
+        }],
+        remark: format!("hub off by {behind} mrad; {left} of L left"),
+    }
+}
