@@ -2,10 +2,12 @@
 
 use super::queue::JointQueue;
 use super::stop::Stop;
-use super::{Chain, ChainState, Command};
+use super::{Chain, ChainState, Command, JointState};
 use crate::Error;
 use crate::generator::Setpoint;
+use crate::hub::Angle;
 use crate::math::Scalar;
+use crate::mechanism::of_joint;
 use crate::motion::{Limits, MoveSummary, Plannable};
 
 /// Setpoints of all joints, one every tick, with the places that follow from them.
@@ -86,7 +88,7 @@ impl<
     /// A joint that does not exist or has no motor, or a limit of torque or moment, which a
     /// generator cannot keep.
     pub fn limit(&mut self, joint: usize, limits: Limits) -> Result<(), Error> {
-        self.driven("limits.joint", joint)?.limit(limits)
+        self.driven("limits.joint", joint)?.limit(limits).map_err(|error| of_joint(error, joint))
     }
 
     /// Plans a move of `joint`, counted from 0, behind its others. Runs in f64 and is not for the
@@ -145,12 +147,10 @@ impl<
             let [third, end] = self.stopping_commands(stop);
             return core::array::from_fn(|j| Command { third: third[j], end: end[j] });
         }
-        let commands = core::array::from_fn(|j| {
-            let queue = &self.queues[j];
-            Command { third: queue.at(self.third), end: queue.at(T::ONE) }
-        });
-        for queue in &mut self.queues {
-            queue.advance();
+        let still = JointState::at_rest(Angle { turns: 0, part: T::ZERO });
+        let mut commands = [Command { third: still, end: still }; LINKS];
+        for (queue, command) in self.queues.iter_mut().zip(&mut commands) {
+            *command = queue.next_command(self.third);
         }
         commands
     }
@@ -189,7 +189,6 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// Setpoints for a state.
     #[inline(always)]
     pub fn setpoint(&self, state: &ChainState<T, LINKS, W>) -> ChainSetpoint<T, LINKS> {
-        let pose = self.pose_of(state);
         ChainSetpoint {
             joints: core::array::from_fn(|j| {
                 let joint = &state.joints[j];
@@ -198,10 +197,10 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
                     rate: joint.rate,
                     acceleration: joint.acceleration,
                     torque: state.torque[j],
-                    tip: self.model.reach(j, &pose[j]),
+                    tip: state.tips[j],
                 }
             }),
-            ends: self.model.places(&pose),
+            ends: state.ends,
         }
     }
 }
