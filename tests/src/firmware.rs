@@ -14,6 +14,10 @@ pub const TARGET: &str = "thumbv7em-none-eabihf";
 /// Target of a processor without floating-point unit, for the bench.
 pub const SOFT_TARGET: &str = "thumbv7m-none-eabi";
 
+/// Target of the smallest processors, Cortex-M0 and M0+: without floating-point unit and without
+/// division. A Cortex-M3 runs its code too.
+pub const SMALLEST_TARGET: &str = "thumbv6m-none-eabi";
+
 /// Path of an image, or cargo's messages.
 type Built = Result<PathBuf, String>;
 
@@ -46,6 +50,14 @@ pub fn build(bin: &str) -> Built {
 /// Errors are those of [`build`].
 pub fn build_soft(bin: &str) -> Built {
     build_variant(SOFT_TARGET, bin, None)
+}
+
+/// Builds the program `bin` for the smallest processors.
+///
+/// # Errors
+/// Errors are those of [`build`].
+pub fn build_smallest(bin: &str) -> Built {
+    build_variant(SMALLEST_TARGET, bin, None)
 }
 
 /// Builds `bin` with one environment variable, on which the program's source depends.

@@ -33,13 +33,9 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
     pub fn new(configuration: &Configuration, stepper: S) -> Result<Self, Error> {
         let Configuration { scene, policy, joint, direction, zero, node } = *configuration;
         let origin = Angle { turns: 0, part: 0.0 };
-        Ok(Self {
-            scene,
-            axis: Axis::new(stepper, origin, policy)?,
-            train: Drivetrain::new(&joint, direction, zero)?,
-            measured: None,
-            node: Node::new(node)?,
-        })
+        // The axis last: what is large then need not wait on the stack for what may be refused.
+        let (train, node) = (Drivetrain::new(&joint, direction, zero)?, Node::new(node)?);
+        Ok(Self { scene, axis: Axis::new(stepper, origin, policy)?, train, measured: None, node })
     }
 
     /// Returns the drive's node.

@@ -3,6 +3,10 @@
 /// A value that is written as 32-bit words and read back to the bit: what a prepared arm is made
 /// of.
 pub trait Words: Sized {
+    /// Hash of the type's layout: names and types of all fields in their order. Words of another
+    /// layout are those of another version of the program.
+    const LAYOUT: u32;
+
     /// Hands the words of the value to `sink`, first to last.
     fn put(&self, sink: &mut dyn FnMut(u32));
 
@@ -10,7 +14,29 @@ pub trait Words: Sized {
     fn get(source: &mut dyn FnMut() -> u32) -> Self;
 }
 
+/// Mixes a word into a hash (FNV-1a, by words).
+pub(crate) const fn mix(hash: u32, word: u32) -> u32 {
+    (hash ^ word).wrapping_mul(0x0100_0193)
+}
+
+/// Hash of a name.
+pub(crate) const fn named(name: &str) -> u32 {
+    let (bytes, mut hash, mut i) = (name.as_bytes(), 0x811c_9dc5, 0);
+    while i < bytes.len() {
+        hash = mix(hash, bytes[i] as u32);
+        i += 1;
+    }
+    hash
+}
+
+/// Layout of a field's type, which is found from how the field is reached.
+pub(crate) const fn layout_of<S, T: Words>(_: fn(&S) -> &T) -> u32 {
+    T::LAYOUT
+}
+
 impl Words for u32 {
+    const LAYOUT: u32 = named("u32");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(*self);
     }
@@ -21,6 +47,8 @@ impl Words for u32 {
 }
 
 impl Words for bool {
+    const LAYOUT: u32 = named("bool");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(u32::from(*self));
     }
@@ -31,6 +59,8 @@ impl Words for bool {
 }
 
 impl Words for f32 {
+    const LAYOUT: u32 = named("f32");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(self.to_bits());
     }
@@ -42,6 +72,8 @@ impl Words for f32 {
 
 /// The lower half first.
 impl Words for f64 {
+    const LAYOUT: u32 = named("f64");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         let bits = self.to_bits();
         sink(bits as u32);
@@ -55,6 +87,8 @@ impl Words for f64 {
 }
 
 impl<T: Words, const N: usize> Words for [T; N] {
+    const LAYOUT: u32 = mix(T::LAYOUT, N as u32);
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         for value in self {
             value.put(sink);
@@ -67,6 +101,8 @@ impl<T: Words, const N: usize> Words for [T; N] {
 }
 
 impl<A: Words, B: Words> Words for (A, B) {
+    const LAYOUT: u32 = mix(A::LAYOUT, B::LAYOUT);
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         self.0.put(sink);
         self.1.put(sink);
@@ -79,6 +115,8 @@ impl<A: Words, B: Words> Words for (A, B) {
 
 /// A flag, and the value or as many zeros.
 impl Words for Option<f64> {
+    const LAYOUT: u32 = named("Option<f64>");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (self.is_some(), self.unwrap_or(0.0)).put(sink);
     }
@@ -94,6 +132,16 @@ macro_rules! words {
     ($([$($generics:tt)*] $type:ty: $($field:ident),* $(,)?;)*) => {
         $(
             impl<$($generics)*> $crate::math::Words for $type {
+                const LAYOUT: u32 = {
+                    let mut hash = 0;
+                    $(
+                        hash = $crate::math::mix(hash, $crate::math::named(stringify!($field)));
+                        let layout = $crate::math::layout_of(|value: &Self| &value.$field);
+                        hash = $crate::math::mix(hash, layout);
+                    )*
+                    hash
+                };
+
                 fn put(&self, sink: &mut dyn FnMut(u32)) {
                     // A field that is left out does not compile.
                     let Self { $($field),* } = self;
@@ -114,6 +162,37 @@ pub(crate) use words;
 #[cfg(test)]
 mod tests {
     use super::Words;
+
+    /// Order, names and types count.
+    #[test]
+    fn another_layout_has_another_hash() {
+        struct One {
+            a: f32,
+            b: bool,
+        }
+        struct Swapped {
+            a: f32,
+            b: bool,
+        }
+        struct Typed {
+            a: [f32; 1],
+            b: bool,
+        }
+        words! {
+            [] One: a, b;
+            [] Swapped: b, a;
+            [] Typed: a, b;
+        }
+        assert_ne!(One::LAYOUT, Swapped::LAYOUT);
+        assert_ne!(One::LAYOUT, Typed::LAYOUT);
+        assert_ne!(<[f32; 2]>::LAYOUT, <[f32; 3]>::LAYOUT);
+        assert_ne!(<(f32, bool)>::LAYOUT, <(bool, f32)>::LAYOUT);
+        let mut count = 0;
+        Typed { a: [1.0], b: true }.put(&mut |_| count += 1);
+        One { a: 1.0, b: true }.put(&mut |_| count += 1);
+        Swapped { a: 1.0, b: true }.put(&mut |_| count += 1);
+        assert_eq!(count, 6);
+    }
 
     #[test]
     fn every_bit_comes_back_in_its_place() {

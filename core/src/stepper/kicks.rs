@@ -80,6 +80,8 @@ fn answers(z: &Matrix2) -> [Matrix2; ORDERS] {
 }
 
 impl<T: Scalar> Words for Kicks<T> {
+    const LAYOUT: u32 = <[[T; 2]; ORDERS]>::LAYOUT;
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         self.0.put(sink);
     }

@@ -37,7 +37,7 @@ use super::oscillator::{check_turns, kick};
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Scalar, Words, dot, words};
+use crate::math::{Scalar, Words, dot, named, words};
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
 
@@ -347,6 +347,8 @@ const HALVINGS: u32 = 16;
 const EQUILIBRIUM_STEPS: usize = 60;
 
 impl Words for Quality {
+    const LAYOUT: u32 = named("Quality");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (*self == Self::Fine).put(sink);
     }
