@@ -105,7 +105,7 @@ pub trait Prepared: Prepare + Words {
     /// Those of [`Self::load`]; also bytes that are not whole words.
     fn load_bytes(bytes: &[u8], tick: f64) -> Result<Self, Error> {
         let (words, rest) = bytes.as_chunks::<4>();
-        require("arm.bytes", bytes.len() as u32, (bytes.len() - rest.len()) as u32)?;
+        require(&[("arm.bytes", bytes.len() as u32, (bytes.len() - rest.len()) as u32)])?;
         let word = |i: usize| words.get(i).map_or(0, |&word| u32::from_le_bytes(word));
         load(words.len(), &word, tick)
     }
@@ -113,7 +113,7 @@ pub trait Prepared: Prepare + Words {
 
 fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Result<S, Error> {
     check(count, word, S::KIND)?;
-    let mut next = 5;
+    let (mut value, mut next) = (S::BLANK, 5);
     let mut source = || {
         next += 1;
         word(next - 1)
@@ -124,30 +124,40 @@ fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Re
         return Err(Error::OutOfRange { parameter, value: prepared, min, max, unit });
     }
     let own = source() as usize;
-    let value = S::get(&mut source);
+    value.fill(&mut source);
     // A value of this type has a number of words of its own, which the header has told.
-    require("arm.words", own as u32, (next - HEADER) as u32)?;
+    require(&[("arm.words", own as u32, (next - HEADER) as u32)])?;
     Ok(value)
 }
 
 /// Refuses words that are not a prepared value of that kind.
+#[inline(never)]
 fn check(count: usize, word: &dyn Fn(usize) -> u32, kind: [u32; 3]) -> Result<(), Error> {
-    require("arm.magic", word(0), MAGIC)?;
-    require("arm.format", word(1), FORMAT)?;
-    require("arm.method", word(2), kind[0])?;
-    require("arm.sizes", word(3), kind[1])?;
-    require("arm.layout", word(4), kind[2])?;
+    let [family, sizes, layout] = kind;
     let whole = (HEADER as u32 + 1).saturating_add(word(7));
-    require("arm.length", count as u32, whole)?;
+    require(&[
+        ("arm.magic", word(0), MAGIC),
+        ("arm.format", word(1), FORMAT),
+        ("arm.method", word(2), family),
+        ("arm.sizes", word(3), sizes),
+        ("arm.layout", word(4), layout),
+        ("arm.length", count as u32, whole),
+    ])?;
     let mut digest = CRC.digest();
     for i in 0..count - 1 {
         digest.update(&word(i).to_le_bytes());
     }
-    require("arm.checksum", word(count - 1), digest.finalize())
+    require(&[("arm.checksum", word(count - 1), digest.finalize())])
 }
 
-fn require(parameter: &'static str, found: u32, needed: u32) -> Result<(), Error> {
-    if found == needed { Ok(()) } else { Err(Error::NotPrepared { parameter, found, needed }) }
+/// Refuses the first of these whose word that was found is not the one that is needed.
+// One loop over all of them: an error that is returned from many places is copied in each.
+#[inline(never)]
+fn require(words: &[(&'static str, u32, u32)]) -> Result<(), Error> {
+    match words.iter().find(|(_, found, needed)| found != needed) {
+        Some(&(parameter, found, needed)) => Err(Error::NotPrepared { parameter, found, needed }),
+        None => Ok(()),
+    }
 }
 
 /// The second word of a kind.

@@ -10,8 +10,28 @@ pub trait Words: Sized {
     /// Hands the words of the value to `sink`, first to last.
     fn put(&self, sink: &mut dyn FnMut(u32));
 
-    /// Reads a value from the words that `source` gives, first to last. Any words are a value.
-    fn get(source: &mut dyn FnMut() -> u32) -> Self;
+    /// A value to be filled.
+    const BLANK: Self;
+
+    /// Fills the value with the words that `source` gives, first to last. Any words are a value.
+    // In place, because a value that is returned is copied once more at every level of it.
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32);
+
+    /// Reads a value from the words that `source` gives, first to last.
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        let mut value = Self::BLANK;
+        value.fill(source);
+        value
+    }
+}
+
+/// Fills values one by one. A function of its own with a length that it is given: loops of a known
+/// length would be unrolled, once for each of an arm's arrays.
+#[inline(never)]
+fn fill_all<T: Words>(values: &mut [T], source: &mut dyn FnMut() -> u32) {
+    for value in values {
+        value.fill(source);
+    }
 }
 
 /// Mixes a word into a hash (FNV-1a, by words).
@@ -41,8 +61,10 @@ impl Words for u32 {
         sink(*self);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        source()
+    const BLANK: Self = 0;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = source();
     }
 }
 
@@ -53,8 +75,10 @@ impl Words for bool {
         sink(u32::from(*self));
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        source() != 0
+    const BLANK: Self = false;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = source() != 0;
     }
 }
 
@@ -65,8 +89,10 @@ impl Words for f32 {
         sink(self.to_bits());
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        Self::from_bits(source())
+    const BLANK: Self = 0.0;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = Self::from_bits(source());
     }
 }
 
@@ -80,9 +106,11 @@ impl Words for f64 {
         sink((bits >> 32) as u32);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+    const BLANK: Self = 0.0;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
         let low = u64::from(source());
-        Self::from_bits(low | u64::from(source()) << 32)
+        *self = Self::from_bits(low | u64::from(source()) << 32);
     }
 }
 
@@ -95,8 +123,10 @@ impl<T: Words, const N: usize> Words for [T; N] {
         }
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        core::array::from_fn(|_| T::get(source))
+    const BLANK: Self = [T::BLANK; N];
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        fill_all(self, source);
     }
 }
 
@@ -108,8 +138,11 @@ impl<A: Words, B: Words> Words for (A, B) {
         self.1.put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        (A::get(source), B::get(source))
+    const BLANK: Self = (A::BLANK, B::BLANK);
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        self.0.fill(source);
+        self.1.fill(source);
     }
 }
 
@@ -121,9 +154,11 @@ impl Words for Option<f64> {
         (self.is_some(), self.unwrap_or(0.0)).put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+    const BLANK: Self = None;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
         let (is_some, value) = Words::get(source);
-        if is_some { Some(value) } else { None }
+        *self = if is_some { Some(value) } else { None };
     }
 }
 
@@ -148,9 +183,12 @@ macro_rules! words {
                     $($crate::math::Words::put($field, sink);)*
                 }
 
-                fn get(source: &mut dyn FnMut() -> u32) -> Self {
+                const BLANK: Self = Self { $($field: $crate::math::Words::BLANK),* };
+
+                fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
                     // In the order in which they are written.
-                    Self { $($field: $crate::math::Words::get(source)),* }
+                    let Self { $($field),* } = self;
+                    $($crate::math::Words::fill($field, source);)*
                 }
             }
         )*

@@ -86,8 +86,10 @@ impl<T: Scalar> Words for Kicks<T> {
         self.0.put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        Self(Words::get(source))
+    const BLANK: Self = Self(Words::BLANK);
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        self.0.fill(source);
     }
 }
 
