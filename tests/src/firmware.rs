@@ -18,6 +18,9 @@ pub const SOFT_TARGET: &str = "thumbv7m-none-eabi";
 /// division. A Cortex-M3 runs its code too.
 pub const SMALLEST_TARGET: &str = "thumbv6m-none-eabi";
 
+/// Target of RISC-V without floating-point unit.
+pub const RISCV_TARGET: &str = "riscv32imac-unknown-none-elf";
+
 /// Path of an image, or cargo's messages.
 type Built = Result<PathBuf, String>;
 
@@ -58,6 +61,22 @@ pub fn build_soft(bin: &str) -> Built {
 /// Errors are those of [`build`].
 pub fn build_smallest(bin: &str) -> Built {
     build_variant(SMALLEST_TARGET, bin, None)
+}
+
+/// Builds the golden run for RISC-V.
+///
+/// # Errors
+/// Errors are those of [`build`].
+pub fn build_riscv() -> Built {
+    once("golden-riscv".to_owned(), |name| {
+        require_target(RISCV_TARGET)?;
+        let folder = root().join("target/firmware");
+        run(cargo()
+            .args(["build", "--quiet", "--package", "stillbeam-riscv", "--profile", "firmware"])
+            .args(["--target", RISCV_TARGET, "--target-dir"])
+            .arg(&folder))?;
+        keep(&folder, RISCV_TARGET, "firmware", "golden_riscv", name)
+    })
 }
 
 /// Builds `bin` with one environment variable, on which the program's source depends.
