@@ -3,11 +3,11 @@
 //! | word | holds |
 //! |---|---|
 //! | 0 | `SBPA`, the lowest byte first |
-//! | 1 | version, which changes whenever the numbers of a type do |
-//! | 2, 3 | [`Prepared::KIND`]: family, sizes and scalar |
-//! | 4, 5 | the tick, s: the bits of an f64, the lower half first |
-//! | 6 | number of words of the value |
-//! | 7 … | the value |
+//! | 1 | version of this table |
+//! | 2 to 4 | [`Prepared::KIND`]: family, sizes and scalar, layout |
+//! | 5, 6 | the tick, s: the bits of an f64, the lower half first |
+//! | 7 | number of words of the value |
+//! | 8 … | the value |
 //! | last | CRC-32 (ISO-HDLC) of all words before it, each as four bytes, the lowest first |
 //!
 //! Set-up gives the same bits on desktop and target, so that a loaded stepper is the one that the
@@ -40,11 +40,11 @@ use crate::math::Words;
 /// The first word: `SBPA`, the lowest byte first.
 const MAGIC: u32 = u32::from_le_bytes(*b"SBPA");
 
-/// Version of what the words hold. Another one is refused.
+/// Version of the header. A change of what a type holds changes its layout's hash by itself.
 const FORMAT: u32 = 1;
 
 /// Words before the value's own.
-const HEADER: usize = 7;
+const HEADER: usize = 8;
 
 /// Without a table, which would take a kilobyte: words are checked once.
 const CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
@@ -53,7 +53,7 @@ const CRC: Crc<u32, NoTable> = Crc::<u32, NoTable>::new(&CRC_32_ISO_HDLC);
 /// known only when the program runs, as that of [`Auto`](crate::select::Auto).
 pub trait Prepare {
     /// Returns the type that loads the words: see [`Prepared::KIND`].
-    fn kind(&self) -> [u32; 2];
+    fn kind(&self) -> [u32; 3];
 
     /// Returns the tick that the value was set up for, s.
     fn period(&self) -> f64;
@@ -70,8 +70,8 @@ pub trait Prepare {
             digest.update(&word.to_le_bytes());
             sink(word);
         };
-        let [family, sizes] = self.kind();
-        for word in [MAGIC, FORMAT, family, sizes] {
+        let [family, sizes, layout] = self.kind();
+        for word in [MAGIC, FORMAT, family, sizes, layout] {
             put(word);
         }
         self.period().put(&mut put);
@@ -85,8 +85,9 @@ pub trait Prepare {
 ///
 /// A program that only loads links no set-up: no matrices, no eigenvalues, no fit.
 pub trait Prepared: Prepare + Words {
-    /// The type: four letters of the family; sizes and bytes of the scalar, a byte each.
-    const KIND: [u32; 2];
+    /// The type: four letters of the family; sizes and bytes of the scalar, a byte each; the hash
+    /// of its layout, [`Words::LAYOUT`].
+    const KIND: [u32; 3];
 
     /// Loads the value from the words of [`Prepare::prepare`], for ticks of `tick` s.
     ///
@@ -104,7 +105,7 @@ pub trait Prepared: Prepare + Words {
     /// Those of [`Self::load`]; also bytes that are not whole words.
     fn load_bytes(bytes: &[u8], tick: f64) -> Result<Self, Error> {
         let (words, rest) = bytes.as_chunks::<4>();
-        require("arm.bytes", bytes.len() as u32, (bytes.len() - rest.len()) as u32)?;
+        require(&[("arm.bytes", bytes.len() as u32, (bytes.len() - rest.len()) as u32)])?;
         let word = |i: usize| words.get(i).map_or(0, |&word| u32::from_le_bytes(word));
         load(words.len(), &word, tick)
     }
@@ -112,7 +113,7 @@ pub trait Prepared: Prepare + Words {
 
 fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Result<S, Error> {
     check(count, word, S::KIND)?;
-    let mut next = 4;
+    let (mut value, mut next) = (S::BLANK, 5);
     let mut source = || {
         next += 1;
         word(next - 1)
@@ -123,29 +124,40 @@ fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Re
         return Err(Error::OutOfRange { parameter, value: prepared, min, max, unit });
     }
     let own = source() as usize;
-    let value = S::get(&mut source);
+    value.fill(&mut source);
     // A value of this type has a number of words of its own, which the header has told.
-    require("arm.words", own as u32, (next - HEADER) as u32)?;
+    require(&[("arm.words", own as u32, (next - HEADER) as u32)])?;
     Ok(value)
 }
 
 /// Refuses words that are not a prepared value of that kind.
-fn check(count: usize, word: &dyn Fn(usize) -> u32, kind: [u32; 2]) -> Result<(), Error> {
-    require("arm.magic", word(0), MAGIC)?;
-    require("arm.format", word(1), FORMAT)?;
-    require("arm.method", word(2), kind[0])?;
-    require("arm.sizes", word(3), kind[1])?;
-    let whole = (HEADER as u32 + 1).saturating_add(word(6));
-    require("arm.length", count as u32, whole)?;
+#[inline(never)]
+fn check(count: usize, word: &dyn Fn(usize) -> u32, kind: [u32; 3]) -> Result<(), Error> {
+    let [family, sizes, layout] = kind;
+    let whole = (HEADER as u32 + 1).saturating_add(word(7));
+    require(&[
+        ("arm.magic", word(0), MAGIC),
+        ("arm.format", word(1), FORMAT),
+        ("arm.method", word(2), family),
+        ("arm.sizes", word(3), sizes),
+        ("arm.layout", word(4), layout),
+        ("arm.length", count as u32, whole),
+    ])?;
     let mut digest = CRC.digest();
     for i in 0..count - 1 {
         digest.update(&word(i).to_le_bytes());
     }
-    require("arm.checksum", word(count - 1), digest.finalize())
+    require(&[("arm.checksum", word(count - 1), digest.finalize())])
 }
 
-fn require(parameter: &'static str, found: u32, needed: u32) -> Result<(), Error> {
-    if found == needed { Ok(()) } else { Err(Error::NotPrepared { parameter, found, needed }) }
+/// Refuses the first of these whose word that was found is not the one that is needed.
+// One loop over all of them: an error that is returned from many places is copied in each.
+#[inline(never)]
+fn require(words: &[(&'static str, u32, u32)]) -> Result<(), Error> {
+    match words.iter().find(|(_, found, needed)| found != needed) {
+        Some(&(parameter, found, needed)) => Err(Error::NotPrepared { parameter, found, needed }),
+        None => Ok(()),
+    }
 }
 
 /// The second word of a kind.

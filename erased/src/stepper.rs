@@ -43,7 +43,7 @@ pub trait AnyStepper: Send + Sync {
     fn sizes(&self) -> [usize; 2];
 
     /// Returns the type that loads its words: see [`Prepare::kind`].
-    fn kind(&self) -> [u32; 2];
+    fn kind(&self) -> [u32; 3];
 
     /// Returns its words: see [`Prepare::prepare`].
     fn words(&self) -> Vec<u32>;
@@ -89,7 +89,7 @@ impl<S: Erasable> AnyStepper for S {
         [size_of::<S::State>(), size_of::<S>()]
     }
 
-    fn kind(&self) -> [u32; 2] {
+    fn kind(&self) -> [u32; 3] {
         Prepare::kind(self)
     }
 

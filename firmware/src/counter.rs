@@ -62,9 +62,11 @@ impl Counter for Instructions {
     }
 }
 
-/// Processor cycles, by the data watchpoint and trace unit. QEMU's reads 0.
+/// Processor cycles, by the data watchpoint and trace unit. QEMU's reads 0. Armv6-M has none.
+#[cfg(feature = "dwt")]
 pub struct Cycles(());
 
+#[cfg(feature = "dwt")]
 impl Counter for Cycles {
     const UNIT: &'static str = "cycles";
 

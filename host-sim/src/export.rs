@@ -120,12 +120,12 @@ fn words_of(value: &impl Prepare) -> Vec<u32> {
 
 /// The type of a stepper: [`Prepared::KIND`](stillbeam::prepared::Prepared::KIND).
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Type([u32; 2]);
+struct Type([u32; 3]);
 
 impl Type {
     /// Writes the type as Rust does, e.g. `Elastica<f32, 2>`.
     fn rust(self) -> String {
-        let [family, sizes] = self.0;
+        let [family, sizes, _] = self.0;
         let letters = family.to_le_bytes();
         let [n, w, variant, bytes] = sizes.to_le_bytes();
         let scalar = if bytes == 8 { "f64" } else { "f32" };

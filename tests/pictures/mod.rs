@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::json;
 use stillbeam::Limits;
-use stillbeam_sim::plan::{Request, page};
+use stillbeam_sim::plan::{Options, Request, page};
 use stillbeam_sim::scenes;
 use stillbeam_tests::browser::Browser;
 
@@ -17,8 +17,9 @@ const TIME: &str = "document.querySelector('.stage svg').getCurrentTime()";
 /// Writes the page of a plan.
 fn plan(folder: &Path) -> String {
     let arm = scenes::open("b-tip30").expect("a scene").arm;
-    let (limits, robust, tick) = (Limits::default(), None, 0.01);
-    let request = Request { arm, from: 0.0, to: 1.2, duration: Some(1.0), limits, robust, tick };
+    let (limits, options, tick) = (Limits::default(), Options::default(), 0.01);
+    let (from, to, duration, robust) = (0.0, 1.2, Some(1.0), None);
+    let request = Request { arm, from, to, duration, limits, robust, options, tick };
     let planned = request.carry_out(&|| ()).expect("a plan");
     let path = page::write(folder, "b-tip30", &request, &planned).expect("a page");
     format!("file://{}", path.display())

@@ -17,13 +17,30 @@ pub enum Clock {
     Instructions,
 }
 
-/// A board that QEMU emulates. Their maps of memory and devices are the same.
+/// A board that QEMU emulates. The maps of memory and devices of those of Arm are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Board {
     /// Cortex-M4F, with an FPU for single precision.
     An386,
     /// Cortex-M3, without an FPU.
     An385,
+    /// RV32IMAC, without an FPU.
+    RiscV,
+}
+
+impl Board {
+    /// QEMU's program, its Debian package, and the arguments that name the machine.
+    fn qemu(self) -> (&'static str, &'static str, &'static [&'static str]) {
+        match self {
+            Self::An386 => ("qemu-system-arm", "qemu-system-arm", &["-M", "mps2-an386"]),
+            Self::An385 => ("qemu-system-arm", "qemu-system-arm", &["-M", "mps2-an385"]),
+            Self::RiscV => (
+                "qemu-system-riscv32",
+                "qemu-system-misc",
+                &["-M", "virt", "-cpu", "rv32,f=false,d=false", "-bios", "none"],
+            ),
+        }
+    }
 }
 
 /// Time limit of a run. The longest takes a few seconds on an idle machine.
@@ -48,12 +65,10 @@ pub fn run_on(
     clock: Clock,
     limit: Duration,
 ) -> Result<Vec<u8>, String> {
-    let machine = match board {
-        Board::An386 => "mps2-an386",
-        Board::An385 => "mps2-an385",
-    };
-    let mut qemu = Command::new("qemu-system-arm");
-    qemu.args(["-M", machine, "-nographic", "-monitor", "none", "-serial", "none"])
+    let (program, package, machine) = board.qemu();
+    let mut qemu = Command::new(program);
+    qemu.args(machine)
+        .args(["-nographic", "-monitor", "none", "-serial", "none"])
         .args(["-semihosting-config", "enable=on,target=native"])
         .args(match clock {
             Clock::Host => &[][..],
@@ -65,14 +80,14 @@ pub fn run_on(
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
     let mut child = qemu.spawn().map_err(|error| match error.kind() {
-        ErrorKind::NotFound => "qemu-system-arm is missing: run \
-             `apt-get install --no-install-recommends qemu-system-arm`"
-            .to_owned(),
-        _ => format!("qemu-system-arm: {error}"),
+        ErrorKind::NotFound => {
+            format!("{program} is missing: run `apt-get install --no-install-recommends {package}`")
+        }
+        _ => format!("{program}: {error}"),
     })?;
     let printed = collect(child.stdout.take());
     let said = collect(child.stderr.take());
-    let waited = child.wait_timeout(limit).map_err(|error| format!("qemu-system-arm: {error}"))?;
+    let waited = child.wait_timeout(limit).map_err(|error| format!("{program}: {error}"))?;
     if waited.is_none() {
         // Closes the pipes too, so that the collectors end.
         let _ = child.kill();

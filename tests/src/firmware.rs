@@ -14,6 +14,13 @@ pub const TARGET: &str = "thumbv7em-none-eabihf";
 /// Target of a processor without floating-point unit, for the bench.
 pub const SOFT_TARGET: &str = "thumbv7m-none-eabi";
 
+/// Target of the smallest processors, Cortex-M0 and M0+: without floating-point unit and without
+/// division. A Cortex-M3 runs its code too.
+pub const SMALLEST_TARGET: &str = "thumbv6m-none-eabi";
+
+/// Target of RISC-V without floating-point unit.
+pub const RISCV_TARGET: &str = "riscv32imac-unknown-none-elf";
+
 /// Path of an image, or cargo's messages.
 type Built = Result<PathBuf, String>;
 
@@ -46,6 +53,30 @@ pub fn build(bin: &str) -> Built {
 /// Errors are those of [`build`].
 pub fn build_soft(bin: &str) -> Built {
     build_variant(SOFT_TARGET, bin, None)
+}
+
+/// Builds the program `bin` for the smallest processors.
+///
+/// # Errors
+/// Errors are those of [`build`].
+pub fn build_smallest(bin: &str) -> Built {
+    build_variant(SMALLEST_TARGET, bin, None)
+}
+
+/// Builds the golden run for RISC-V.
+///
+/// # Errors
+/// Errors are those of [`build`].
+pub fn build_riscv() -> Built {
+    once("golden-riscv".to_owned(), |name| {
+        require_target(RISCV_TARGET)?;
+        let folder = root().join("target/firmware");
+        run(cargo()
+            .args(["build", "--quiet", "--package", "stillbeam-riscv", "--profile", "firmware"])
+            .args(["--target", RISCV_TARGET, "--target-dir"])
+            .arg(&folder))?;
+        keep(&folder, RISCV_TARGET, "firmware", "golden_riscv", name)
+    })
 }
 
 /// Builds `bin` with one environment variable, on which the program's source depends.

@@ -84,6 +84,17 @@ pub fn count_soft() -> Result<Bench, String> {
     parse(&String::from_utf8_lossy(&printed))
 }
 
+/// Builds the bench for the smallest processors, Cortex-M0 and M0+, and runs it. Their instructions
+/// are executed by the emulated Cortex-M3: as many as on their own core.
+///
+/// # Errors
+/// Errors are those of [`count`].
+pub fn count_smallest() -> Result<Bench, String> {
+    let image = firmware::build_smallest("bench")?;
+    let printed = emulator::run_on(Board::An385, &image, Clock::Instructions, LIMIT)?;
+    parse(&String::from_utf8_lossy(&printed))
+}
+
 /// Builds and runs the minimal image of one method, by its name in the list of methods.
 ///
 /// # Errors

@@ -35,14 +35,20 @@ pub fn replace(page: &str, tables: &str) -> Result<String, String> {
 }
 
 /// Returns the tables of the processor with an FPU and of one without.
-pub fn tables(bench: &Bench, soft: &Bench, minimal: &BTreeMap<String, Minimal>) -> String {
+pub fn tables(
+    bench: &Bench,
+    soft: &Bench,
+    smallest: &Bench,
+    minimal: &BTreeMap<String, Minimal>,
+) -> String {
     let sections = [
         methods(bench, minimal),
         motions(bench),
         plans(bench, minimal),
         changes(bench),
         functions(bench),
-        without_fpu(soft),
+        without_fpu(CORTEX_M3, soft),
+        without_fpu(CORTEX_M0, smallest),
     ];
     format!("\n{}", sections.join("\n"))
 }
@@ -146,12 +152,18 @@ fn functions(bench: &Bench) -> String {
     text
 }
 
+/// Processors without floating-point unit whose ticks are counted.
+pub const CORTEX_M3: &str = "Cortex-M3";
+/// Armv6-M: 16-bit instructions, no division, no long multiplication.
+pub const CORTEX_M0: &str = "Cortex-M0 and M0+";
+
 /// Returns the ticks inside of a move, with every term and with none, without an FPU. There
 /// arithmetic is a call whose cost depends on its operands.
-pub fn without_fpu(soft: &Bench) -> String {
-    let mut text = "### Without an FPU (Cortex-M3): ticks inside of a move, one path\n\n\
-                    | method | size | terms | least | worst | spread |\n|---|---|---|---|---|---|\n"
-        .to_owned();
+pub fn without_fpu(processor: &str, soft: &Bench) -> String {
+    let mut text = format!(
+        "### Without an FPU ({processor}): ticks inside of a move, one path\n\n\
+         | method | size | terms | least | worst | spread |\n|---|---|---|---|---|---|\n"
+    );
     for count in &soft.counts {
         let [method, size, quality, skip] = &count.key;
         let terms = match skip.as_str() {

@@ -2,6 +2,7 @@
 //! method.
 
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use stillbeam_golden::motions::{MOTIONS, WAYPOINTS};
@@ -42,9 +43,25 @@ fn every_bit_of_every_setpoint_agrees() {
 
 /// Without floating-point unit the same bits are computed in software.
 #[test]
-fn a_processor_without_fpu_gives_the_same_bits() {
-    let image = firmware::build_soft("golden").unwrap_or_else(|error| panic!("{error}"));
-    let stream = emulator::run_on(Board::An385, &image, Clock::Host, LIMIT);
+fn a_cortex_m3_gives_the_same_bits() {
+    every_bit_agrees(Board::An385, firmware::build_soft("golden"));
+}
+
+/// Cortex-M0 and M0+ too: the emulated Cortex-M3 executes their instructions, those of Armv6-M.
+#[test]
+fn the_smallest_processors_give_the_same_bits() {
+    every_bit_agrees(Board::An385, firmware::build_smallest("golden"));
+}
+
+/// Another architecture, whose soft floats are other code.
+#[test]
+fn a_riscv_core_gives_the_same_bits() {
+    every_bit_agrees(Board::RiscV, firmware::build_riscv());
+}
+
+fn every_bit_agrees(board: Board, image: Result<PathBuf, String>) {
+    let image = image.unwrap_or_else(|error| panic!("{error}"));
+    let stream = emulator::run_on(board, &image, Clock::Host, LIMIT);
     let stream = stream.unwrap_or_else(|error| panic!("{error}"));
     let agreement = stream::compare(&stream).unwrap_or_else(|mismatch| panic!("{mismatch}"));
     assert!(agreement.setpoints > 50_000, "{agreement:?}");

@@ -142,9 +142,19 @@ fn skips_save() {
 /// run, to 2 %.
 #[test]
 fn the_page_is_right_about_processors_without_an_fpu() {
+    the_page_is_right(page::CORTEX_M3, instructions::count_soft());
+}
+
+/// The same of the smallest processors.
+#[test]
+fn the_page_is_right_about_the_smallest_processors() {
+    the_page_is_right(page::CORTEX_M0, instructions::count_smallest());
+}
+
+fn the_page_is_right(processor: &str, soft: Result<Bench, String>) {
     let page = std::fs::read_to_string(root().join("docs/instructions.md")).unwrap();
-    let soft = instructions::count_soft().unwrap_or_else(|error| panic!("{error}"));
-    let counted = page::without_fpu(&soft);
+    let soft = soft.unwrap_or_else(|error| panic!("{error}"));
+    let counted = page::without_fpu(processor, &soft);
     let (_, written) = page.split_once(counted.lines().next().unwrap()).expect("its heading");
     let rows = |text: &str| -> Vec<Vec<String>> {
         let rows = text.lines().skip_while(|line| !line.starts_with("| ")).skip(2);

@@ -47,16 +47,11 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
         let Configuration { scene, policy, joint, direction, zero, node } = *configuration;
         let origin = Angle { turns: 0, part: 0.0 };
         let watch = Watch::new(stepper.tick());
-        Ok(Self {
-            scene,
-            axis: Axis::new(stepper, origin, policy)?,
-            train: Drivetrain::new(&joint, direction, zero)?,
-            measured: None,
-            node: Node::new(node)?,
-            watch,
-            order: None,
-            awaited: None,
-        })
+        // The axis last: what is large then need not wait on the stack for what may be refused.
+        let (train, node) = (Drivetrain::new(&joint, direction, zero)?, Node::new(node)?);
+        let axis = Axis::new(stepper, origin, policy)?;
+        let (order, awaited) = (None, None);
+        Ok(Self { scene, axis, train, measured: None, node, watch, order, awaited })
     }
 
     /// Returns the drive's node.

@@ -67,7 +67,7 @@ macro_rules! methods {
                     let (parameter, found, needed) = ("arm.magic", word(0), MAGIC);
                     return Err(Error::NotPrepared { parameter, found, needed }.into());
                 }
-                let kind = [word(KIND), word(KIND + 1)];
+                let kind = [word(KIND), word(KIND + 1), word(KIND + 2)];
                 $(
                     #[cfg(feature = $feature)]
                     if kind == <$stepper as Prepared>::KIND {

@@ -175,7 +175,7 @@ pub enum Error {
     /// version, or have changed: see [`Prepared`](crate::prepared::Prepared).
     NotPrepared {
         /// The field that differs: `arm.magic`, `arm.format`, `arm.method`, `arm.sizes`,
-        /// `arm.length`, `arm.checksum` or `arm.words`.
+        /// `arm.layout`, `arm.length`, `arm.bytes`, `arm.checksum` or `arm.words`.
         parameter: &'static str,
         /// Word that was found.
         found: u32,

@@ -167,8 +167,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let acceleration = end_acceleration.unwrap_or(self.hub.acceleration);
         let arrival = HubState { acceleration, ..self.hub };
         if S::FAST.at_rest && rests {
-            // The last tick of a rest as all others of it, to the bit.
-            self.stepper.step::<AtRest>(&mut self.state, &arrival, &arrival);
+            if S::FAST.large {
+                self.end_rest();
+            } else {
+                // The last tick of a rest as all others of it, to the bit.
+                self.stepper.step::<AtRest>(&mut self.state, &arrival, &arrival);
+            }
         } else {
             // The first tick too: the arm was at rest before it, and stays so.
             self.stepper.step::<AnyMotion>(&mut self.state, &before, &arrival);
@@ -177,6 +181,17 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.current.sleep_if(|| self.stepper.is_settled(&self.state));
         }
         self.setpoint()
+    }
+
+    /// Advances the arm by the last tick of a rest as by all others of it, to the bit: by the same
+    /// code, which is then linked once. The hub is at the first tick of the next segment.
+    #[inline(never)]
+    fn end_rest(&mut self) {
+        let acceleration = core::mem::replace(&mut self.hub.acceleration, self.end_acceleration);
+        self.tick_at_rest(self.current.k());
+        self.hub.acceleration = acceleration;
+        // It may sleep from the next tick on.
+        self.current.wake();
     }
 
     /// Makes a tick of a hub that rests: the arm vibrates, or sleeps.

@@ -3,89 +3,162 @@
 /// A value that is written as 32-bit words and read back to the bit: what a prepared arm is made
 /// of.
 pub trait Words: Sized {
+    /// Hash of the type's layout: names and types of all fields in their order. Words of another
+    /// layout are those of another version of the program.
+    const LAYOUT: u32;
+
     /// Hands the words of the value to `sink`, first to last.
     fn put(&self, sink: &mut dyn FnMut(u32));
 
-    /// Reads a value from the words that `source` gives, first to last. Any words are a value.
-    fn get(source: &mut dyn FnMut() -> u32) -> Self;
+    /// A value to be filled.
+    const BLANK: Self;
+
+    /// Fills the value with the words that `source` gives, first to last. Any words are a value.
+    // In place, because a value that is returned is copied once more at every level of it.
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32);
+
+    /// Reads a value from the words that `source` gives, first to last.
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        let mut value = Self::BLANK;
+        value.fill(source);
+        value
+    }
+}
+
+/// Fills values one by one. A function of its own with a length that it is given: loops of a known
+/// length would be unrolled, once for each of an arm's arrays.
+#[inline(never)]
+fn fill_all<T: Words>(values: &mut [T], source: &mut dyn FnMut() -> u32) {
+    for value in values {
+        value.fill(source);
+    }
+}
+
+/// Mixes a word into a hash (FNV-1a, by words).
+pub(crate) const fn mix(hash: u32, word: u32) -> u32 {
+    (hash ^ word).wrapping_mul(0x0100_0193)
+}
+
+/// Hash of a name.
+pub(crate) const fn named(name: &str) -> u32 {
+    let (bytes, mut hash, mut i) = (name.as_bytes(), 0x811c_9dc5, 0);
+    while i < bytes.len() {
+        hash = mix(hash, bytes[i] as u32);
+        i += 1;
+    }
+    hash
+}
+
+/// Layout of a field's type, which is found from how the field is reached.
+pub(crate) const fn layout_of<S, T: Words>(_: fn(&S) -> &T) -> u32 {
+    T::LAYOUT
 }
 
 impl Words for u32 {
+    const LAYOUT: u32 = named("u32");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(*self);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        source()
+    const BLANK: Self = 0;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = source();
     }
 }
 
 impl Words for bool {
+    const LAYOUT: u32 = named("bool");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(u32::from(*self));
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        source() != 0
+    const BLANK: Self = false;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = source() != 0;
     }
 }
 
 impl Words for f32 {
+    const LAYOUT: u32 = named("f32");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(self.to_bits());
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        Self::from_bits(source())
+    const BLANK: Self = 0.0;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = Self::from_bits(source());
     }
 }
 
 /// The lower half first.
 impl Words for f64 {
+    const LAYOUT: u32 = named("f64");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         let bits = self.to_bits();
         sink(bits as u32);
         sink((bits >> 32) as u32);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+    const BLANK: Self = 0.0;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
         let low = u64::from(source());
-        Self::from_bits(low | u64::from(source()) << 32)
+        *self = Self::from_bits(low | u64::from(source()) << 32);
     }
 }
 
 impl<T: Words, const N: usize> Words for [T; N] {
+    const LAYOUT: u32 = mix(T::LAYOUT, N as u32);
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         for value in self {
             value.put(sink);
         }
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        core::array::from_fn(|_| T::get(source))
+    const BLANK: Self = [T::BLANK; N];
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        fill_all(self, source);
     }
 }
 
 impl<A: Words, B: Words> Words for (A, B) {
+    const LAYOUT: u32 = mix(A::LAYOUT, B::LAYOUT);
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         self.0.put(sink);
         self.1.put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        (A::get(source), B::get(source))
+    const BLANK: Self = (A::BLANK, B::BLANK);
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        self.0.fill(source);
+        self.1.fill(source);
     }
 }
 
 /// A flag, and the value or as many zeros.
 impl Words for Option<f64> {
+    const LAYOUT: u32 = named("Option<f64>");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (self.is_some(), self.unwrap_or(0.0)).put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+    const BLANK: Self = None;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
         let (is_some, value) = Words::get(source);
-        if is_some { Some(value) } else { None }
+        *self = if is_some { Some(value) } else { None };
     }
 }
 
@@ -94,15 +167,28 @@ macro_rules! words {
     ($([$($generics:tt)*] $type:ty: $($field:ident),* $(,)?;)*) => {
         $(
             impl<$($generics)*> $crate::math::Words for $type {
+                const LAYOUT: u32 = {
+                    let mut hash = 0;
+                    $(
+                        hash = $crate::math::mix(hash, $crate::math::named(stringify!($field)));
+                        let layout = $crate::math::layout_of(|value: &Self| &value.$field);
+                        hash = $crate::math::mix(hash, layout);
+                    )*
+                    hash
+                };
+
                 fn put(&self, sink: &mut dyn FnMut(u32)) {
                     // A field that is left out does not compile.
                     let Self { $($field),* } = self;
                     $($crate::math::Words::put($field, sink);)*
                 }
 
-                fn get(source: &mut dyn FnMut() -> u32) -> Self {
+                const BLANK: Self = Self { $($field: $crate::math::Words::BLANK),* };
+
+                fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
                     // In the order in which they are written.
-                    Self { $($field: $crate::math::Words::get(source)),* }
+                    let Self { $($field),* } = self;
+                    $($crate::math::Words::fill($field, source);)*
                 }
             }
         )*
@@ -114,6 +200,37 @@ pub(crate) use words;
 #[cfg(test)]
 mod tests {
     use super::Words;
+
+    /// Order, names and types count.
+    #[test]
+    fn another_layout_has_another_hash() {
+        struct One {
+            a: f32,
+            b: bool,
+        }
+        struct Swapped {
+            a: f32,
+            b: bool,
+        }
+        struct Typed {
+            a: [f32; 1],
+            b: bool,
+        }
+        words! {
+            [] One: a, b;
+            [] Swapped: b, a;
+            [] Typed: a, b;
+        }
+        assert_ne!(One::LAYOUT, Swapped::LAYOUT);
+        assert_ne!(One::LAYOUT, Typed::LAYOUT);
+        assert_ne!(<[f32; 2]>::LAYOUT, <[f32; 3]>::LAYOUT);
+        assert_ne!(<(f32, bool)>::LAYOUT, <(bool, f32)>::LAYOUT);
+        let mut count = 0;
+        Typed { a: [1.0], b: true }.put(&mut |_| count += 1);
+        One { a: 1.0, b: true }.put(&mut |_| count += 1);
+        Swapped { a: 1.0, b: true }.put(&mut |_| count += 1);
+        assert_eq!(count, 6);
+    }
 
     #[test]
     fn every_bit_comes_back_in_its_place() {

@@ -5,7 +5,7 @@ use crate::math::{Scalar, Words};
 use crate::prepared::{Prepare, Prepared, sizes};
 
 impl<T: Scalar, const K: usize> Prepare for Planner<T, K> {
-    fn kind(&self) -> [u32; 2] {
+    fn kind(&self) -> [u32; 3] {
         Self::KIND
     }
 
@@ -19,5 +19,5 @@ impl<T: Scalar, const K: usize> Prepare for Planner<T, K> {
 }
 
 impl<T: Scalar, const K: usize> Prepared for Planner<T, K> {
-    const KIND: [u32; 2] = [u32::from_le_bytes(*b"plan"), sizes::<T>(K, 0, false)];
+    const KIND: [u32; 3] = [u32::from_le_bytes(*b"plan"), sizes::<T>(K, 0, false), Self::LAYOUT];
 }

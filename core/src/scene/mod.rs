@@ -21,7 +21,7 @@ pub use varied::{MAX_MASSES, MAX_SECTIONS, PointMass, Varied};
 
 use crate::Error;
 use crate::hub::GravityDirection;
-use crate::math::{Scalar, Words, words};
+use crate::math::{Scalar, Words, named, words};
 
 /// An arm: a link clamped to a motor hub, with a payload at its tip.
 ///
@@ -316,11 +316,13 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
 }
 
 impl Words for Uniform {
+    const LAYOUT: u32 = named("Uniform");
+
     fn put(&self, _: &mut dyn FnMut(u32)) {}
 
-    fn get(_: &mut dyn FnMut() -> u32) -> Self {
-        Self
-    }
+    const BLANK: Self = Self;
+
+    fn fill(&mut self, _: &mut dyn FnMut() -> u32) {}
 }
 
 words! {

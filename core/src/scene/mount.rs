@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::Error;
-use crate::math::{Scalar, Words, words};
+use crate::math::{Scalar, Words, named, words};
 
 /// Kind of the axis that moves the hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -85,12 +85,16 @@ impl Mount {
 }
 
 impl Words for AxisKind {
+    const LAYOUT: u32 = named("AxisKind");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (*self == Self::Linear).put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        if bool::get(source) { Self::Linear } else { Self::Rotary }
+    const BLANK: Self = Self::Rotary;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = if bool::get(source) { Self::Linear } else { Self::Rotary };
     }
 }
 

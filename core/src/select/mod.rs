@@ -212,7 +212,7 @@ impl<T: Scalar> Stepper for Auto<T> {
 
 /// The words of the stepper itself, which a program loads by its own type.
 impl<T: Scalar> Prepare for Auto<T> {
-    fn kind(&self) -> [u32; 2] {
+    fn kind(&self) -> [u32; 3] {
         each!(self, s => s.kind())
     }
 

@@ -80,12 +80,16 @@ fn answers(z: &Matrix2) -> [Matrix2; ORDERS] {
 }
 
 impl<T: Scalar> Words for Kicks<T> {
+    const LAYOUT: u32 = <[[T; 2]; ORDERS]>::LAYOUT;
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         self.0.put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        Self(Words::get(source))
+    const BLANK: Self = Self(Words::BLANK);
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        self.0.fill(source);
     }
 }
 

@@ -57,11 +57,14 @@ pub struct FastPaths {
     pub linear: bool,
     /// [`AtRest`].
     pub at_rest: bool,
+    /// True if the code for [`AtRest`] is so large that every tick at rest is to share it, where
+    /// the last of a rest would else have a copy of its own.
+    pub large: bool,
 }
 
 impl FastPaths {
     /// Both motions.
-    pub const BOTH: Self = Self { linear: true, at_rest: true };
+    pub const BOTH: Self = Self { linear: true, at_rest: true, large: false };
 }
 
 /// By how much the commanded acceleration departs, within a tick, from the parabola with the mean

@@ -1,7 +1,7 @@
 //! The steppers as prepared words.
 
 use super::{Elastica, Modal, Newmark, OnCarrier, Rigid, Stepper};
-use crate::math::{Scalar, Words};
+use crate::math::{Scalar, Words, mix, named};
 use crate::prepared::{Prepare, Prepared, sizes};
 
 /// Implements both traits for a stepper: its family in four letters, and its sizes.
@@ -9,7 +9,7 @@ macro_rules! prepared {
     ($([$($generics:tt)*] $type:ty: $family:literal, $n:expr, $w:expr, $variant:expr;)*) => {
         $(
             impl<$($generics)*> Prepare for $type {
-                fn kind(&self) -> [u32; 2] {
+                fn kind(&self) -> [u32; 3] {
                     Self::KIND
                 }
 
@@ -23,8 +23,8 @@ macro_rules! prepared {
             }
 
             impl<$($generics)*> Prepared for $type {
-                const KIND: [u32; 2] =
-                    [u32::from_le_bytes(*$family), sizes::<T>($n, $w, $variant)];
+                const KIND: [u32; 3] =
+                    [u32::from_le_bytes(*$family), sizes::<T>($n, $w, $variant), Self::LAYOUT];
             }
         )*
     };
@@ -39,12 +39,12 @@ prepared! {
 }
 
 /// The arm's own kind, the family in capitals.
-const fn carried([family, sizes]: [u32; 2]) -> [u32; 2] {
-    [family & !u32::from_le_bytes([0x20; 4]), sizes]
+const fn carried([family, sizes, layout]: [u32; 3]) -> [u32; 3] {
+    [family & !u32::from_le_bytes([0x20; 4]), sizes, mix(layout, named("carrier"))]
 }
 
 impl<S: Stepper + Prepare> Prepare for OnCarrier<S> {
-    fn kind(&self) -> [u32; 2] {
+    fn kind(&self) -> [u32; 3] {
         carried(self.arm().kind())
     }
 
@@ -59,5 +59,5 @@ impl<S: Stepper + Prepare> Prepare for OnCarrier<S> {
 }
 
 impl<S: Stepper + Prepared> Prepared for OnCarrier<S> {
-    const KIND: [u32; 2] = carried(S::KIND);
+    const KIND: [u32; 3] = carried(S::KIND);
 }

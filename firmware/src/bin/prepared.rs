@@ -32,7 +32,9 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 #[inline(never)]
 fn one_move() -> Result<(), Error> {
     let stepper = <Chosen as Method>::Stepper::load(black_box(&ARM), TICK)?;
-    let mut arm = Generator::<_, 2>::new(stepper, 0.0)?;
+    // Used where it was made: taking it out of the result would copy it once more on the stack.
+    let mut made = Generator::<_, 2>::new(stepper, 0.0);
+    let arm = made.as_mut().map_err(|error| *error)?;
     // The profile is known, so that only it is planned; duration and angle are not.
     let (duration, to) = black_box((2.0, core::f64::consts::PI));
     arm.push(&PlainMove::To { profile: Profile::Cubic, duration, to })?;

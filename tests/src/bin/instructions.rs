@@ -27,6 +27,7 @@ fn main() -> ExitCode {
 
 fn write() -> Result<(), String> {
     let (bench, soft) = (instructions::count()?, instructions::count_soft()?);
+    let smallest = instructions::count_smallest()?;
     let mut minimal = BTreeMap::new();
     for count in &bench.counts {
         if !minimal.contains_key(&count.id) {
@@ -37,7 +38,7 @@ fn write() -> Result<(), String> {
     fs::write(&path, instructions::csv(&bench)).map_err(|e| format!("{path:?}: {e}"))?;
     let path = root().join("docs/instructions.md");
     let text = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
-    let text = page::replace(&text, &page::tables(&bench, &soft, &minimal))?;
+    let text = page::replace(&text, &page::tables(&bench, &soft, &smallest, &minimal))?;
     fs::write(&path, text).map_err(|e| format!("{path:?}: {e}"))
 }
 

@@ -37,7 +37,7 @@ use super::oscillator::{check_turns, kick};
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Scalar, Words, dot, words};
+use crate::math::{Scalar, Words, dot, named, words};
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
 
@@ -240,7 +240,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     type Scalar = T;
     type State = ElasticaState<T, K>;
 
-    const FAST: FastPaths = FastPaths::BOTH;
+    const FAST: FastPaths = FastPaths { large: K > 1, ..FastPaths::BOTH };
 
     fn tick(&self) -> f64 {
         self.tick
@@ -273,13 +273,13 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     fn equilibrium(&self, hub: &HubState<T>) -> ElasticaState<T, K> {
         let still = HubState { rate: T::ZERO, ..*hub };
         let mut y = [[T::ZERO; 2]; K];
-        let mut value = self.nonlinear.evaluate::<true, true>(&y, &still);
+        let mut value = self.nonlinear.evaluate_at(&y, &still);
         // Half-way steps to the centre: contracting as long as the link carries its weight.
         for _ in 0..EQUILIBRIUM_STEPS {
             for k in 0..K {
                 y[k][0] = T::HALF * (y[k][0] - value.offset[k][0]);
             }
-            value = self.nonlinear.evaluate::<true, true>(&y, &still);
+            value = self.nonlinear.evaluate_at(&y, &still);
         }
         ElasticaState::at(y, value)
     }
@@ -294,7 +294,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         if M::LINEAR {
             self.step_linear(state, before, after);
         } else if M::AT_REST && self.is_bare() {
-            self.step_at_rest(state, after);
+            self.step_at_rest(state);
         } else {
             self.step_any(state, before, after);
         }
@@ -347,12 +347,16 @@ const HALVINGS: u32 = 16;
 const EQUILIBRIUM_STEPS: usize = 60;
 
 impl Words for Quality {
+    const LAYOUT: u32 = named("Quality");
+
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (*self == Self::Fine).put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        if bool::get(source) { Self::Fine } else { Self::Fast }
+    const BLANK: Self = Self::Fast;
+
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = if bool::get(source) { Self::Fine } else { Self::Fast };
     }
 }
 

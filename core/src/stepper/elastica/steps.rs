@@ -20,11 +20,11 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             Forcing::undamped(before, after, self.per_tick)
         };
         match self.quality {
-            Quality::Fast => self.advance(state, &forcing, after),
+            Quality::Fast => self.advance_by(state, &forcing, after),
             Quality::Fine => {
                 let [first, second] = forcing.halves(self.quarter);
-                self.advance(state, &first, &self.middle(before, after));
-                self.advance(state, &second, after);
+                self.advance_by(state, &first, &self.middle(before, after));
+                self.advance_by(state, &second, after);
             }
         }
     }
@@ -37,55 +37,80 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         before: &HubState<T>,
         after: &HubState<T>,
     ) {
-        let begin = before.acceleration;
-        let gained = after.acceleration - begin;
-        match self.quality {
-            Quality::Fast => self.rotate(state, begin, gained, after),
-            Quality::Fine => {
-                let half = T::HALF * gained;
-                let middle = HubState { rate: self.middle_rate(before, after), ..*after };
-                self.rotate(state, begin, half, &middle);
-                self.rotate(state, begin + half, half, after);
-            }
+        let mut begin = before.acceleration;
+        let mut gained = after.acceleration - begin;
+        if self.quality == Quality::Fine {
+            gained = T::HALF * gained;
+            self.rotate(state, begin, gained, self.middle_rate(before, after));
+            begin += gained;
         }
+        self.rotate(state, begin, gained, after.rate);
     }
 
     /// Advances by a tick of a hub at rest, without damping and gravity.
     #[inline(always)]
-    pub(super) fn step_at_rest(&self, state: &mut ElasticaState<T, K>, hub: &HubState<T>) {
+    pub(super) fn step_at_rest(&self, state: &mut ElasticaState<T, K>) {
         if self.quality == Quality::Fine {
-            self.ring(state, hub);
+            self.ring(state);
         }
-        self.ring(state, hub);
+        self.ring(state);
     }
 
-    /// A step, of anything that a scene can hold.
     #[inline(always)]
-    fn advance(&self, state: &mut ElasticaState<T, K>, forcing: &Forcing<T>, end: &HubState<T>) {
+    fn advance_by(&self, state: &mut ElasticaState<T, K>, forcing: &Forcing<T>, end: &HubState<T>) {
+        if K == 1 {
+            // So short that a call would cost it a twentieth.
+            self.advance(state, end, forcing);
+        } else {
+            let &Forcing { begin, mean, end: last } = forcing;
+            self.advance_apart(state, end, begin, mean, last);
+        }
+    }
+
+    /// Does the work of [`Self::advance`] with a parabola from `begin` to `end` of that mean.
+    // Most of the arithmetic of a tick with every term, and linked once, however many paths and
+    // qualities of a tick lead to it. Scalars are passed in floating-point registers, where a
+    // structure would be stored and loaded.
+    #[inline(never)]
+    fn advance_apart(
+        &self,
+        state: &mut ElasticaState<T, K>,
+        hub: &HubState<T>,
+        begin: T,
+        mean: T,
+        end: T,
+    ) {
+        self.advance(state, hub, &Forcing { begin, mean, end });
+    }
+
+    /// Advances by a step, of anything that a scene can hold, with the hub at `hub` at its end.
+    #[inline(always)]
+    fn advance(&self, state: &mut ElasticaState<T, K>, hub: &HubState<T>, forcing: &Forcing<T>) {
         let damped = self.nonlinear.is_damped();
         let ElasticaState { y, offset, drift, .. } = state;
         let guess = core::array::from_fn(|k| {
             self.modes[k].predict(y[k], offset[k], drift[k], forcing, damped)
         });
-        let value = self.nonlinear.evaluate::<true, true>(&guess, end);
+        let value = self.nonlinear.evaluate::<true, true>(&guess, hub);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct(y, excess));
     }
 
-    /// A step without damping and gravity in which the hub's acceleration gains `gained` in a
-    /// straight line.
+    /// Advances by a step without damping and gravity in which the hub's acceleration gains `gained`
+    /// in a straight line. The hub's rate at its end is `rate`.
     #[inline(always)]
-    fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gained: T, end: &HubState<T>) {
+    fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gained: T, rate: T) {
         let ElasticaState { y, offset, drift, .. } = state;
         let guess = core::array::from_fn(|k| {
             self.modes[k].rotate(y[k], offset[k], drift[k], begin, gained)
         });
-        let value = self.nonlinear.evaluate::<false, true>(&guess, end);
+        let hub = HubState { rate, ..HubState::ZERO };
+        let value = self.nonlinear.evaluate::<false, true>(&guess, &hub);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }
 
-    /// A step without damping and gravity of an arm whose hub rests.
+    /// Advances by a step without damping and gravity of an arm whose hub rests.
     #[inline(always)]
-    fn ring(&self, state: &mut ElasticaState<T, K>, hub: &HubState<T>) {
+    fn ring(&self, state: &mut ElasticaState<T, K>) {
         let ElasticaState { y, offset, drift, .. } = state;
         let off: [[T; 2]; K] =
             core::array::from_fn(|k| self.modes[k].off(y[k], offset[k], drift[k]));
@@ -93,7 +118,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         let guess = core::array::from_fn(|k| {
             self.modes[k].step_at_rest(y[k], off[k], drift[k], damping[k])
         });
-        let value = self.nonlinear.evaluate::<false, false>(&guess, hub);
+        let value = self.nonlinear.evaluate::<false, false>(&guess, &HubState::ZERO);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }
 

@@ -153,7 +153,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
 
     const FAST: FastPaths = {
         let linear = N <= 2 && Self::PRINCIPAL;
-        FastPaths { linear, at_rest: N > 2 || linear }
+        FastPaths { linear, at_rest: N > 2 || linear, large: false }
     };
 
     fn tick(&self) -> f64 {
