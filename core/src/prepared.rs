@@ -32,7 +32,7 @@
 //! # Ok::<(), stillbeam::Error>(())
 //! ```
 
-use crc::{CRC_32_ISO_HDLC, Crc, NoTable};
+use crc::{CRC_32_ISO_HDLC, Crc, Digest, NoTable};
 
 use crate::Error;
 use crate::math::Words;
@@ -113,7 +113,7 @@ pub trait Prepared: Prepare + Words {
 
 fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Result<S, Error> {
     check(count, word, S::KIND)?;
-    let (mut value, mut next) = (S::BLANK, 5);
+    let mut next = 5;
     let mut source = || {
         next += 1;
         word(next - 1)
@@ -124,7 +124,7 @@ fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Re
         return Err(Error::OutOfRange { parameter, value: prepared, min, max, unit });
     }
     let own = source() as usize;
-    value.fill(&mut source);
+    let value = S::get(&mut source);
     // A value of this type has a number of words of its own, which the header has told.
     require(&[("arm.words", own as u32, (next - HEADER) as u32)])?;
     Ok(value)
@@ -145,9 +145,16 @@ fn check(count: usize, word: &dyn Fn(usize) -> u32, kind: [u32; 3]) -> Result<()
     ])?;
     let mut digest = CRC.digest();
     for i in 0..count - 1 {
-        digest.update(&word(i).to_le_bytes());
+        add(&mut digest, &word(i).to_le_bytes());
     }
     require(&[("arm.checksum", word(count - 1), digest.finalize())])
+}
+
+/// Adds bytes to a checksum. A function of its own with a length that it is given: the loops over
+/// the bits of a word would be unrolled.
+#[inline(never)]
+fn add(digest: &mut Digest<'_, u32, NoTable>, bytes: &[u8]) {
+    digest.update(bytes);
 }
 
 /// Refuses the first of these whose word that was found is not the one that is needed.

@@ -10,28 +10,8 @@ pub trait Words: Sized {
     /// Hands the words of the value to `sink`, first to last.
     fn put(&self, sink: &mut dyn FnMut(u32));
 
-    /// A value to be filled.
-    const BLANK: Self;
-
-    /// Fills the value with the words that `source` gives, first to last. Any words are a value.
-    // In place, because a value that is returned is copied once more at every level of it.
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32);
-
-    /// Reads a value from the words that `source` gives, first to last.
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        let mut value = Self::BLANK;
-        value.fill(source);
-        value
-    }
-}
-
-/// Fills values one by one. A function of its own with a length that it is given: loops of a known
-/// length would be unrolled, once for each of an arm's arrays.
-#[inline(never)]
-fn fill_all<T: Words>(values: &mut [T], source: &mut dyn FnMut() -> u32) {
-    for value in values {
-        value.fill(source);
-    }
+    /// Reads a value from the words that `source` gives, first to last. Any words are a value.
+    fn get(source: &mut dyn FnMut() -> u32) -> Self;
 }
 
 /// Mixes a word into a hash (FNV-1a, by words).
@@ -61,10 +41,8 @@ impl Words for u32 {
         sink(*self);
     }
 
-    const BLANK: Self = 0;
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        *self = source();
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        source()
     }
 }
 
@@ -75,10 +53,8 @@ impl Words for bool {
         sink(u32::from(*self));
     }
 
-    const BLANK: Self = false;
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        *self = source() != 0;
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        source() != 0
     }
 }
 
@@ -89,10 +65,8 @@ impl Words for f32 {
         sink(self.to_bits());
     }
 
-    const BLANK: Self = 0.0;
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        *self = Self::from_bits(source());
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        Self::from_bits(source())
     }
 }
 
@@ -106,11 +80,9 @@ impl Words for f64 {
         sink((bits >> 32) as u32);
     }
 
-    const BLANK: Self = 0.0;
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
         let low = u64::from(source());
-        *self = Self::from_bits(low | u64::from(source()) << 32);
+        Self::from_bits(low | u64::from(source()) << 32)
     }
 }
 
@@ -123,26 +95,22 @@ impl<T: Words, const N: usize> Words for [T; N] {
         }
     }
 
-    const BLANK: Self = [T::BLANK; N];
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        fill_all(self, source);
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        core::array::from_fn(|_| T::get(source))
     }
 }
 
 impl<A: Words, B: Words> Words for (A, B) {
-    const LAYOUT: u32 = mix(A::LAYOUT, B::LAYOUT);
+    // Begun with a name, because a single step of `mix` is the same either way round.
+    const LAYOUT: u32 = mix(mix(named("pair"), A::LAYOUT), B::LAYOUT);
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         self.0.put(sink);
         self.1.put(sink);
     }
 
-    const BLANK: Self = (A::BLANK, B::BLANK);
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        self.0.fill(source);
-        self.1.fill(source);
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        (A::get(source), B::get(source))
     }
 }
 
@@ -154,11 +122,9 @@ impl Words for Option<f64> {
         (self.is_some(), self.unwrap_or(0.0)).put(sink);
     }
 
-    const BLANK: Self = None;
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
         let (is_some, value) = Words::get(source);
-        *self = if is_some { Some(value) } else { None };
+        if is_some { Some(value) } else { None }
     }
 }
 
@@ -183,12 +149,9 @@ macro_rules! words {
                     $($crate::math::Words::put($field, sink);)*
                 }
 
-                const BLANK: Self = Self { $($field: $crate::math::Words::BLANK),* };
-
-                fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+                fn get(source: &mut dyn FnMut() -> u32) -> Self {
                     // In the order in which they are written.
-                    let Self { $($field),* } = self;
-                    $($crate::math::Words::fill($field, source);)*
+                    Self { $($field: $crate::math::Words::get(source)),* }
                 }
             }
         )*

@@ -320,9 +320,9 @@ impl Words for Uniform {
 
     fn put(&self, _: &mut dyn FnMut(u32)) {}
 
-    const BLANK: Self = Self;
-
-    fn fill(&mut self, _: &mut dyn FnMut() -> u32) {}
+    fn get(_: &mut dyn FnMut() -> u32) -> Self {
+        Self
+    }
 }
 
 words! {

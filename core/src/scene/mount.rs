@@ -91,10 +91,8 @@ impl Words for AxisKind {
         (*self == Self::Linear).put(sink);
     }
 
-    const BLANK: Self = Self::Rotary;
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        *self = if bool::get(source) { Self::Linear } else { Self::Rotary };
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        if bool::get(source) { Self::Linear } else { Self::Rotary }
     }
 }
 

@@ -86,10 +86,8 @@ impl<T: Scalar> Words for Kicks<T> {
         self.0.put(sink);
     }
 
-    const BLANK: Self = Self(Words::BLANK);
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        self.0.fill(source);
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        Self(Words::get(source))
     }
 }
 

@@ -353,10 +353,8 @@ impl Words for Quality {
         (*self == Self::Fine).put(sink);
     }
 
-    const BLANK: Self = Self::Fast;
-
-    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        *self = if bool::get(source) { Self::Fine } else { Self::Fast };
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        if bool::get(source) { Self::Fine } else { Self::Fast }
     }
 }
 
