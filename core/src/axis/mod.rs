@@ -21,6 +21,7 @@
 
 mod change;
 mod follow;
+mod mechanism;
 mod pace;
 mod path;
 mod policy;
@@ -32,6 +33,7 @@ use core::fmt;
 pub use change::Change;
 use follow::Reach;
 use heapless::Deque;
+pub use mechanism::{MechanismAxes, MechanismTick};
 pub use pace::{Pace, Timing};
 pub use policy::{Policy, StopLimits};
 pub use sequence::{Freshness, Sequence};
