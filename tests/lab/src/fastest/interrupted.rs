@@ -10,6 +10,7 @@ use stillbeam::{Damping, Generator, HubState, Limits, Profile, Scene};
 use stillbeam_sim::error::Error;
 
 use crate::campaign;
+use crate::random;
 use crate::still::campaign::{Refusals, arm, kind, tick};
 
 /// Knots of the acceleration in half of a move, as on a target.
@@ -92,7 +93,7 @@ impl Case {
     }
 
     fn interrupt(&self, rng: &mut StdRng) -> Result<Result<Outcome, &'static str>, Error> {
-        let to: f64 = rng.random_range(0.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
+        let to: f64 = rng.random_range(0.2..3.0) * random::sign(rng);
         let limits = self.limits(rng, to);
         let planned = self.planner.fastest::<KNOTS>(&Request::from_rest(0.0, to).limits(limits))?;
         let when: f64 = rng.random_range(0.0..1.25);
