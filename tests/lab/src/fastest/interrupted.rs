@@ -3,7 +3,7 @@
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::model::Rod;
-use stillbeam::motion::{Path, Segment, Spline};
+use stillbeam::motion::{Segment, Spline};
 use stillbeam::planner::{FastestMove, Planner, Request, StillMove, Target};
 use stillbeam::stepper::{ArmState, Elastica, Quality};
 use stillbeam::{Damping, Generator, HubState, Limits, Profile, Scene};
@@ -99,7 +99,7 @@ impl Case {
         let when: f64 = rng.random_range(0.0..1.25);
         let target = rng.random_bool(0.6).then(|| rng.random_range(-3.0..3.0));
         let Some(fastest) = planned else { return Ok(Err("no fastest move")) };
-        let before = excess(&limits, self.along(&fastest)?.iter());
+        let before = excess_of_rows(&limits, &fastest);
         let bend = self.rod.bend(1.5 * ROOM * fastest.peaks.acceleration).min(1.5);
         let stepper = Elastica::<f32, 2>::new(&self.rod, self.tick, Quality::Fine, bend)?;
         let mut generator = Generator::<_, 8>::new(stepper, 0.0)?;
@@ -158,16 +158,32 @@ impl Case {
             by_way_of_rest: course.then.is_some(),
         }))
     }
+}
 
-    /// The pieces of a fastest move, at [`LOOKS`] instants a tick.
-    fn along(&self, fastest: &FastestMove<KNOTS>) -> Result<Vec<Segment<f64>>, Error> {
-        let start = HubState::resting_at(fastest.from)?;
-        let tick = self.tick / f64::from(LOOKS);
-        let path = Path::new(Spline::Cubic, start, &Limits::default(), tick)?;
-        path.segments(fastest.waypoints())
-            .map(|piece| piece.map_err(|refused| refused.error.into()))
-            .collect()
+/// Largest part of a limit of rate or acceleration by which a fastest move exceeds it anywhere, from
+/// its rows alone: between two of them the acceleration is a straight line.
+fn excess_of_rows(limits: &Limits, fastest: &FastestMove<KNOTS>) -> f64 {
+    let mut most = f64::NEG_INFINITY;
+    let mut see = |value: f64, limit: Option<f64>| {
+        if let Some(limit) = limit {
+            most = most.max(value.abs() / limit - 1.0);
+        }
+    };
+    let (mut time, mut angle, mut rate) = (0.0, fastest.from, 0.0);
+    for row in fastest.waypoints() {
+        let (span, end) = (row.time - time, row.rate.unwrap_or(f64::NAN));
+        let way = 6.0 * (row.angle - angle) / (span * span);
+        let begins = way - (4.0 * rate + 2.0 * end) / span;
+        let ends = (2.0 * rate + 4.0 * end) / span - way;
+        see(begins, limits.acceleration);
+        see(ends, limits.acceleration);
+        see(end, limits.rate);
+        if begins * ends < 0.0 {
+            see(rate + 0.5 * span * begins * begins / (begins - ends), limits.rate);
+        }
+        (time, angle, rate) = (row.time, row.angle, end);
     }
+    most
 }
 
 /// The same curve with `parts` times as many ticks.
