@@ -58,6 +58,38 @@ fn a_scene_file_plans_its_still_moves() {
     }
 }
 
+/// The fastest move, one that may leave a hundredth, and one of least effort, each from rest.
+#[test]
+fn a_scene_file_says_what_a_still_move_keeps_least() {
+    let link = SCENE.split("[limits]").next().expect("a link");
+    let moves = |words: &str| {
+        format!(
+            "{link}[limits]\nacceleration = 400\nrate = 25\n[[moves]]\nprofile = \"still\"\nto = 2.0\n{words}"
+        )
+    };
+    let duration = |words: &str| {
+        let scene = SceneFile::parse("test", &moves(words)).expect("a scene");
+        scene.trajectory(0.001).expect("a motion").duration()
+    };
+    let still = duration("");
+    let fastest = duration("least = \"time\"");
+    assert!(fastest < 0.99 * still, "{fastest} {still}");
+    assert!(duration("within = 0.02") < fastest);
+    assert!((duration("least = \"effort\"\nduration = 0.25") - 0.25).abs() < 1e-9);
+    for (words, said) in [
+        ("least = \"heat\"\nduration = 0.25", "heat"),
+        ("least = \"time\"\nduration = 0.25", "move.duration = 0.25"),
+        ("within = 0.3", "within = 0.3"),
+        ("least = \"effort\"", "least"),
+    ] {
+        let error = SceneFile::parse("test", &moves(words)).expect_err(words).to_string();
+        assert!(error.contains(said), "{error}");
+    }
+    let text = moves("least = \"time\"").replace("still", "cubic");
+    let error = SceneFile::parse("test", &text).expect_err("a cubic").to_string();
+    assert!(error.contains("move.least"), "{error}");
+}
+
 /// A few of the moves that `docs/still.md` counts by the ten thousand.
 #[test]
 fn random_arms_arrive_still() {

@@ -2,8 +2,8 @@
 //! RAM of the tables; it prints the worst stack as four bytes.
 //!
 //! The method to be linked is chosen when this is built, by the environment variable
-//! `STILLBEAM_METHOD` (a name in the list of methods, or `Still2`: elastica with a planner of still
-//! moves).
+//! `STILLBEAM_METHOD` (a name in the list of methods, `Still2`: elastica with a planner of still
+//! moves, or `Fastest2`: elastica with a planner of the fastest ones).
 #![no_std]
 #![no_main]
 
@@ -13,9 +13,10 @@ use cortex_m_rt::entry;
 use semihosting::io::{self, Write};
 use semihosting::process;
 use stillbeam::model::Rod;
+use stillbeam::motion::Spline;
 use stillbeam::planner::{Planner, Request};
 use stillbeam::stepper::{Elastica, Quality};
-use stillbeam::{Error, Generator, Link, PlainMove, Profile, UniformScene};
+use stillbeam::{Error, Generator, Limits, Link, PlainMove, Profile, UniformScene};
 use stillbeam_firmware::{exit, stack};
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 
@@ -85,6 +86,38 @@ fn one_still_move() -> Result<(), Error> {
     Ok(())
 }
 
+/// The same with the fastest move within an S-curve's limits, followed as a path.
+#[inline(never)]
+fn one_fastest_move() -> Result<(), Error> {
+    let mut scene = black_box(UniformScene::uniform(Link {
+        length: 0.4,
+        mass: 0.01904,
+        bending_stiffness: 0.042656,
+    }));
+    scene.payload.mass = 0.030;
+    let rod = Rod::<2>::new(&scene)?;
+    let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fast, rod.bend(10.0))?;
+    let mut arm = Generator::<_, 4>::new(stepper, 0.0)?;
+    let planner = Planner::<f32, 2>::new(&scene, 0.010)?;
+    let (to, acceleration, torque) = black_box((core::f64::consts::PI, 5.0, 0.06));
+    let limits = Limits {
+        rate: Some(3.0),
+        acceleration: Some(acceleration),
+        jerk: Some(40.0),
+        torque: Some(torque),
+        ..Limits::default()
+    };
+    let request = Request::from_rest(0.0, to).limits(limits).any_deflection();
+    let plan = planner.fastest::<12>(&request)?.ok_or(Error::NotAtRest { rate: 0.0 })?;
+    let mut path = arm.path(Spline::Cubic)?;
+    let mut rows = plan.waypoints();
+    for _ in 0..=400 {
+        arm.feed(&mut path, &mut rows).map_err(|refused| refused.error)?;
+        black_box(arm.tick());
+    }
+    Ok(())
+}
+
 /// `a == b`, for use in constants: the methods that were not chosen are not even generated.
 const fn same(a: &str, b: &str) -> bool {
     let (a, b) = (a.as_bytes(), b.as_bytes());
@@ -103,6 +136,9 @@ fn main() -> ! {
     visit_all(&mut chosen);
     if const { same("Still2", CHOSEN) } {
         chosen.0 = one_still_move().ok();
+    }
+    if const { same("Fastest2", CHOSEN) } {
+        chosen.0 = one_fastest_move().ok();
     }
     let stack = stack::deepest() as u32;
     let sent = io::stdout().and_then(|mut out| out.write_all(&stack.to_le_bytes()));

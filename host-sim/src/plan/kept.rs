@@ -89,19 +89,27 @@ impl Asked<'_> {
     /// the reference rod, and returns `2π/ω₁`, s, beside it. `None` for what is not its kind, or if
     /// it does not converge.
     pub fn plan_fastest(&self) -> Result<Option<(FastestMove<INTERVALS>, f64)>, Error> {
-        let options = self.options.validate(self.duration)?;
-        let plain = self.duration.is_none() && self.robust.is_none();
-        if !(plain || options.is_some()) || !self.before.steps.is_empty() {
+        let Case { arm, tick, .. } = self.before;
+        let period = Planner::<f32, 2>::new(arm, tick)?.first_period();
+        if self.options.is_some() {
+            return self.plan_piecewise().map(|found| Some((found, period)));
+        }
+        let own = self.duration.is_none() && self.robust.is_none();
+        if !own || !self.before.steps.is_empty() {
             return Ok(None);
         }
-        let found = self.piecewise(&options)?;
-        if found.is_none() && options.is_some() {
-            return Err(options.unmet());
-        }
-        Ok(found)
+        let found = self.piecewise(&self.options)?;
+        Ok(found.map(|found| (found, period)))
     }
 
-    fn piecewise(&self, options: &Options) -> Result<Option<(FastestMove<INTERVALS>, f64)>, Error> {
+    /// Plans a move with a piecewise-linear acceleration, as the options ask: the fastest, or the
+    /// gentlest of a duration. What is not its kind is refused.
+    pub fn plan_piecewise(&self) -> Result<FastestMove<INTERVALS>, Error> {
+        let options = self.options.validate(self.duration)?;
+        self.piecewise(&options)?.ok_or_else(|| options.unmet())
+    }
+
+    fn piecewise(&self, options: &Options) -> Result<Option<FastestMove<INTERVALS>>, Error> {
         let Case { arm, tick, .. } = self.before;
         let planner = Planner::<f32, 2>::new(arm, tick)?;
         let search = Search { asked: self, planner, state: OnceCell::new() };
@@ -125,7 +133,7 @@ impl Asked<'_> {
             let left = self.left(&found, options)?;
             let most = options.residual.unwrap_or(f64::INFINITY);
             if over.is_empty() && left <= most {
-                return Ok(Some((found, search.planner.first_period())));
+                return Ok(Some(found));
             }
             if left > most {
                 // The planner does not see the third mode.

@@ -7,8 +7,8 @@ use super::Step;
 use super::waypoints::Rows;
 use crate::error::Error;
 use crate::limits::{self, Case};
-use crate::plan::Options;
 use crate::plan::kept::{Asked, GOAL};
+use crate::plan::{Options, options, shortest};
 use crate::step::Motion;
 
 /// A `[move]` table.
@@ -24,6 +24,10 @@ pub(super) struct MoveTable {
     pub(super) waypoints: Option<Vec<Vec<f64>>>,
     pub(super) repeat: Option<u32>,
     pub(super) robust: Option<f64>,
+    /// What a still move keeps least: `time`, `acceleration` or `effort`.
+    least: Option<String>,
+    /// Residual that a still move may leave, of L.
+    within: Option<f64>,
     /// True for a move that passes into the next one.
     #[serde(default)]
     pub(super) blend: bool,
@@ -94,6 +98,15 @@ impl MoveTable {
                 self.settle
             )));
         }
+        if self.profile.as_deref() != Some("still") {
+            let least = self.least.as_ref().map(|least| format!("least = \"{least}\""));
+            let within = self.within.map(|within| format!("within = {within}"));
+            if let Some(key) = least.or(within) {
+                return Err(Error::new(format_args!(
+                    "move.{key}: must be absent; only a move with profile = \"still\" has it"
+                )));
+            }
+        }
         if self.blend {
             let motion = self.blended(next, here, planning)?;
             let passes = Some(here.rate);
@@ -141,8 +154,24 @@ impl MoveTable {
         *here = Here { angle: Some(to), rate: 0.0 };
         let Planning { before, limits, count } = *planning;
         let Self { duration, robust, settle, .. } = *self;
-        let options = Options::default();
+        let piecewise = self.least.is_some() || self.within.is_some();
+        let least = match self.least.as_deref() {
+            None | Some("time") => None,
+            Some(name) => Some(options::least(name)?),
+        };
+        if self.least.as_deref() == Some("time")
+            && let Some(duration) = duration
+        {
+            return Err(Error::new(format_args!(
+                "move.duration = {duration}: must be absent beside move.least = \"time\""
+            )));
+        }
+        let options = Options { residual: self.within, least };
         let asked = Asked { before, limits, from, to, duration, robust, options, settle, count };
+        if piecewise {
+            let found = asked.plan_piecewise()?;
+            return Ok(shortest::path(&found));
+        }
         Ok(asked.plan()?.plan.motion().into())
     }
 

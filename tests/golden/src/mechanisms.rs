@@ -1,6 +1,6 @@
 //! Chains of links that host and target run alike.
 
-use stillbeam::axis::{MechanismAxes, Mode, Policy};
+use stillbeam::axis::{MechanismAxes, Mode, Policy, StopLimits};
 use stillbeam::chain::{Chain, ChainGenerator, ChainSetpoint};
 use stillbeam::drive::odrive;
 use stillbeam::mechanism::{Closure, Joint, Link, Mechanism};
@@ -139,7 +139,12 @@ const PATIENCE: u32 = 30;
 fn two_axes(sink: &mut impl Sink) -> Result<(), Error> {
     let chain = Chain::<f32, 2, 3, 6, 3>::new(&two_links()?, TICK)?;
     let limits = Limits { acceleration: Some(30.0), ..Limits::default() };
-    let policy = Policy { limits, patience: TICK * f64::from(PATIENCE), missed: 2 };
+    let policy = Policy {
+        limits,
+        patience: TICK * f64::from(PATIENCE),
+        missed: 2,
+        stop: StopLimits::OF_MOVES,
+    };
     let mut axes = MechanismAxes::<f32, 2, 3, 6, 3, 4>::new(chain, [0.0; 2], &[policy; 2])?;
     let geared = |motor, direction, zero| {
         let joint = motor::Joint { ratio: Ratio { motor, link: 2 }, ..motor::Joint::direct(0.05) };

@@ -12,7 +12,7 @@ use crate::planner::simulate::Arm;
 use crate::stepper::ArmState;
 
 /// Angles that the highest and the first mode may turn by in a step of a search, rad: in a long
-/// move, and in any other.
+/// move whose torque does not matter, and in any other.
 const LONG: [f64; 2] = [2.0, 0.4];
 const COARSE: [f64; 2] = [1.0, 0.2];
 /// The same in the last simulation.
@@ -100,14 +100,17 @@ pub(super) fn fly<T: Scalar, const K: usize, const N: usize>(
     half: &Half<T, N>,
     view: View,
 ) -> Landing<T, K, N> {
-    let flight = Flight::new(arm, points, half, if view.long { LONG } else { COARSE });
+    let long = view.long && !view.loaded;
+    let flight = Flight::new(arm, points, half, if long { LONG } else { COARSE });
     let parts = flight.parts;
     let mut torque = [[T::ZERO; N]; 2];
     let mut most = Peak::new(T::ZERO);
     let mut done = 0;
     let end = flight.fly(|flex, hub| {
         done += 1;
-        if !view.loaded {
+        // A node has four steps then, and two looks do.
+        let skipped = parts >= 8 && done % 2 == 1;
+        if !view.loaded || skipped {
             return;
         }
         let here = flight.load(flex, hub).torque;

@@ -1,6 +1,6 @@
 //! The joints of one mechanism as axes under one policy.
 
-use stillbeam::axis::{Cause, MechanismAxes, Mode, Policy, Timing};
+use stillbeam::axis::{Cause, MechanismAxes, Mode, Policy, StopLimits, Timing};
 use stillbeam::chain::Chain;
 use stillbeam::drive::odrive;
 use stillbeam::motor::{Direction, Drivetrain, Joint, Ratio};
@@ -12,7 +12,7 @@ type Axes = MechanismAxes<f32, 2, 3, 6, 3>;
 
 fn policy(patience: f64) -> Policy {
     let limits = Limits { acceleration: Some(30.0), ..Limits::default() };
-    Policy { limits, patience, missed: 2 }
+    Policy { limits, patience, missed: 2, stop: StopLimits::OF_MOVES }
 }
 
 fn measured() -> [Angle<f32>; 2] {

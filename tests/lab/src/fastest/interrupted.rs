@@ -3,13 +3,14 @@
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::model::Rod;
-use stillbeam::motion::{Path, Segment, Spline};
+use stillbeam::motion::{Segment, Spline};
 use stillbeam::planner::{FastestMove, Planner, Request, StillMove, Target};
 use stillbeam::stepper::{ArmState, Elastica, Quality};
 use stillbeam::{Damping, Generator, HubState, Limits, Profile, Scene};
 use stillbeam_sim::error::Error;
 
 use crate::campaign;
+use crate::random;
 use crate::still::campaign::{Refusals, arm, kind, tick};
 
 /// Knots of the acceleration in half of a move, as on a target.
@@ -92,13 +93,13 @@ impl Case {
     }
 
     fn interrupt(&self, rng: &mut StdRng) -> Result<Result<Outcome, &'static str>, Error> {
-        let to: f64 = rng.random_range(0.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
+        let to: f64 = rng.random_range(0.2..3.0) * random::sign(rng);
         let limits = self.limits(rng, to);
         let planned = self.planner.fastest::<KNOTS>(&Request::from_rest(0.0, to).limits(limits))?;
         let when: f64 = rng.random_range(0.0..1.25);
         let target = rng.random_bool(0.6).then(|| rng.random_range(-3.0..3.0));
         let Some(fastest) = planned else { return Ok(Err("no fastest move")) };
-        let before = excess(&limits, self.along(&fastest)?.iter());
+        let before = excess_of_rows(&limits, &fastest);
         let bend = self.rod.bend(1.5 * ROOM * fastest.peaks.acceleration).min(1.5);
         let stepper = Elastica::<f32, 2>::new(&self.rod, self.tick, Quality::Fine, bend)?;
         let mut generator = Generator::<_, 8>::new(stepper, 0.0)?;
@@ -157,16 +158,32 @@ impl Case {
             by_way_of_rest: course.then.is_some(),
         }))
     }
+}
 
-    /// The pieces of a fastest move, at [`LOOKS`] instants a tick.
-    fn along(&self, fastest: &FastestMove<KNOTS>) -> Result<Vec<Segment<f64>>, Error> {
-        let start = HubState::resting_at(fastest.from)?;
-        let tick = self.tick / f64::from(LOOKS);
-        let path = Path::new(Spline::Cubic, start, &Limits::default(), tick)?;
-        path.segments(fastest.waypoints())
-            .map(|piece| piece.map_err(|refused| refused.error.into()))
-            .collect()
+/// Largest part of a limit of rate or acceleration by which a fastest move exceeds it anywhere, from
+/// its rows alone: between two of them the acceleration is a straight line.
+fn excess_of_rows(limits: &Limits, fastest: &FastestMove<KNOTS>) -> f64 {
+    let mut most = f64::NEG_INFINITY;
+    let mut see = |value: f64, limit: Option<f64>| {
+        if let Some(limit) = limit {
+            most = most.max(value.abs() / limit - 1.0);
+        }
+    };
+    let (mut time, mut angle, mut rate) = (0.0, fastest.from, 0.0);
+    for row in fastest.waypoints() {
+        let (span, end) = (row.time - time, row.rate.unwrap_or(f64::NAN));
+        let way = 6.0 * (row.angle - angle) / (span * span);
+        let begins = way - (4.0 * rate + 2.0 * end) / span;
+        let ends = (2.0 * rate + 4.0 * end) / span - way;
+        see(begins, limits.acceleration);
+        see(ends, limits.acceleration);
+        see(end, limits.rate);
+        if begins * ends < 0.0 {
+            see(rate + 0.5 * span * begins * begins / (begins - ends), limits.rate);
+        }
+        (time, angle, rate) = (row.time, row.angle, end);
     }
+    most
 }
 
 /// The same curve with `parts` times as many ticks.
