@@ -65,7 +65,8 @@ impl<
 > MechanismAxes<T, LINKS, W, C, Q, QUEUE>
 {
     /// Disabled axes that stand at `angles`, rad. Of each joint's policy the limits count for the
-    /// joint. The least patience counts for all, and the least number of missed ticks.
+    /// joint. The least patience counts for all, and the least number of missed ticks. A stop keeps
+    /// the limits of moves: limits of its own ([`Policy::stop`]) are not read.
     ///
     /// # Errors
     /// Those of [`ChainGenerator::new`] and [`ChainGenerator::limit`]; a driven joint without a
