@@ -46,6 +46,8 @@ pub enum Refusal<'a> {
     Axis(u8),
     /// No move is under way.
     NoMove,
+    /// The firmware plans no paths.
+    NoPaths,
     /// No path has been begun, or it is over.
     NoPath,
     /// The row came after the hub had begun to stop at the one before.
@@ -133,6 +135,9 @@ impl fmt::Display for Refusal<'_> {
             Self::NotAtRest => write!(f, "{}", Error::Moving),
             Self::Stale => write!(f, "move = planned before a stop: send it again"),
             Self::NoMove => write!(f, "{}", Error::NoMove),
+            Self::NoPaths => {
+                write!(f, "path = not planned: use a firmware with the feature `path`")
+            }
             Self::NoPath => write!(f, "waypoint = without a path: begin a path first"),
             Self::Starved => write!(f, "{}", Error::Starved),
             Self::NotMeasured => {

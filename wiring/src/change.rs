@@ -61,6 +61,12 @@ mod tests {
         joint
     }
 
+    /// Makes a tick with the host there.
+    fn tick(joint: &mut Joint) -> stillbeam::Setpoint<f32> {
+        joint.axis.heard();
+        joint.axis.tick().setpoint
+    }
+
     fn change(joint: &mut Joint, change: Change) -> Result<(), Refusal<'static>> {
         joint.carry_out(&Command::Change(change))
     }
@@ -68,15 +74,15 @@ mod tests {
     #[test]
     fn a_target_is_met_with_its_rate() {
         let mut joint = joint();
-        joint.axis.tick();
+        tick(&mut joint);
         let target = Change::Target { angle: 0.2, rate: 0.1, duration: 0.5 };
         assert_eq!(change(&mut joint, target), Ok(()));
-        let last = (0..50).map(|_| joint.axis.tick()).last().expect("ticks").setpoint;
+        let last = (0..50).map(|_| tick(&mut joint)).last().expect("ticks");
         assert!((last.angle.radians() - 0.25).abs() < 1e-5, "{last:?}");
         assert!((last.rate - 0.1).abs() < 1e-5, "{last:?}");
         assert_eq!(change(&mut joint, Change::Hold), Ok(()));
         for _ in 0..200 {
-            joint.axis.tick();
+            tick(&mut joint);
         }
         assert!(joint.axis.rests());
     }
@@ -84,7 +90,7 @@ mod tests {
     #[test]
     fn what_is_no_target_is_refused_and_changes_nothing() {
         let mut joint = joint();
-        let before = joint.axis.tick().setpoint;
+        let before = tick(&mut joint);
         let of = |angle, rate| Change::Target { angle, rate, duration: 0.5 };
         let refused = [
             (of(f64::NAN, 0.0), "target.angle"),
@@ -102,6 +108,6 @@ mod tests {
         let refusal = change(&mut joint, fast).expect_err("limits");
         assert!(matches!(refusal, Refusal::Range { parameter: "limits.rate", .. }), "{refusal:?}");
         assert!(change(&mut joint, Change::Duration(1.0)).is_err(), "no move is under way");
-        assert_eq!(joint.axis.tick().setpoint, before);
+        assert_eq!(tick(&mut joint), before);
     }
 }

@@ -94,6 +94,12 @@ mod tests {
         joint
     }
 
+    /// Makes a tick with the host there and returns the hub's angle, rad.
+    fn tick(joint: &mut Joint) -> f64 {
+        joint.axis.heard();
+        joint.axis.tick().setpoint.angle.radians()
+    }
+
     fn offer(
         joint: &mut Joint,
         rows: &mut Rows,
@@ -110,7 +116,7 @@ mod tests {
         rows.begin(joint.axis.path(Spline::Cubic).expect("an enabled axis"));
         let row = |k: u32| Waypoint::at(0.1 * f64::from(k), 0.1 * f64::from(k % 2));
         let (mut next, mut full, mut passed) = (1, 0, 0);
-        for tick in 0..1100_u32 {
+        for count in 0..1100_u32 {
             while next <= 100 {
                 match offer(&mut joint, &mut rows, row(next), next == 100) {
                     Ok(()) => next += 1,
@@ -122,10 +128,10 @@ mod tests {
                 }
             }
             rows.advance(|path, piece| joint.axis.take_piece(path, piece));
-            let angle = joint.axis.tick().setpoint.angle.radians();
-            if tick % 10 == 0 && (1..=100).contains(&(tick / 10)) {
-                let Waypoint { angle: expected, .. } = row(tick / 10);
-                assert!((angle - expected).abs() < 1e-5, "{tick}: {angle}");
+            let angle = tick(&mut joint);
+            if count % 10 == 0 && (1..=100).contains(&(count / 10)) {
+                let Waypoint { angle: expected, .. } = row(count / 10);
+                assert!((angle - expected).abs() < 1e-5, "{count}: {angle}");
                 passed += 1;
             }
         }
@@ -147,14 +153,14 @@ mod tests {
         assert!(matches!(refused, Err(Refusal::Range { .. })), "{refused:?}");
         assert_eq!(offer(&mut joint, &mut rows, late, true), Err(Refusal::NoPath));
         for _ in 0..200 {
-            joint.axis.tick();
+            tick(&mut joint);
         }
         assert!(joint.axis.rests(), "it stops behind the row before");
 
         rows.begin(joint.axis.path(Spline::Cubic).expect("an enabled axis"));
         assert_eq!(offer(&mut joint, &mut rows, first, false), Ok(()));
         for _ in 0..40 {
-            joint.axis.tick();
+            tick(&mut joint);
         }
         assert_eq!(offer(&mut joint, &mut rows, late, true), Err(Refusal::Starved));
     }

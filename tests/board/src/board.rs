@@ -181,10 +181,9 @@ impl Board {
             let begun = match job {
                 Work::Move(motion) => self.plan(motion, true),
                 Work::Payload(payload) => self.set_up(payload),
-                // As a firmware without the planner of still moves.
+                // As a firmware without the planner of still moves, and without paths.
                 Work::Still { .. } => Err(Refusal::NoPlanner),
-                // The application's own; no campaign begins one.
-                Work::Path(_) | Work::Row(..) => Err(Refusal::NoPath),
+                Work::Path(_) | Work::Row(..) => Err(Refusal::NoPaths),
             };
             self.begin(begun);
         }

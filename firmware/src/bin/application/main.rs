@@ -20,6 +20,7 @@ mod board;
 mod command;
 mod drive;
 mod link;
+mod path;
 mod plan;
 mod record;
 mod report;

@@ -78,6 +78,7 @@ fn kind(refusal: &Refusal<'_>) -> &'static str {
         Refusal::NoPlanner => "no planner",
         Refusal::Axis(_) => "no such axis",
         Refusal::NoMove => "no move",
+        Refusal::NoPaths => "no paths",
         Refusal::NoPath => "no path",
         Refusal::Starved => "starved",
         Refusal::NoSensor => "no sensor",
