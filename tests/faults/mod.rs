@@ -3,3 +3,4 @@
 
 mod campaign;
 mod found;
+mod machine;

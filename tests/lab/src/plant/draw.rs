@@ -28,6 +28,10 @@ pub struct Case {
     pub turn: f64,
     /// Inertia of arm, hub and rotor about the hub, kg m².
     pub inertia: f64,
+    /// First period of the arm on a hub that is held, s.
+    pub period: f64,
+    /// Time in which its damping takes a vibration down to 5 %, s.
+    pub settling: f64,
 }
 
 /// Returns a number between two positive ones, evenly in its logarithm.
@@ -38,7 +42,7 @@ fn spread(rng: &mut StdRng, least: f64, most: f64) -> f64 {
 impl Case {
     /// Draws a case.
     pub fn random(rng: &mut StdRng) -> Self {
-        let scene = arm(rng);
+        let (scene, damping) = arm(rng);
         let arm = Scene::from(scene);
         let period = rod::first_period(&arm).unwrap_or(0.3);
         let duration = (period * rng.random_range(1.5..4.0)).clamp(0.3, 1.2);
@@ -67,22 +71,42 @@ impl Case {
         let drive = gains(rng, rotor / (n * n));
         let counts = 1 << rng.random_range(13..18);
         let latency = if rng.random() { 0.0 } else { 1.0 / drive.rate };
-        Self { configuration, parts, drive, counts, latency, duration, turn, inertia }
+        let settling = 20f64.ln() * period / (std::f64::consts::TAU * damping);
+        Self {
+            configuration,
+            parts,
+            drive,
+            counts,
+            latency,
+            duration,
+            turn,
+            inertia,
+            period,
+            settling,
+        }
     }
 }
 
-fn arm(rng: &mut StdRng) -> UniformScene {
+/// Draws an arm with its damping ratio.
+fn arm(rng: &mut StdRng) -> (UniformScene, f64) {
     let length = rng.random_range(0.2..1.0);
     let mass = spread(rng, 0.02, 0.3);
-    // Of a first frequency of the bare link from 3 to 12 Hz.
-    let omega = std::f64::consts::TAU * spread(rng, 3.0, 12.0);
-    let stiffness = mass * f64::powi(length, 3) * (omega / 3.516).powi(2);
+    let payload = mass * rng.random_range(0.0..2.0);
+    let omega = std::f64::consts::TAU * spread(rng, 3.0, 10.0);
+    // Of a cantilever with that payload (Rayleigh's quotient), which need not be exact here.
+    let stiffness = (33.0 / 140.0 * mass + payload) * f64::powi(length, 3) * omega * omega / 3.0;
     let mut scene = UniformScene::uniform(Link { length, mass, bending_stiffness: stiffness });
-    scene.payload = Payload { mass: mass * rng.random_range(0.0..2.0), ..Payload::default() };
+    scene.payload = Payload { mass: payload, ..Payload::default() };
     scene.hub.radius = length * rng.random_range(0.0..0.2);
     scene.hub.inertia = mass * length * length * rng.random_range(0.01..0.1);
-    scene.damping = Damping { alpha: 0.0, beta: 0.1 / omega, joint: 0.0 };
-    scene
+    // The first mode by mass, and 1 % at the second of the bare link by stiffness: more of that would
+    // damp the highest polynomial so much that it takes most of the time to integrate.
+    let ratio = rng.random_range(0.03..0.06);
+    let bare = 3.516 * (stiffness / (mass * f64::powi(length, 3))).sqrt();
+    let alpha = 2.0 * ratio * omega;
+    let beta = 2.0 * 0.01 / (6.27 * bare);
+    scene.damping = Damping { alpha, beta, joint: 0.0 };
+    (scene, ratio)
 }
 
 fn parts(rng: &mut StdRng, ratio: Ratio, rotor_inertia: f64, torque: f64) -> Parts {
@@ -129,7 +153,7 @@ fn gains(rng: &mut StdRng, rotor_inertia: f64) -> odrive::Config {
         integrator_gain: velocity_gain * rng.random_range(0.0..4.0),
         velocity_limit: 1e3,
         bandwidth: 1500.0,
-        rate: [2000.0, 4000.0][rng.random_range(0..2)],
+        rate: [1000.0, 2000.0][rng.random_range(0..2)],
         between: stillbeam_sim::servo::Between::Linear,
         filter_bandwidth: None,
         filter_inertia: 0.0,

@@ -1,5 +1,7 @@
 //! Faults that are put into the loop.
 
+use stillbeam::axis::Cause;
+
 /// A fault in the middle of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
@@ -17,14 +19,15 @@ pub enum Fault {
     EncoderJump,
     /// The motor gives no more than four fifths of the torque that the move takes.
     Saturation,
-    /// The drive switches itself off, with a brake, and reports its fault; the host switches the
-    /// axis off.
+    /// The drive switches itself off, with a brake, and its heartbeat says so.
     DriveFault,
+    /// The bus is cut: nothing comes from the drive or reaches it, and its watchdog switches it off.
+    BusCut,
 }
 
 impl Fault {
     /// Every fault, in the order of the table.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::None,
         Self::Stop,
         Self::LinkCut,
@@ -33,6 +36,7 @@ impl Fault {
         Self::EncoderJump,
         Self::Saturation,
         Self::DriveFault,
+        Self::BusCut,
     ];
 
     /// Name in the table.
@@ -46,11 +50,19 @@ impl Fault {
             Self::EncoderJump => "encoder jumps",
             Self::Saturation => "motor saturates",
             Self::DriveFault => "drive faults",
+            Self::BusCut => "bus cut",
         }
     }
 
-    /// True if the axis is to stop on its way.
-    pub fn stops(self) -> bool {
-        matches!(self, Self::Stop | Self::LinkCut | Self::MissedTicks)
+    /// Reason for which the axis has to stop on its way, if it has to.
+    pub fn cause(self) -> Option<Cause> {
+        match self {
+            Self::None | Self::LostSetpoints | Self::EncoderJump | Self::Saturation => None,
+            Self::Stop => Some(Cause::Requested),
+            Self::LinkCut => Some(Cause::LinkLost),
+            Self::MissedTicks => Some(Cause::MissedTicks),
+            Self::DriveFault => Some(Cause::DriveFault),
+            Self::BusCut => Some(Cause::DriveLost),
+        }
     }
 }

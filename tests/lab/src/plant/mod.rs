@@ -8,6 +8,7 @@ mod draw;
 mod fault;
 mod outcome;
 pub mod page;
+mod rest;
 mod run;
 pub mod table;
 

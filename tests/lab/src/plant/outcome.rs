@@ -11,12 +11,14 @@ pub struct Outcome {
     pub setpoints: u64,
     /// Stops on the way.
     pub stops: u64,
-    /// Greatest way of the setpoints' stop over `v²/A`.
+    /// Greatest way of the setpoints' stop over the brake's own bound.
     pub way: f64,
     /// Greatest angle of the hub behind its setpoint, rad.
     pub behind: f64,
-    /// Greatest speed of hub at the end over the move's mean rate.
-    pub restless: f64,
+    /// Greatest turn of the hub in the arm's last period, rad.
+    pub turn: f64,
+    /// Greatest swing of the tip in it, of L.
+    pub swing: f64,
     /// Greatest error of the energy balance over work and losses.
     pub energy: f64,
     /// Promises that were broken, with the run's number.
@@ -32,7 +34,8 @@ impl Outcome {
         self.stops += other.stops;
         self.way = self.way.max(other.way);
         self.behind = self.behind.max(other.behind);
-        self.restless = self.restless.max(other.restless);
+        self.turn = self.turn.max(other.turn);
+        self.swing = self.swing.max(other.swing);
         self.energy = self.energy.max(other.energy);
         self.broken.extend(other.broken);
     }

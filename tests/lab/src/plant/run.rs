@@ -2,7 +2,7 @@
 
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
-use stillbeam::axis::{Cause, Mode};
+use stillbeam::axis::Mode;
 use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::{EncoderEstimates, Heartbeat};
 use stillbeam::motor::Direction;
@@ -16,17 +16,34 @@ use stillbeam_sim::servo::odrive::Odrive;
 use stillbeam_sim::servo::{Servo, Target};
 
 use super::draw::Case;
+use super::rest::Rest;
 use super::{Fault, Outcome};
 use crate::campaign;
 
-/// Fineness of the rod: setpoints are judged, not its last digits.
+/// Fineness of the rod: setpoints and rest are judged, not its last digits. The energy balance says
+/// what it costs.
 const OPTIONS: Options = Options { order: 5, tolerance: 1e-6 };
 
-/// Time after the move in which everything comes to rest, s.
-const REST: f64 = 2.0;
+/// Time from the end of the move until the vibrations that it leaves begin to settle, s: a link that
+/// is cut shows after the patience, a drive that is lost after its own.
+const LATE: f64 = 0.6;
 
-/// Rate of the hub at the end, over the move's mean rate, that counts as rest.
-const STILL: f64 = 0.1;
+/// Turn of the hub, rad, and swing of the tip, of L, in the arm's last period that count as rest.
+const STILL: [f64; 2] = [1e-2, 1e-2];
+
+/// Way of a stop over `v²/A`, from rate `v` with the acceleration `A` of a hub that speeds up:
+/// `T(v/2 + AT/12)` with the brake's longest time, `T = 1.5√2 v/A`.
+const WAY: f64 = 1.4357;
+
+/// Error of the energy balance over work and losses that a run may have.
+const ENERGY: f64 = 1e-4;
+
+/// Time without a setpoint after which the drive's watchdog switches it off, s.
+const WATCHDOG: f64 = 0.1;
+
+/// ODrive's `DRV_FAULT` and `WATCHDOG_TIMER_EXPIRED`.
+const DRIVER_FAULT: u32 = 0x20;
+const WATCHDOG_EXPIRED: u32 = 0x0100_0000;
 
 /// Rate at which a brake holds the hub of a drive that is off, 1/s.
 const BRAKE: f64 = 200.0;
@@ -80,6 +97,7 @@ struct Run<'a> {
     setpoint: f64,
     stopped_from: Option<(f64, f64)>,
     behind: f64,
+    rest: Rest,
     broken: Vec<String>,
 }
 
@@ -114,6 +132,7 @@ impl<'a> Run<'a> {
             setpoint: 0.0,
             stopped_from: None,
             behind: 0.0,
+            rest: Rest::new(case, f64::from(last_tick(case)) * TICK),
             broken: Vec::new(),
         };
         run.reading = run.read();
@@ -137,8 +156,7 @@ impl<'a> Run<'a> {
         self.report();
         self.board.ask(Command::Enable);
         let (duration, to) = (self.case.duration, self.case.turn);
-        let last = ticks(0.05 + duration + REST);
-        for k in 0..last {
+        for k in 0..last_tick(self.case) {
             if k == ticks(0.05) {
                 self.board.ask(Command::Move(PlainMove::To {
                     profile: Profile::Quintic,
@@ -154,7 +172,12 @@ impl<'a> Run<'a> {
             if !(faulty && self.fault == Fault::LinkCut) {
                 self.board.ask(Command::Heartbeat);
             }
-            self.report();
+            let cut = faulty && self.fault == Fault::BusCut;
+            if !cut {
+                self.report();
+            } else if k == self.begin + ticks(WATCHDOG) {
+                (self.on, self.errors) = (false, WATCHDOG_EXPIRED);
+            }
             let missed = faulty && k == self.begin && self.fault == Fault::MissedTicks;
             let counts = if missed { PERIOD * rng.random_range(4..9) } else { PERIOD };
             self.now = self.now.wrapping_add(counts);
@@ -163,7 +186,7 @@ impl<'a> Run<'a> {
                 self.advance()?;
             }
             let lost = faulty && self.fault == Fault::LostSetpoints && rng.random_bool(1.0 / 3.0);
-            self.tick(lost);
+            self.tick(lost || cut);
             self.advance()?;
         }
         Ok(())
@@ -173,11 +196,7 @@ impl<'a> Run<'a> {
         match self.fault {
             Fault::Stop => self.board.ask(Command::Stop),
             Fault::EncoderJump => self.encoder.jump(rng.random_range(-0.01..0.01)),
-            Fault::DriveFault => {
-                (self.on, self.errors) = (false, 0x0200_0000);
-                // What a host does that hears of it.
-                self.board.ask(Command::Disable);
-            }
+            Fault::DriveFault => (self.on, self.errors) = (false, DRIVER_FAULT),
             _ => {}
         }
     }
@@ -259,45 +278,78 @@ impl<'a> Run<'a> {
                 self.plant.advance(next, &Effort::Held(-BRAKE * rotor * rate))?;
             }
             self.t = next;
+            self.rest.see(&self.plant);
         }
         Ok(())
     }
 
-    fn outcome(mut self) -> Outcome {
-        let shown = self.plant.shown();
-        let mean = self.case.turn.abs() / self.case.duration;
-        let restless = shown.rate.abs() / mean;
-        let numbers = [shown.angle, shown.rate, shown.tip[0], shown.tip[1], shown.deflection];
-        if !numbers.iter().all(|x| x.is_finite()) {
-            self.broken.push("the machine is not finite".to_owned());
-        }
-        if restless > STILL {
-            self.broken.push(format!("the hub turns at {restless:.3} of the mean rate at the end"));
-        }
+    /// Returns the stop's way over the greatest that the brake may take.
+    fn way(&self) -> f64 {
         let limit = self.case.configuration.policy.limits.acceleration.unwrap_or(f64::INFINITY);
-        let way = self.stopped_from.map_or(0.0, |(from, rate)| {
-            (self.setpoint - from).abs() / (rate * rate / limit).max(1e-6)
-        });
-        if way > 1.0 {
-            self.broken.push(format!("a stop took {way:.3} of v\u{b2}/A"));
+        self.stopped_from.map_or(0.0, |(from, rate)| {
+            // A stop takes whole ticks.
+            let most = WAY * rate * rate / limit + rate.abs() * TICK;
+            (self.setpoint - from).abs() / most.max(1e-6)
+        })
+    }
+
+    /// Judges what was promised of the run.
+    fn judge(&mut self, way: f64, energy: f64) {
+        let mut fail = |broken: String| self.broken.push(broken);
+        let length = self.case.configuration.scene.link.length;
+        let [turn, swing] = [self.rest.turn(), self.rest.swing() / length];
+        if !self.rest.finite() {
+            fail("the machine is not finite".to_owned());
         }
-        let stops = u64::from(self.stopped_from.is_some());
-        if (stops == 1) != self.fault.stops() {
-            let cause: Option<Cause> = self.board.axis().cause();
-            self.broken.push(format!("{stops} stops, {cause:?}"));
+        if turn > STILL[0] {
+            fail(format!("the hub turns by {turn:.2e} rad in the last period"));
+        }
+        if swing > STILL[1] {
+            fail(format!("the tip swings by {swing:.2e} of L in the last period"));
+        }
+        if way > 1.0 {
+            fail(format!("a stop took {way:.3} of its way"));
+        }
+        if energy > ENERGY {
+            fail(format!("the energy balance is off by {energy:.1e}"));
+        }
+        let (axis, wanted) = (self.board.axis(), self.fault.cause());
+        if axis.cause() != wanted || self.stopped_from.is_some() != wanted.is_some() {
+            fail(format!("stopped for {:?}, not {wanted:?}", axis.cause()));
+        }
+        let end = match self.fault {
+            Fault::DriveFault => Mode::Disabled,
+            _ if wanted.is_some() => Mode::Stopped,
+            _ => Mode::Enabled,
+        };
+        if axis.mode() != end || !axis.rests() {
+            fail(format!("ends {:?}, not {end:?}, at rest", axis.mode()));
         }
         self.broken.extend(self.watch.broken.clone());
+    }
+
+    fn outcome(mut self) -> Outcome {
         let exchanged = self.plant.work().abs() + self.plant.lost().abs();
+        let energy = self.plant.energy_error().abs() / exchanged.max(1e-9);
+        let way = self.way();
+        self.judge(way, energy);
+        let length = self.case.configuration.scene.link.length;
         Outcome {
             runs: 1,
             injected: self.injected,
             setpoints: self.watch.setpoints,
-            stops,
+            stops: u64::from(self.stopped_from.is_some()),
             way,
             behind: self.behind,
-            restless,
-            energy: self.plant.energy_error().abs() / exchanged.max(1e-9),
+            turn: self.rest.turn(),
+            swing: self.rest.swing() / length,
+            energy,
             broken: self.broken,
         }
     }
+}
+
+/// Number of the tick after a run's last.
+fn last_tick(case: &Case) -> u32 {
+    ticks(0.05 + case.duration + LATE + case.settling + case.period)
 }

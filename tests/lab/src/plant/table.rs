@@ -11,9 +11,10 @@ pub fn markdown(rows: &[(&str, Outcome)]) -> String {
         "times",
         "setpoints",
         "stops",
-        "way of a stop, of v²/A",
+        "way of a stop, of its bound",
         "hub behind, rad",
-        "rate at the end, of the mean",
+        "hub turns at the end, rad",
+        "tip swings at the end, % of L",
         "energy error",
         "broken",
     ];
@@ -24,7 +25,8 @@ pub fn markdown(rows: &[(&str, Outcome)]) -> String {
         line.extend(counts.map(grouped));
         line.push(format!("{:.3}", outcome.way));
         line.push(format!("{:.3}", outcome.behind));
-        line.push(format!("{:.4}", outcome.restless));
+        line.push(format!("{:.1e}", outcome.turn));
+        line.push(format!("{:.3}", 1e2 * outcome.swing));
         line.push(format!("{:.1e}", outcome.energy));
         line.push(grouped(outcome.broken.len() as u64));
         lines.push(line);
