@@ -6,7 +6,7 @@ use std::process::Command;
 use tempfile::TempDir;
 
 /// Folder of the package's sources.
-const PACKAGE: &str = env!("CARGO_MANIFEST_DIR");
+pub const PACKAGE: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Runs the interpreter in the package's folder with `arguments` and variables of its environment.
 /// Panics with all that it has printed if it fails.
@@ -26,14 +26,14 @@ pub fn run(arguments: &[&str], variables: &[(&str, &Path)]) {
 }
 
 /// Returns the interpreter of the environment that `tests/setup` makes.
-fn interpreter() -> PathBuf {
+pub fn interpreter() -> PathBuf {
     let folder = target().join("python");
     let place = if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" };
     let interpreter = folder.join(place);
     assert!(
         interpreter.exists(),
-        "{}: no such file; must be a Python with numpy, matplotlib and pandas, as `sh tests/setup` \
-         makes it",
+        "{}: no such file; must be a Python with numpy, matplotlib, pandas and canopen, as \
+         `sh tests/setup` makes it",
         interpreter.display()
     );
     interpreter

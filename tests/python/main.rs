@@ -1,8 +1,10 @@
 //! The Python package: its own tests, in an interpreter with numpy, matplotlib and pandas, on the
-//! extension that cargo has built with these tests.
+//! extension that cargo has built with these tests. Its environment also has the CiA 402 node that
+//! [`peer`] talks to.
 
 mod bits;
 mod interpreter;
+mod peer;
 
 use interpreter::run;
 
