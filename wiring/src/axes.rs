@@ -22,7 +22,8 @@ pub type Method = stillbeam_methods::Newmark1Nodal;
 /// The method's stepper.
 pub type Stepper = <Method as stillbeam_methods::Method>::Stepper;
 
-/// Counts of an encoder in a turn of its shaft. The firmware warns where an f32 position loses them.
+/// Counts of an encoder in a turn of its shaft. The firmware warns where an f32 position loses
+/// them.
 pub const COUNTS: u32 = 8192;
 
 /// Segments that the queue of an axis holds: one S-curve and a move more, or eight cubics.

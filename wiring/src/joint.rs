@@ -123,8 +123,8 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
     /// only ask, change nothing.
     ///
     /// # Errors
-    /// The axis is in another mode, its drive has not reported an angle, is silent or faulty, or the
-    /// angle of [`Command::Home`] is not in [`HOME_RANGE`].
+    /// The axis is in another mode, its drive has not reported an angle, is silent or faulty, or
+    /// the angle of [`Command::Home`] is not in [`HOME_RANGE`].
     pub fn carry_out(&mut self, command: &Command) -> Result<(), Refusal<'static>> {
         match *command {
             Command::Enable => {
@@ -180,8 +180,8 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
         Angle { turns: 0, part: shaft.part }
     }
 
-    /// Takes a planned move and returns the number of its first tick, as [`Axis::take`] does, if the
-    /// drive's frames can carry it.
+    /// Takes a planned move and returns the number of its first tick, as [`Axis::take`] does, if
+    /// the drive's frames can carry it.
     ///
     /// # Errors
     /// The position, velocity or torque that does not fit the frame, or the axis' own refusal.
@@ -303,8 +303,8 @@ mod tests {
         assert_eq!(joint.carry_out(&Command::Clear), Err(Refusal::Mode(Mode::Enabled)));
     }
 
-    /// A drive that is not heard may follow all the same: the axis holds, and takes moves again when
-    /// it hears the drive.
+    /// A drive that is not heard may follow all the same: the axis holds, and takes moves again
+    /// when it hears the drive.
     #[test]
     fn a_silent_drive_stops_the_axis_which_holds() {
         let mut joint = moving();

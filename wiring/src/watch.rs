@@ -60,8 +60,8 @@ impl Watch {
     /// Judges the drive at a tick in that mode, before which `missed` ticks did not take place.
     /// Returns the reason for which the axis has to stop, if there is one.
     ///
-    /// A drive that was never on since the axis was enabled has [`SWITCH_ON`] to get there. One that
-    /// was on may not be anything else.
+    /// A drive that was never on since the axis was enabled has [`SWITCH_ON`] to get there. One
+    /// that was on may not be anything else.
     #[inline(always)]
     pub fn tick(&mut self, missed: u32, mode: Mode) -> Option<Cause> {
         let condition = self.condition?;

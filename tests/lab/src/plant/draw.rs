@@ -99,8 +99,8 @@ fn arm(rng: &mut StdRng) -> (UniformScene, f64) {
     scene.payload = Payload { mass: payload, ..Payload::default() };
     scene.hub.radius = length * rng.random_range(0.0..0.2);
     scene.hub.inertia = mass * length * length * rng.random_range(0.01..0.1);
-    // The first mode by mass, and 1 % at the second of the bare link by stiffness: more of that would
-    // damp the highest polynomial so much that it takes most of the time to integrate.
+    // The first mode by mass, and 1 % at the second of the bare link by stiffness: more of that
+    // would damp the highest polynomial so much that it takes most of the time to integrate.
     let ratio = rng.random_range(0.03..0.06);
     let bare = 3.516 * (stiffness / (mass * f64::powi(length, 3))).sqrt();
     let alpha = 2.0 * ratio * omega;

@@ -21,7 +21,8 @@ pub enum Fault {
     Saturation,
     /// The drive switches itself off, with a brake, and its heartbeat says so.
     DriveFault,
-    /// The bus is cut: nothing comes from the drive or reaches it, and its watchdog switches it off.
+    /// The bus is cut: nothing comes from the drive or reaches it, and its watchdog switches it
+    /// off.
     BusCut,
 }
 

@@ -24,8 +24,8 @@ use crate::campaign;
 /// what it costs.
 const OPTIONS: Options = Options { order: 5, tolerance: 1e-6 };
 
-/// Time from the end of the move until the vibrations that it leaves begin to settle, s: a link that
-/// is cut shows after the patience, a drive that is lost after its own.
+/// Time from the end of the move until the vibrations that it leaves begin to settle, s: a link
+/// that is cut shows after the patience, a drive that is lost after its own.
 const LATE: f64 = 0.6;
 
 /// Turn of the hub, rad, and swing of the tip, of L, in the arm's last period that count as rest.
