@@ -18,8 +18,9 @@ const OPTIONS: Options = Options { order: 5, tolerance: 1e-7 };
 /// Counts of the encoder a turn of the motor.
 const COUNTS: u32 = 16_384;
 
-/// Bandwidth of the velocity loop by the rotor's inertia alone, rad/s.
-const BANDWIDTH: f64 = 200.0;
+/// Bandwidth of the velocity loop by the whole inertia, rad/s. Tuned by the rotor's alone, the loop
+/// is too soft to hold an arm upright against gravity.
+const BANDWIDTH: f64 = 12.0;
 
 /// Rate at which a brake holds the hub of a drive that is off, 1/s.
 const BRAKE: f64 = 200.0;
@@ -61,11 +62,20 @@ impl Body {
             },
             motor: Motor { rotor_inertia: rotor, ..Motor::default() },
         };
-        let velocity_gain = TAU * rotor * BANDWIDTH;
+        let arm = Scene::from(scene);
+        let [mass, first, second] = arm.link_moments();
+        let (r, reach) = (arm.hub.radius, arm.payload_reach());
+        let load = arm.hub.inertia
+            + mass * r * r
+            + 2.0 * first * r
+            + second
+            + arm.payload.mass * reach * reach
+            + arm.payload.inertia;
+        let velocity_gain = TAU * (rotor + load / parts.ratio().powi(2)) * BANDWIDTH;
         let config = Config {
-            position_gain: 20.0,
+            position_gain: BANDWIDTH / 3.0,
             velocity_gain,
-            integrator_gain: 4.0 * velocity_gain,
+            integrator_gain: velocity_gain,
             velocity_limit: 1e3,
             bandwidth: 1500.0,
             rate: 4000.0,
@@ -75,7 +85,7 @@ impl Body {
         };
         let servo = Odrive::new(config, f64::INFINITY, tick);
         let encoder = Encoder::new(COUNTS, 0.0, servo.interval())?;
-        let plant = Plant::at_rest(&Scene::from(scene), &parts, angle, &OPTIONS)?;
+        let plant = Plant::at_rest(&arm, &parts, angle, &OPTIONS)?;
         let sign = if direction == Direction::Same { 1.0 } else { -1.0 };
         let zero = zero.in_turns();
         let mut body = Self {
