@@ -4,21 +4,17 @@ use super::quadrature::Rule;
 use crate::math::Scalar;
 use crate::mechanism::Mechanism;
 
-/// Constants of link `j`, in its own frame: x along the clamp, the joint at the origin.
+/// Constants of link `j`.
 ///
-/// `W` coordinates: the joint's angle, then those of the link's curvature. `Q` Gauss points.
+/// `W` coordinates: the joint's angle, then those of the link's curvature. `Q` Gauss points. Places
+/// along the link are sums over the tangents at these points, and so are its moments of mass.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Body<T, const W: usize, const Q: usize> {
-    /// `ψ_k` at the points, 1 for the joint.
-    pub slopes: [[T; W]; Q],
     /// `L w_q`, m.
     pub lengths: [T; Q],
-    /// The same times the slopes: how far the coordinates move the end.
-    pub length_slopes: [[T; W]; Q],
-    /// First moment with all mass beyond the link at its end, times the slopes.
-    pub first_slopes: [[T; W]; Q],
-    /// First moment of the link's own mass, kg m.
+    /// First moment of the link's own mass, kg m, and with all mass beyond the link at its end.
     pub first: [T; Q],
+    pub first_beyond: [T; Q],
     /// Second moment of the link's own mass, kg m².
     pub second: [[T; Q]; Q],
     /// Second moment with all mass beyond the link at its end.
@@ -53,11 +49,7 @@ impl<const W: usize, const Q: usize> Body<f64, W, Q> {
         let second = rule.second.map(|row| row.map(|moment| m * l * l * moment));
         let bending = link.bending_stiffness() / l;
         Self {
-            slopes: rule.slopes,
-            length_slopes: core::array::from_fn(|q| rule.slopes[q].map(|slope| lengths[q] * slope)),
-            first_slopes: core::array::from_fn(|q| {
-                rule.slopes[q].map(|slope| (first[q] + outer * lengths[q]) * slope)
-            }),
+            first_beyond: core::array::from_fn(|q| first[q] + outer * lengths[q]),
             second_beyond: core::array::from_fn(|q| {
                 core::array::from_fn(|p| second[q][p] + outer * lengths[q] * lengths[p])
             }),
@@ -83,12 +75,10 @@ impl<T: Scalar, const W: usize, const Q: usize> Body<T, W, Q> {
     pub fn cast<U: Scalar>(&self) -> Body<U, W, Q> {
         let f = |x: T| U::from_f64(x.to_f64());
         Body {
-            slopes: self.slopes.map(|row| row.map(f)),
             lengths: self.lengths.map(f),
             first: self.first.map(f),
             second: self.second.map(|row| row.map(f)),
-            length_slopes: self.length_slopes.map(|row| row.map(f)),
-            first_slopes: self.first_slopes.map(|row| row.map(f)),
+            first_beyond: self.first_beyond.map(f),
             second_beyond: self.second_beyond.map(|row| row.map(f)),
             stiffness: self.stiffness.map(f),
             mass: f(self.mass),

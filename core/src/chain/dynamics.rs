@@ -1,10 +1,11 @@
 //! Inverse dynamics: forces run from the tip to the base, and all joint torques come at once.
 
-use super::Model;
-use super::pose::{Pose, Vector, cross, plus, turned, turned_back};
+use super::along::{at_points, over_points};
+use super::pose::{Pose, Vector, cross, plus};
+use super::{Body, Model};
 use crate::math::Scalar;
 
-/// Motion of one link in its own frame, as the forward pass leaves it for the backward one.
+/// Motion of one link in the global frame, as the forward pass leaves it for the backward one.
 #[derive(Clone, Copy, Debug)]
 struct Motion<T, const Q: usize> {
     /// Acceleration of the clamp, gravity's included.
@@ -26,7 +27,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
     ///
     /// `acceleration` is to hold `q̈ + αq̇`: damping in proportion to mass is that much more
     /// acceleration, of all but hubs. Elastic forces are left out. `force` is what the ground
-    /// pushes on the chain's end with, in the global frame, N.
+    /// pushes on the chain's end with, N.
     #[inline(never)]
     pub(super) fn inverse_dynamics(
         &self,
@@ -37,39 +38,27 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
     ) -> [[T; W]; LINKS] {
         let motions = self.forward(pose, rate, acceleration);
         let mut residual = [[T::ZERO; W]; LINKS];
-        let (mut f, mut moment) = self.tip_force(pose, &motions[LINKS - 1], force);
+        let (mut f, mut moment) = self.tip_force(&pose[LINKS - 1], &motions[LINKS - 1], force);
         for j in (0..LINKS).rev() {
             let (body, motion, pose) = (&self.links[j], &motions[j], &pose[j]);
             if body.offset != T::ZERO {
                 moment += body.offset * cross(pose.end, f);
             }
+            residual[j] = over_points(&body.moments(motion, pose, f));
             // The moment at the end acts on the coordinate that turns the end, the first.
-            residual[j][1] = moment;
-            let mut at_points = T::ZERO;
-            for q in 0..Q {
-                let [cos, sin] = pose.tangents[q];
-                let mut n = [
-                    body.lengths[q] * f[0] + body.first[q] * motion.clamp[0],
-                    body.lengths[q] * f[1] + body.first[q] * motion.clamp[1],
-                ];
-                for p in 0..Q {
-                    n = plus(n, body.second[q][p], motion.tangents[p]);
-                }
-                let mu = cos * n[1] - sin * n[0];
-                at_points += mu;
-                for k in 1..W {
-                    residual[j][k] += body.slopes[q][k] * mu;
-                }
-            }
+            residual[j][1] += moment;
             f = plus(f, body.mass, motion.clamp);
             for q in 0..Q {
                 f = plus(f, body.first[q], motion.tangents[q]);
             }
-            moment = moment + at_points + body.radius * f[1] + body.hub * motion.hub_angular;
+            moment = moment + residual[j][0] + body.hub * motion.hub_angular;
+            if body.radius != T::ZERO {
+                moment += body.radius * cross(pose.base, f);
+            }
             residual[j][0] = moment;
             if j > 0 {
                 let inner = &self.links[j - 1];
-                f = plus(turned(pose.frame, f), inner.joint, motions[j - 1].end);
+                f = plus(f, inner.joint, motions[j - 1].end);
                 moment += inner.stator * motions[j - 1].end_angular;
             }
         }
@@ -97,21 +86,19 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         let (mut omega, mut angular) = (T::ZERO, T::ZERO);
         for j in 0..LINKS {
             let (body, pose) = (&self.links[j], &pose[j]);
-            a = turned_back(pose.frame, a);
             omega += rate[j][0];
             angular += acceleration[j][0];
             let motion = &mut motions[j];
             // A hub is not damped.
             motion.hub_angular = angular - self.alpha * omega;
-            a = [a[0] - body.radius * (omega * omega), a[1] + body.radius * angular];
+            if body.radius != T::ZERO {
+                a = plus(a, body.radius, spun(pose.base, omega, angular));
+            }
             motion.clamp = a;
+            let rates = at_points::<T, W, Q>(omega, &rate[j]);
+            let angulars = at_points::<T, W, Q>(angular, &acceleration[j]);
             for q in 0..Q {
-                let (mut rate_here, mut angular_here) = (omega, angular);
-                for k in 1..W {
-                    rate_here += body.slopes[q][k] * rate[j][k];
-                    angular_here += body.slopes[q][k] * acceleration[j][k];
-                }
-                let spun = spun(pose.tangents[q], rate_here, angular_here);
+                let spun = spun(pose.tangents[q], rates[q], angulars[q]);
                 motion.tangents[q] = spun;
                 a = plus(a, body.lengths[q], spun);
             }
@@ -125,32 +112,43 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         motions
     }
 
-    /// Force and moment at the chain's end, in the last link's frame.
+    /// Force and moment at the chain's end.
     #[inline(always)]
     fn tip_force(
         &self,
-        pose: &[Pose<T, Q>; LINKS],
+        pose: &Pose<T, Q>,
         motion: &Motion<T, Q>,
         force: Option<Vector<T>>,
     ) -> (Vector<T>, T) {
         let load = &self.load;
         let mut a = motion.end;
-        let end = pose[LINKS - 1].end;
         if load.offset != T::ZERO {
-            a = plus(a, load.offset, spun(end, motion.end_rate, motion.end_angular));
+            a = plus(a, load.offset, spun(pose.end, motion.end_rate, motion.end_angular));
         }
         let mut f = [load.mass * a[0], load.mass * a[1]];
         let mut moment = load.inertia * motion.end_angular;
         if load.offset != T::ZERO {
-            moment += load.offset * cross(end, f);
+            moment += load.offset * cross(pose.end, f);
         }
-        if let Some(mut pushed) = force {
-            for pose in pose {
-                pushed = turned_back(pose.frame, pushed);
-            }
+        if let Some(pushed) = force {
             f = plus(f, -T::ONE, pushed);
         }
         (f, moment)
+    }
+}
+
+impl<T: Scalar, const W: usize, const Q: usize> Body<T, W, Q> {
+    /// Moment of what accelerates the link and all beyond on each tangent, `f` at the link's end.
+    #[inline(always)]
+    fn moments(&self, motion: &Motion<T, Q>, pose: &Pose<T, Q>, f: Vector<T>) -> [T; Q] {
+        core::array::from_fn(|q| {
+            let mut n = [self.lengths[q] * f[0], self.lengths[q] * f[1]];
+            n = plus(n, self.first[q], motion.clamp);
+            for p in 0..Q {
+                n = plus(n, self.second[q][p], motion.tangents[p]);
+            }
+            cross(pose.tangents[q], n)
+        })
     }
 }
 

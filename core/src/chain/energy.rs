@@ -1,6 +1,5 @@
 //! Energy of a chain, and what damping takes of it.
 
-use super::pose::turned;
 use super::{Chain, ChainState};
 use crate::math::Scalar;
 
@@ -55,7 +54,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         Energy {
             kinetic: T::HALF * twice,
             strain,
-            height: self.model.gravity * turned(pose[0].frame, whole)[1],
+            height: self.model.gravity * whole[1],
             loss: self.model.alpha * (twice - hubs) + self.model.beta * bending,
         }
     }

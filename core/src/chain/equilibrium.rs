@@ -79,8 +79,8 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
             let (mut missed, mut moves) = ([0.0; 2], [[0.0; 2]; C]);
             if let Some(pin) = pin {
                 let pose = self.pose(&self.in_turns(&rest.q));
-                let tip = self.places(&pose)[LINKS - 1];
-                moves = self.tip_moves(&pose);
+                let tip = self.tip(&pose);
+                moves = flat(&self.tip_moves(&pose));
                 missed = [tip[0] - pin[0], tip[1] - pin[1]];
                 for i in 0..C {
                     right[i] -= spring * (moves[i][0] * missed[0] + moves[i][1] * missed[1]);
@@ -90,11 +90,12 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
                     }
                 }
             }
-            let none = [Complex::ZERO; C];
-            let right =
-                core::array::from_fn(|i| Complex::new(if free[i] { right[i] } else { 0.0 }, 0.0));
-            let factors = Factors::new(&stiffness, &none, free);
-            let step = factors.solve(&right, free).map(|step| step.re);
+            let none = [[Complex::ZERO; W]; LINKS];
+            let right = core::array::from_fn(|j| {
+                core::array::from_fn(|k| Complex::new(right[j * W + k], 0.0))
+            });
+            let factors = Factors::<f64, LINKS, W, 0>::new(&stiffness, &none, free);
+            let step: [f64; C] = flat(&factors.solve(&right).map(|row| row.map(|step| step.re)));
             change = step.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
             gap = crate::math::sqrt(missed[0] * missed[0] + missed[1] * missed[1]);
             if !change.is_finite() {
@@ -162,7 +163,9 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
     }
 }
 
-fn flat<const LINKS: usize, const W: usize, const C: usize>(slots: &[[f64; W]; LINKS]) -> [f64; C] {
+fn flat<V: Copy, const LINKS: usize, const W: usize, const C: usize>(
+    slots: &[[V; W]; LINKS],
+) -> [V; C] {
     core::array::from_fn(|i| slots[i / W][i % W])
 }
 
@@ -214,7 +217,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         for row in &mut shape {
             row[0] = T::ZERO;
         }
-        ChainState {
+        let mut state = ChainState {
             joints: rest.q.map(|row| JointState::at_rest(Angle::from_radians(row[0]).cast())),
             shape,
             rate: zero,
@@ -222,6 +225,10 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             torque: core::array::from_fn(|j| if free[j * W] { T::ZERO } else { f(missing[j][0]) }),
             pin: if closed { self.pin } else { None },
             force: rest.force.map(f),
-        }
+            ends: [[T::ZERO; 2]; LINKS],
+            tips: [[T::ZERO; 2]; LINKS],
+        };
+        self.locate(&mut state);
+        state
     }
 }

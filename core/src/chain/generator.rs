@@ -189,7 +189,6 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// Setpoints for a state.
     #[inline(always)]
     pub fn setpoint(&self, state: &ChainState<T, LINKS, W>) -> ChainSetpoint<T, LINKS> {
-        let pose = self.pose_of(state);
         ChainSetpoint {
             joints: core::array::from_fn(|j| {
                 let joint = &state.joints[j];
@@ -198,10 +197,10 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
                     rate: joint.rate,
                     acceleration: joint.acceleration,
                     torque: state.torque[j],
-                    tip: self.model.reach(j, &pose[j]),
+                    tip: state.tips[j],
                 }
             }),
-            ends: self.model.places(&pose),
+            ends: state.ends,
         }
     }
 }

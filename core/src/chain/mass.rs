@@ -1,7 +1,8 @@
 //! The mass matrix, from composites that run from the tip to the base.
 
 use super::Model;
-use super::pose::{Pose, Vector, cross, plus, turned};
+use super::along::over_points;
+use super::pose::{Pose, Vector, cross, normal, plus};
 use crate::math::Scalar;
 
 /// Mass matrix of all coordinates, joints included.
@@ -36,8 +37,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         self.mass_and_whole::<C, WHOLE>(pose).0
     }
 
-    /// The same, and with `WHOLE` the first moment of all mass about the first joint in the first
-    /// link's frame, kg m.
+    /// The same, and with `WHOLE` the first moment of all mass about the first joint, kg m.
     #[inline(never)]
     pub(super) fn mass_and_whole<const C: usize, const WHOLE: bool>(
         &self,
@@ -49,12 +49,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         let mut beyond = self.load_composite(&pose[LINKS - 1]);
         for j in (0..LINKS).rev() {
             if j + 1 < LINKS {
-                let frame = pose[j + 1].frame;
-                beyond.first = turned(frame, beyond.first);
                 beyond.inertia += self.links[j].stator;
-                for column in columns.iter_mut().skip((j + 1) * W) {
-                    column.momentum = turned(frame, column.momentum);
-                }
             }
             self.past_offset(j, &pose[j], &mut beyond, &mut columns);
             self.past_link::<C, WHOLE>(j, &pose[j], &mut beyond, &mut columns, &mut mass);
@@ -114,9 +109,13 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         // Of the first link only what its hub's radius and the whole chain need.
         if j > 0 || WHOLE || body.radius != T::ZERO {
             let momenta = self.momenta(j, pose, beyond);
-            own[0][0] += body.radius * (T::TWO * momenta[0][1] - body.mass_beyond * body.radius);
-            for k in 1..W {
-                own[k][0] += body.radius * momenta[k][1];
+            if body.radius != T::ZERO {
+                let n = normal(pose.base);
+                let push = |k: usize| momenta[k][0] * n[0] + momenta[k][1] * n[1];
+                own[0][0] += body.radius * (T::TWO * push(0) - body.mass_beyond * body.radius);
+                for k in 1..W {
+                    own[k][0] += body.radius * push(k);
+                }
             }
             for k in 0..W {
                 columns[j * W + k].momentum = momenta[k];
@@ -144,8 +143,10 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         mass: &mut Mass<T, C>,
     ) {
         let body = &self.links[j];
-        let mut moves = sum_of_normals(&body.length_slopes, pose);
-        moves[0][1] += body.radius;
+        let mut moves = pose.normals::<W>(&body.lengths);
+        if body.radius != T::ZERO {
+            moves[0] = plus(moves[0], body.radius, normal(pose.base));
+        }
         for i in (j + 1) * W..C {
             let Column { momentum, moment } = columns[i];
             for k in 0..W {
@@ -176,26 +177,13 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         let lever: [T; Q] = core::array::from_fn(|q| {
             body.lengths[q] * (t[q][0] * beyond.first[0] + t[q][1] * beyond.first[1])
         });
+        let levers: [T; W] = over_points(&lever);
+        let rows: [[T; W]; Q] = core::array::from_fn(|q| over_points(&kernel[q]));
         let mut own = [[T::ZERO; W]; W];
-        let mut levers = [T::ZERO; W];
-        for q in 0..Q {
-            // The joint turns all points alike: its factor is 1.
-            let mut row = kernel[q][0];
-            for p in 1..Q {
-                row += kernel[q][p];
-            }
-            own[0][0] += row;
-            levers[0] += lever[q];
-            for k in 1..W {
-                levers[k] += body.slopes[q][k] * lever[q];
-                let mut row = kernel[q][0] * body.slopes[0][k];
-                for p in 1..Q {
-                    row += kernel[q][p] * body.slopes[p][k];
-                }
-                own[k][0] += row;
-                for p in 1..=k {
-                    own[k][p] += body.slopes[q][p] * row;
-                }
+        for p in 0..W {
+            let column: [T; W] = over_points::<T, W, Q>(&core::array::from_fn(|q| rows[q][p]));
+            for k in p..W {
+                own[k][p] = column[k];
             }
         }
         own[0][0] = own[0][0] + T::TWO * levers[0] + beyond.inertia;
@@ -212,32 +200,13 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
     #[inline(always)]
     fn momenta(&self, j: usize, pose: &Pose<T, Q>, beyond: &Composite<T>) -> [Vector<T>; W] {
         let body = &self.links[j];
-        let mut momenta = sum_of_normals(&body.first_slopes, pose);
+        let mut momenta = pose.normals::<W>(&body.first_beyond);
         for k in 0..2 {
-            momenta[k] = plus(momenta[k], T::ONE, [-beyond.first[1], beyond.first[0]]);
+            momenta[k] = plus(momenta[k], T::ONE, normal(beyond.first));
         }
-        momenta[0][1] += body.mass_beyond * body.radius;
+        if body.radius != T::ZERO {
+            momenta[0] = plus(momenta[0], body.mass_beyond * body.radius, normal(pose.base));
+        }
         momenta
     }
-}
-
-/// `Σ_q factor[q][k] n_q`, `n` the normals at the points.
-#[inline(always)]
-fn sum_of_normals<T: Scalar, const W: usize, const Q: usize>(
-    factors: &[[T; W]; Q],
-    pose: &Pose<T, Q>,
-) -> [Vector<T>; W] {
-    core::array::from_fn(|k| {
-        let mut sum = [T::ZERO; 2];
-        for q in 0..Q {
-            let [cos, sin] = pose.tangents[q];
-            let factor = factors[q][k];
-            sum = if q == 0 {
-                [-(factor * sin), factor * cos]
-            } else {
-                [sum[0] - factor * sin, sum[1] + factor * cos]
-            };
-        }
-        sum
-    })
 }

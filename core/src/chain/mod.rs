@@ -3,8 +3,8 @@
 //! Each link that bends has the curvature `κ(s) = Σ a_k P_{k−1}(2s/L − 1)/L`, `P` Legendre's
 //! polynomials, and so the slope `Σ a_k ψ_k(s)` against its clamp. Its joint's angle is one more
 //! coordinate, known where a motor turns it. Accelerations run from the base to the tip, forces
-//! back, in each link's own frame; the moment at every joint is its torque. A tick is one step of
-//! Radau IIA with two stages and one Newton iteration, two where the chain is closed.
+//! back; the moment at every joint is its torque. A tick is one step of Radau IIA with two stages
+//! and one Newton iteration.
 //!
 //! ```
 //! use stillbeam::chain::{ChainGenerator, TwoLinks2};
@@ -33,6 +33,7 @@
 //! or less: it advances the modes of vibration exactly, a chain steps them.
 
 mod admit;
+mod along;
 mod body;
 mod close;
 mod dynamics;
@@ -42,6 +43,7 @@ mod generator;
 mod mass;
 mod modes;
 mod pin;
+mod places;
 mod pose;
 mod quadrature;
 mod queue;
@@ -66,6 +68,7 @@ pub use still::{ChainPlan, ChainPlanner};
 use crate::Error;
 use crate::math::Scalar;
 use crate::mechanism::{Closing, Mechanism};
+use solve::Values;
 use weights::Weights;
 
 /// Links, joints and payload as the tick needs them.
@@ -80,6 +83,13 @@ struct Model<T, const LINKS: usize, const W: usize, const Q: usize> {
     turns: T,
 }
 
+impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LINKS, W, Q> {
+    /// Contribution of the stiffness to the diagonal of the stage equations.
+    fn diagonal(&self, weights: &Weights<T>) -> Values<T, LINKS, W> {
+        self.links.map(|body| body.stiffness.map(|own| weights.stiffness.scaled(own)))
+    }
+}
+
 /// A chain of `LINKS` links with `W − 1` curvature coordinates each, advanced tick by tick.
 ///
 /// `C` is `LINKS × W`, `Q` the Gauss points along a link: see [`TwoLinks2`] and its neighbours.
@@ -90,6 +100,10 @@ pub struct Chain<T, const LINKS: usize, const W: usize, const C: usize, const Q:
     /// Coordinates that the tick solves for, while the chain is open and when it is closed.
     open: [bool; C],
     closed: [bool; C],
+    /// True if a joint of the open chain is not driven.
+    passive: bool,
+    /// Contribution of the stiffness to the diagonal of the stage equations.
+    diagonal: Values<T, LINKS, W>,
     /// Where the passive joints begin, rad.
     passive_angles: [T; LINKS],
     /// Place of the pin of a chain that is closed from the beginning.
@@ -161,10 +175,13 @@ where
             beta: f(mechanism.damping.beta),
             turns: f(1.0 / core::f64::consts::TAU),
         };
+        let weights = Weights::new(tick, &mechanism.damping);
         Ok(Self {
+            diagonal: model.diagonal(&weights),
+            passive: (0..LINKS).any(|j| !mechanism.is_driven(j)),
             bends: Bends::new::<W, C, Q>(&model.precise()),
             model,
-            weights: Weights::new(tick, &mechanism.damping),
+            weights,
             open: unknown(false),
             closed: unknown(true),
             passive_angles: core::array::from_fn(|j| f(mechanism.joints[j].angle)),

@@ -54,7 +54,7 @@ fn modes_of<const LINKS: usize, const W: usize, const C: usize, const Q: usize>(
     let pose = model.pose(&model.in_turns(&rest.q));
     let matrix = model.mass::<C, false>(&pose).matrix;
     let tangent = model.tangent(rest, free);
-    let moves: [[f64; 2]; C] = model.tip_moves(&pose);
+    let moves = model.tip_moves(&pose);
     let (mut mass, mut stiffness) = (Band::<f64, C, C>::ZERO, Band::<f64, C, C>::ZERO);
     for i in 0..C {
         // A coordinate that is held has stiffness and no mass: its frequency is infinite.
@@ -79,7 +79,7 @@ fn modes_of<const LINKS: usize, const W: usize, const C: usize, const Q: usize>(
         let shape = vectors[mode].map(|entry| entry * omega);
         modes.frequency[mode] = omega;
         modes.onto[mode] = mass.times(&shape);
-        let tip = |axis: usize| (0..C).map(|i| moves[i][axis] * shape[i]).sum::<f64>();
+        let tip = |axis: usize| (0..C).map(|i| moves[i / W][i % W][axis] * shape[i]).sum::<f64>();
         modes.tip[mode] = sqrt(tip(0) * tip(0) + tip(1) * tip(1));
     }
     modes

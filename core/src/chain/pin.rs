@@ -1,151 +1,154 @@
 //! The pin of a closed chain: two forces that keep its end in place.
 
-use super::pose::{Pose, Vector, plus};
-use super::solve::{Factors, solve_pair};
-use super::stages::Stages;
+use super::along::at_points;
+use super::pose::{Pose, Vector, normal, plus};
+use super::solve::{Factors, Values, solve_pair};
+use super::stages::{Slots, Stages};
 use super::{Chain, Model};
 use crate::math::{Complex, Scalar};
 
-/// The stage equations' answer to forces at the chain's end: a Schur complement on their factors.
-pub(super) struct Pinned<T, const C: usize> {
-    /// How far each coordinate moves the end, m per unit, in the global frame.
-    moves: [Vector<T>; C],
-    /// The same in rows, 0 for what is commanded.
-    rows: [[T; C]; 2],
-    /// Answer of the coordinates to a unit force along each axis.
-    answers: [[Complex<T>; C]; 2],
-    /// Answer of the end.
-    end: [[Complex<T>; 2]; 2],
+/// The stage equations' answer to forces at the chain's end: a Schur complement on their factors
+/// `LDLᵀ`.
+pub(super) struct Pinned<T, const LINKS: usize, const W: usize> {
+    /// How far each coordinate moves the end, m per unit, in the global frame: `G`.
+    moves: [[Vector<T>; W]; LINKS],
+    /// `D⁻¹L⁻¹Gᵀ` of each axis.
+    answers: [Values<T, LINKS, W>; 2],
+    /// `G(LDLᵀ)⁻¹Gᵀ`, entries xx, xy and yy.
+    pub end: [Complex<T>; 3],
 }
 
-impl<T: Scalar, const C: usize> Pinned<T, C> {
+impl<T: Scalar, const LINKS: usize, const W: usize> Pinned<T, LINKS, W> {
     #[inline(always)]
-    pub fn new(factors: &Factors<T, C>, moves: [Vector<T>; C], free: &[bool; C]) -> Self {
-        let mut rows = [[T::ZERO; C]; 2];
-        for i in 0..C {
-            if free[i] {
-                (rows[0][i], rows[1][i]) = (moves[i][0], moves[i][1]);
+    pub fn new(factors: &Factors<T, LINKS, W, 0>, moves: [[Vector<T>; W]; LINKS]) -> Self {
+        let mut forward = [[[Complex::ZERO; W]; LINKS]; 2];
+        for axis in 0..2 {
+            for j in 0..LINKS {
+                for k in 0..W {
+                    forward[axis][j][k].re = moves[j][k][axis];
+                }
             }
+            factors.forward(&mut forward[axis]);
         }
-        let right = |row: &[T; C]| row.map(|entry| Complex::new(entry, T::ZERO));
-        let answers =
-            [factors.solve(&right(&rows[0]), free), factors.solve(&right(&rows[1]), free)];
-        let mut end = [[Complex::ZERO; 2]; 2];
-        for a in 0..2 {
-            for b in 0..2 {
-                end[a][b] = project(&rows[a], &answers[b]);
-            }
-        }
-        Self { moves, rows, answers, end }
-    }
-
-    /// Adds what the end's force takes of the motors' torques.
-    #[inline(always)]
-    pub fn torques<const LINKS: usize>(
-        &self,
-        torques: [T; LINKS],
-        pushed: &Vector<T>,
-        free: &[bool; C],
-    ) -> [T; LINKS] {
-        let mut torques = torques;
-        let per_link = C / LINKS;
+        let mut answers = forward;
+        let mut end = [Complex::ZERO; 3];
         for j in 0..LINKS {
-            let i = j * per_link;
-            if i < C && !free[i] {
-                let [x, y] = self.moves[i];
-                torques[j] -= x * pushed[0] + y * pushed[1];
+            for k in 0..W {
+                let inverse = factors.inverse()[j][k];
+                let [x, y] = [forward[0][j][k], forward[1][j][k]];
+                let [answer_x, answer_y] = [x * inverse, y * inverse];
+                end = [end[0] + answer_x * x, end[1] + answer_x * y, end[2] + answer_y * y];
+                (answers[0][j][k], answers[1][j][k]) = (answer_x, answer_y);
             }
         }
-        torques
+        Self { moves, answers, end }
     }
-}
 
-#[inline(always)]
-fn project<T: Scalar, const C: usize>(row: &[T; C], x: &[Complex<T>; C]) -> Complex<T> {
-    let mut sum = Complex::ZERO;
-    for i in 0..C {
-        sum = sum + x[i].scaled(row[i]);
+    /// Solves with a `right` side and two forces at the end such that it moves by `to`. Returns the
+    /// solution and the forces.
+    #[inline(always)]
+    pub fn solve(
+        &self,
+        factors: &Factors<T, LINKS, W, 0>,
+        right: &Values<T, LINKS, W>,
+        to: [Complex<T>; 2],
+    ) -> (Values<T, LINKS, W>, [Complex<T>; 2]) {
+        let mut x = *right;
+        factors.forward(&mut x);
+        let mut missing = to;
+        for j in 0..LINKS {
+            for k in 0..W {
+                for axis in 0..2 {
+                    missing[axis] = missing[axis] - self.answers[axis][j][k] * x[j][k];
+                }
+            }
+        }
+        let pushed = solve_pair(self.end, missing);
+        for j in 0..LINKS {
+            for k in 0..W {
+                let [x_axis, y_axis] = [self.answers[0][j][k], self.answers[1][j][k]];
+                x[j][k] =
+                    x[j][k] * factors.inverse()[j][k] + (x_axis * pushed[0] + y_axis * pushed[1]);
+            }
+        }
+        factors.backward(&mut x);
+        (x, pushed)
     }
-    sum
+
+    /// Velocity of the end at those rates.
+    pub fn velocity(&self, rate: &Slots<T, LINKS, W>) -> Vector<T> {
+        let mut velocity = [T::ZERO; 2];
+        for j in 0..LINKS {
+            for k in 0..W {
+                velocity = plus(velocity, rate[j][k], self.moves[j][k]);
+            }
+        }
+        velocity
+    }
+
+    /// What a force at the end takes of the torque of joint `j`.
+    #[inline(always)]
+    pub fn torque(&self, j: usize, force: &Vector<T>) -> T {
+        let [x, y] = self.moves[j][0];
+        x * force[0] + y * force[1]
+    }
 }
 
 impl<T, const LINKS: usize, const W: usize, const C: usize, const Q: usize> Chain<T, LINKS, W, C, Q>
 where
     T: Scalar,
 {
-    /// By how much each stage misses `ẋ + (x − pin)/h = 0` at the chain's end, m/s. Its own place
-    /// is in it, so that the end does not drift.
+    /// By how much each stage misses `ẋ + (x − pin)/h = 0` at the chain's end, m/s, as the right
+    /// side for the change of the accelerations. The end's own place is in it, so that it does not
+    /// drift.
     #[inline(always)]
     pub(super) fn missed(
         &self,
         poses: &[[Pose<T, Q>; LINKS]; 2],
         stages: &Stages<T, LINKS, W>,
         pin: Vector<T>,
-    ) -> [Vector<T>; 2] {
-        let per_tick = self.weights.per_tick;
-        core::array::from_fn(|stage| {
+    ) -> [Complex<T>; 2] {
+        let [first, second]: [Vector<T>; 2] = core::array::from_fn(|stage| {
             let (tip, velocity) = self.model.tip_motion(&poses[stage], &stages.v[stage]);
-            plus(velocity, per_tick, [tip[0] - pin[0], tip[1] - pin[1]])
-        })
+            plus(velocity, self.weights.per_tick, [tip[0] - pin[0], tip[1] - pin[1]])
+        });
+        [0, 1].map(|axis| self.weights.pin * self.weights.forward(first[axis], second[axis]))
     }
 
-    /// Changes `y` such that the end keeps to its pin, and returns the change of the pin's force in
-    /// both stages.
+    /// Change of the pin's force in both stages. Per unit of force the equations were divided by
+    /// 1 + hαλ.
     #[inline(always)]
-    pub(super) fn hold_pin(
-        &self,
-        pinned: &Pinned<T, C>,
-        missed: &[Vector<T>; 2],
-        y: &mut [Complex<T>; C],
-    ) -> [Vector<T>; 2] {
-        let right = core::array::from_fn(|axis| {
-            let condition = self.weights.forward(missed[0][axis], missed[1][axis]);
-            self.weights.pin * condition - project(&pinned.rows[axis], y)
-        });
-        let pushed = solve_pair(pinned.end, right);
-        for i in 0..C {
-            let [x, z] = [pinned.answers[0][i] * pushed[0], pinned.answers[1][i] * pushed[1]];
-            y[i] = y[i] + x + z;
-        }
-        // Per unit of force the equations were divided by 1 + hαλ.
-        let force = pushed.map(|push| self.weights.back(push * self.weights.undamped));
-        [[force[0][0], force[1][0]], [force[0][1], force[1][1]]]
+    pub(super) fn push(&self, pushed: [Complex<T>; 2]) -> [Vector<T>; 2] {
+        let [x, y] = pushed.map(|push| self.weights.back(push * self.weights.undamped));
+        [[x[0], y[0]], [x[1], y[1]]]
     }
 }
 
 impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LINKS, W, Q> {
-    /// Place and velocity of the chain's end in the global frame.
-    #[inline(always)]
+    /// Place and velocity of the chain's end.
+    #[inline(never)]
     fn tip_motion(
         &self,
         pose: &[Pose<T, Q>; LINKS],
         rate: &[[T; W]; LINKS],
     ) -> (Vector<T>, Vector<T>) {
-        let zero = [T::ZERO; 2];
-        let (mut place, mut velocity, mut frame) = (zero, zero, [T::ONE, T::ZERO]);
+        let (mut place, mut velocity) = ([T::ZERO; 2], [T::ZERO; 2]);
         let mut omega = T::ZERO;
         for j in 0..LINKS {
-            frame = super::pose::turned(frame, pose[j].frame);
+            let (body, pose) = (&self.links[j], &pose[j]);
             omega += rate[j][0];
-            let body = &self.links[j];
-            let (mut reach, mut moves) = ([body.radius, T::ZERO], [T::ZERO, body.radius * omega]);
+            place = plus(place, T::ONE, body.reach(pose));
+            if body.radius != T::ZERO {
+                velocity = plus(velocity, body.radius * omega, normal(pose.base));
+            }
+            let rates = at_points::<T, W, Q>(omega, &rate[j]);
             for q in 0..Q {
-                let [cos, sin] = pose[j].tangents[q];
-                let mut rate_here = omega;
-                for k in 1..W {
-                    rate_here += body.slopes[q][k] * rate[j][k];
-                }
-                reach = plus(reach, body.lengths[q], [cos, sin]);
-                moves = plus(moves, body.lengths[q] * rate_here, [-sin, cos]);
+                velocity = plus(velocity, body.lengths[q] * rates[q], normal(pose.tangents[q]));
             }
             omega += rate[j][1];
             if body.offset != T::ZERO {
-                let [cos, sin] = pose[j].end;
-                reach = plus(reach, body.offset, [cos, sin]);
-                moves = plus(moves, body.offset * omega, [-sin, cos]);
+                velocity = plus(velocity, body.offset * omega, normal(pose.end));
             }
-            place = plus(place, T::ONE, super::pose::turned(frame, reach));
-            velocity = plus(velocity, T::ONE, super::pose::turned(frame, moves));
         }
         (place, velocity)
     }

@@ -1,17 +1,29 @@
 //! The Gauss-Legendre points of a link, and the integrals along it that do not change.
 
-use crate::math::polynomial;
+/// Distance of the points of the rule of `Q` points from the middle of −1..1, and their weights, from
+/// the middle outwards.
+const THREE: [(f64, f64); 2] = [(0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+const FIVE: [(f64, f64); 3] = [
+    (0.0, 128.0 / 225.0),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+];
+
+/// Distance of a pair of points from the middle of −1..1; the pairs count from 1 outwards.
+#[inline(always)]
+pub(super) const fn offset<const Q: usize>(pair: usize) -> f64 {
+    const { assert!(Q == 3 || Q == 5, "rules of 3 and of 5 points") }
+    if Q == 3 { THREE[pair].0 } else { FIVE[pair].0 }
+}
+
+/// `ψ₁ − ½`, `ψ₂` and `ψ₃` at `x` of −1..1.
+#[inline(always)]
+pub(super) const fn shapes(x: f64) -> [f64; 3] {
+    [0.5 * x, 0.25 * (x * x - 1.0), 0.25 * x * (x * x - 1.0)]
+}
 
 /// `(ξ, weight)` of the rule of `Q` points on 0..1, 3 or 5 of them.
 fn rule<const Q: usize>() -> [(f64, f64); Q] {
-    // Points about the middle and weights, from the middle outwards.
-    const THREE: [(f64, f64); 2] = [(0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
-    const FIVE: [(f64, f64); 3] = [
-        (0.0, 128.0 / 225.0),
-        (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-        (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    ];
-    const { assert!(Q == 3 || Q == 5, "rules of 3 and of 5 points") }
     let half: &[(f64, f64)] = if Q == 3 { &THREE } else { &FIVE };
     core::array::from_fn(|q| {
         let middle = Q / 2;
@@ -22,7 +34,9 @@ fn rule<const Q: usize>() -> [(f64, f64); Q] {
 }
 
 /// `ψ_k(ξ) = ∫₀^ξ P_{k−1}(2s − 1) ds`, k from 1; for k = 0 the 1 by which the joint turns the link.
+#[cfg(test)]
 fn slope(k: usize, xi: f64) -> f64 {
+    use crate::math::polynomial;
     match k {
         0 => 1.0,
         1 => xi,
@@ -37,6 +51,7 @@ fn slope(k: usize, xi: f64) -> f64 {
 /// integral of the polynomial through the tangents.
 pub(super) struct Rule<const W: usize, const Q: usize> {
     /// `ψ_k(ξ_q)` as `slopes[q][k]`.
+    #[cfg(test)]
     pub slopes: [[f64; W]; Q],
     /// `∫₀¹`: the weights.
     pub weights: [f64; Q],
@@ -62,6 +77,7 @@ impl<const W: usize, const Q: usize> Rule<W, Q> {
         let weights = points.map(|(_, weight)| weight);
         let sum = |term: &dyn Fn(usize) -> f64| (0..Q).map(|g| weights[g] * term(g)).sum::<f64>();
         Self {
+            #[cfg(test)]
             slopes: points.map(|(xi, _)| core::array::from_fn(|k| slope(k, xi))),
             weights,
             first: core::array::from_fn(|q| sum(&|g| run[g][q])),

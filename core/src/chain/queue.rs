@@ -66,7 +66,7 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
     /// Start of a move that is pushed now.
     pub fn next_start(&self) -> HubState<f64> {
         if self.is_holding() {
-            let angle = self.current.hub_at(T::from_u32(self.k)).angle;
+            let angle = state(&self.current, T::from_u32(self.k)).angle;
             HubState::turning(angle.precise(), self.end.rate)
         } else {
             self.end
@@ -140,11 +140,9 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
             }
             if ticks == border {
                 // From the left, but exactly where the next one begins.
-                let (acceleration, begin) = (segment.end_acceleration(), next.hub(0));
                 let exact = next.ticks_before() == T::ZERO;
-                let mut at = if exact { joint(&begin) } else { state(segment, ticks) };
-                at.acceleration = acceleration;
-                return at;
+                let at = if exact { state(next, T::ZERO) } else { state(segment, ticks) };
+                return JointState { acceleration: segment.end_acceleration(), ..at };
             }
             ticks -= count;
             segment = next;
@@ -175,7 +173,7 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
             } else {
                 // A hold that has run out goes on from where it is.
                 if self.holds {
-                    self.tail = self.tail.moved(self.current.hub_at(T::from_u32(u32::MAX)).angle);
+                    self.tail = self.tail.moved(state(&self.current, T::from_u32(u32::MAX)).angle);
                 }
                 self.current = self.tail;
                 self.holds = true;
@@ -184,12 +182,8 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
     }
 }
 
-#[inline(always)]
+#[inline(never)]
 fn state<T: Scalar>(segment: &Segment<T>, ticks: T) -> JointState<T> {
-    joint(&segment.hub_at(ticks))
-}
-
-#[inline(always)]
-fn joint<T: Scalar>(hub: &HubState<T>) -> JointState<T> {
-    JointState { angle: hub.angle, rate: hub.rate, acceleration: hub.acceleration }
+    let (angle, rate, acceleration) = segment.angle_at(ticks);
+    JointState { angle, rate, acceleration }
 }

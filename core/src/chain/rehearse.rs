@@ -126,6 +126,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         let tick = 0.5 * self.tick;
         let (alpha, beta) = (self.model.alpha.to_f64(), self.model.beta.to_f64());
         let damping = Damping { alpha, beta, joint: 0.0 };
-        Self { weights: Weights::new(tick, &damping), tick, ..*self }
+        let weights = Weights::new(tick, &damping);
+        Self { diagonal: self.model.diagonal(&weights), weights, tick, ..*self }
     }
 }

@@ -3,97 +3,236 @@
 
 use crate::math::{Complex, Scalar};
 
-/// `LDLᵀ` of a complex symmetric matrix, without pivoting.
+/// One value of each coordinate.
+pub(super) type Values<T, const LINKS: usize, const W: usize> = [[Complex<T>; W]; LINKS];
+
+/// `LDLᵀ` of a complex symmetric matrix, without pivoting, in blocks of a link's coordinates. A
+/// block's loops have fixed lengths: they unroll.
+///
+/// Coordinates below `FROM` of each link have no row: with 1, the joints of a chain whose joints
+/// are all driven.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Factors<T, const C: usize> {
-    lower: [[Complex<T>; C]; C],
-    /// `1/D`.
-    inverse: [Complex<T>; C],
+pub(super) struct Factors<T, const LINKS: usize, const W: usize, const FROM: usize> {
+    /// `L` below the diagonal, `blocks[i][p][k][c]` of row `k` of link `i` and column `c` of link
+    /// `p ≤ i`. A block above it, `blocks[p][i]`, holds `L D` of the same rows and columns.
+    blocks: [[[[Complex<T>; W]; W]; LINKS]; LINKS],
+    /// `1/D`, 0 in rows without an unknown: a column of theirs then changes nothing.
+    inverse: Values<T, LINKS, W>,
 }
 
-impl<T: Scalar, const C: usize> Factors<T, C> {
+impl<T: Scalar, const LINKS: usize, const W: usize, const FROM: usize> Factors<T, LINKS, W, FROM> {
     /// Factors `matrix + diag(diagonal)`, of which the lower triangle is read, in the rows and
     /// columns that are `free`.
     #[inline(never)]
-    pub fn new(matrix: &[[T; C]; C], diagonal: &[Complex<T>; C], free: &[bool; C]) -> Self {
-        let mut lower = [[Complex::ZERO; C]; C];
-        let mut inverse = [Complex::ZERO; C];
-        for i in 0..C {
-            if !free[i] {
-                continue;
-            }
-            // Row i of L D, then of L.
-            let mut row = [Complex::ZERO; C];
-            let mut pivot = diagonal[i] + Complex::new(matrix[i][i], T::ZERO);
+    pub fn new<const C: usize>(
+        matrix: &[[T; C]; C],
+        diagonal: &Values<T, LINKS, W>,
+        free: &[bool; C],
+    ) -> Self {
+        const { assert!(C == LINKS * W, "a row a coordinate") }
+        let mut factors = Self {
+            blocks: [[[[Complex::ZERO; W]; W]; LINKS]; LINKS],
+            inverse: [[Complex::ZERO; W]; LINKS],
+        };
+        for i in 0..LINKS {
             for p in 0..i {
-                if !free[p] {
-                    continue;
-                }
-                let mut entry = Complex::new(matrix[i][p], T::ZERO);
-                for r in 0..p {
-                    entry = entry - row[r] * lower[p][r];
-                }
-                row[p] = entry;
-                let scaled = entry * inverse[p];
-                lower[i][p] = scaled;
-                pivot = pivot - entry * scaled;
+                factors.factor_beside(matrix, i, p);
             }
-            inverse[i] = pivot.inverse();
+            factors.factor_diagonal(matrix, diagonal, free, i);
         }
-        Self { lower, inverse }
+        factors
+    }
+
+    /// Rows of link `i` in the columns of link `p`.
+    #[inline(always)]
+    fn factor_beside<const C: usize>(&mut self, matrix: &[[T; C]; C], i: usize, p: usize) {
+        let mut block = [[Complex::ZERO; W]; W];
+        for k in FROM..W {
+            for c in FROM..W {
+                block[k][c] = Complex::new(matrix[i * W + k][p * W + c], T::ZERO);
+            }
+        }
+        for r in 0..p {
+            let (left, right) = (&self.blocks[r][i], &self.blocks[p][r]);
+            for k in FROM..W {
+                for c in FROM..W {
+                    for s in FROM..W {
+                        block[k][c] = block[k][c] - left[k][s] * right[c][s];
+                    }
+                }
+            }
+        }
+        for k in FROM..W {
+            for c in FROM..W {
+                for s in FROM..c {
+                    block[k][c] = block[k][c] - block[k][s] * self.blocks[p][p][c][s];
+                }
+                self.blocks[i][p][k][c] = block[k][c] * self.inverse[p][c];
+            }
+        }
+        self.blocks[p][i] = block;
+    }
+
+    /// Rows of link `i` in its own columns.
+    #[inline(always)]
+    fn factor_diagonal<const C: usize>(
+        &mut self,
+        matrix: &[[T; C]; C],
+        diagonal: &Values<T, LINKS, W>,
+        free: &[bool; C],
+        i: usize,
+    ) {
+        let mut block = [[Complex::ZERO; W]; W];
+        for k in FROM..W {
+            for c in FROM..=k {
+                block[k][c] = Complex::new(matrix[i * W + k][i * W + c], T::ZERO);
+            }
+            block[k][k] = block[k][k] + diagonal[i][k];
+        }
+        for r in 0..i {
+            let (left, right) = (&self.blocks[r][i], &self.blocks[i][r]);
+            for k in FROM..W {
+                for c in FROM..=k {
+                    for s in FROM..W {
+                        block[k][c] = block[k][c] - left[k][s] * right[c][s];
+                    }
+                }
+            }
+        }
+        for k in FROM..W {
+            let mut pivot = block[k][k];
+            for c in FROM..k {
+                for s in FROM..c {
+                    block[k][c] = block[k][c] - block[k][s] * self.blocks[i][i][c][s];
+                }
+                let scaled = block[k][c] * self.inverse[i][c];
+                pivot = pivot - block[k][c] * scaled;
+                self.blocks[i][i][k][c] = scaled;
+            }
+            self.inverse[i][k] = if free[i * W + k] { pivot.inverse() } else { Complex::ZERO };
+        }
     }
 
     /// Least pivot of the free rows, of a matrix that is real: negative of one that is not
     /// definite.
-    pub fn least_pivot(&self, free: &[bool; C]) -> T {
+    pub fn least_pivot<const C: usize>(&self, free: &[bool; C]) -> T {
         let mut least = T::from_f64(f64::INFINITY);
         for i in (0..C).filter(|&i| free[i]) {
-            let pivot = T::ONE / self.inverse[i].re;
+            let pivot = T::ONE / self.inverse[i / W][i % W].re;
             least = if pivot < least { pivot } else { least };
         }
         least
     }
 
-    /// Solves for one right side in the rows that are `free`; the others stay as they are, and are
-    /// to be zero.
-    #[inline(never)]
-    pub fn solve(&self, right: &[Complex<T>; C], free: &[bool; C]) -> [Complex<T>; C] {
+    /// Solves for one right side. Rows without an unknown get 0.
+    #[inline(always)]
+    pub fn solve(&self, right: &Values<T, LINKS, W>) -> Values<T, LINKS, W> {
         let mut x = *right;
-        for i in 0..C {
-            if !free[i] {
-                continue;
+        self.forward(&mut x);
+        for i in 0..LINKS {
+            for k in 0..W {
+                x[i][k] = x[i][k] * self.inverse[i][k];
             }
-            let mut sum = x[i];
-            for p in 0..i {
-                if free[p] {
-                    sum = sum - self.lower[i][p] * x[p];
-                }
-            }
-            x[i] = sum;
         }
-        for i in (0..C).rev() {
-            if !free[i] {
-                continue;
-            }
-            // Column i of the lower factor is row i of the upper one.
-            let mut sum = x[i] * self.inverse[i];
-            for p in i + 1..C {
-                if free[p] {
-                    sum = sum - self.lower[p][i] * x[p];
-                }
-            }
-            x[i] = sum;
-        }
+        self.backward(&mut x);
         x
+    }
+
+    /// `D⁻¹`.
+    #[inline(always)]
+    pub fn inverse(&self) -> &Values<T, LINKS, W> {
+        &self.inverse
+    }
+
+    /// Changes `x` to `L⁻¹x`.
+    #[inline(never)]
+    pub fn forward(&self, x: &mut Values<T, LINKS, W>) {
+        for i in 0..LINKS {
+            let mut row = x[i];
+            for p in 0..i {
+                let (block, above) = (&self.blocks[i][p], &x[p]);
+                for k in FROM..W {
+                    for c in FROM..W {
+                        row[k] = row[k] - block[k][c] * above[c];
+                    }
+                }
+            }
+            for k in FROM..W {
+                for c in FROM..k {
+                    row[k] = row[k] - self.blocks[i][i][k][c] * row[c];
+                }
+            }
+            x[i] = row;
+        }
+    }
+
+    /// Changes `x` to `L⁻ᵀx`.
+    #[inline(never)]
+    pub fn backward(&self, x: &mut Values<T, LINKS, W>) {
+        for i in (0..LINKS).rev() {
+            let mut row = x[i];
+            // Column k of the lower factor is row k of the upper one.
+            for p in i + 1..LINKS {
+                let (block, below) = (&self.blocks[p][i], &x[p]);
+                for k in FROM..W {
+                    for c in FROM..W {
+                        row[k] = row[k] - block[c][k] * below[c];
+                    }
+                }
+            }
+            for k in (FROM..W).rev() {
+                for c in k + 1..W {
+                    row[k] = row[k] - self.blocks[i][i][c][k] * row[c];
+                }
+            }
+            x[i] = row;
+        }
     }
 }
 
-/// Solves two equations of two unknowns.
+/// Solves two symmetric equations of two unknowns.
 #[inline(always)]
 pub(super) fn solve_pair<T: Scalar>(
-    [[a, b], [c, d]]: [[Complex<T>; 2]; 2],
+    [a, b, d]: [Complex<T>; 3],
     [u, v]: [Complex<T>; 2],
 ) -> [Complex<T>; 2] {
-    let inverse = (a * d - b * c).inverse();
-    [(d * u - b * v) * inverse, (a * v - c * u) * inverse]
+    let inverse = (a * d - b * b).inverse();
+    [(d * u - b * v) * inverse, (a * v - b * u) * inverse]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Factors;
+    use crate::math::Complex;
+
+    /// A matrix of three links with two unknowns left out: the solution fits the free rows.
+    #[test]
+    fn a_solution_fits_its_equations() {
+        const C: usize = 9;
+        let matrix: [[f64; C]; C] = core::array::from_fn(|i| {
+            core::array::from_fn(|p| {
+                let (i, p) = (i.max(p) as f64, i.min(p) as f64);
+                if i == p { 4.0 + 0.3 * i } else { 1.0 / (1.0 + i + 2.0 * p) }
+            })
+        });
+        let diagonal = core::array::from_fn(|i| {
+            core::array::from_fn(|k| Complex::new(0.1 * i as f64, 0.5 + 0.2 * k as f64))
+        });
+        let free: [bool; C] = core::array::from_fn(|i| i != 3 && i != 7);
+        let right = core::array::from_fn(|i| {
+            core::array::from_fn(|k| Complex::new(1.0 - 0.4 * k as f64, 0.3 * i as f64))
+        });
+        let x = Factors::<f64, 3, 3, 0>::new(&matrix, &diagonal, &free).solve(&right);
+        for i in 0..C {
+            let mut sum = diagonal[i / 3][i % 3] * x[i / 3][i % 3] - right[i / 3][i % 3];
+            for p in 0..C {
+                sum = sum + x[p / 3][p % 3].scaled(matrix[i][p]);
+            }
+            if free[i] {
+                assert!(sum.re.abs() + sum.im.abs() < 1e-13, "row {i}: {sum:?}");
+            } else {
+                assert_eq!(x[i / 3][i % 3], Complex::ZERO);
+            }
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! Coordinates, rates and accelerations at the two stages of a tick.
 
+use super::pose::Pose;
+use super::weights::Weights;
 use super::{Chain, ChainState, Command, JointState};
 use crate::hub::Angle;
 use crate::math::Scalar;
@@ -7,7 +9,7 @@ use crate::math::Scalar;
 /// Coordinates of all links: slot 0 a joint's, the others curvature.
 pub(super) type Slots<T, const LINKS: usize, const W: usize> = [[T; W]; LINKS];
 
-/// Both stages of a tick.
+/// Both stages of a tick, as the last tick's acceleration makes them.
 pub(super) struct Stages<T, const LINKS: usize, const W: usize> {
     /// Accelerations: the unknowns.
     pub k: [Slots<T, LINKS, W>; 2],
@@ -17,6 +19,12 @@ pub(super) struct Stages<T, const LINKS: usize, const W: usize> {
     pub v: [Slots<T, LINKS, W>; 2],
 }
 
+/// Change of both stages' accelerations in an iteration.
+pub(super) type Changes<T, const LINKS: usize, const W: usize> = [Slots<T, LINKS, W>; 2];
+
+/// Change of the coordinates by the iteration, rad in all, up to which the directions of the guess
+/// are turned by it: the fourth power, over 24, is the error.
+const TURN: f64 = 0.1;
 /// Bounds of what is carried on, so that a chain that is asked for too much stays finite: of a
 /// curvature coordinate, rad; of a rate, rad a tick; of torques and forces, N m and N.
 const MOST_BEND: f64 = 8.0;
@@ -49,10 +57,25 @@ where
         commands: &[Command<T>; LINKS],
         free: &[bool; C],
     ) -> Stages<T, LINKS, W> {
+        let Weights { h, half, third, sixth, .. } = self.weights;
         let mut stages =
             Stages { k: [state.acceleration; 2], q: [state.shape; 2], v: [state.rate; 2] };
         for j in 0..LINKS {
-            if !free[j * W] {
+            for i in 1..W {
+                let (v, k) = (state.rate[j][i], state.acceleration[j][i]);
+                stages.q[0][j][i] += third * (v + sixth * k);
+                stages.v[0][j][i] += third * k;
+                stages.q[1][j][i] += h * (v + half * k);
+                stages.v[1][j][i] += h * k;
+            }
+            if free[j * W] {
+                let (part, turns) = (state.joints[j].angle.part, self.model.turns);
+                let (v, k) = (state.rate[j][0], state.acceleration[j][0]);
+                stages.q[0][j][0] = part + turns * (third * (v + sixth * k));
+                stages.v[0][j][0] += third * k;
+                stages.q[1][j][0] = part + turns * (h * (v + half * k));
+                stages.v[1][j][0] += h * k;
+            } else {
                 for (stage, joint) in [&commands[j].third, &commands[j].end].into_iter().enumerate()
                 {
                     stages.q[stage][j][0] = joint.angle.part;
@@ -64,85 +87,63 @@ where
         stages
     }
 
-    /// Coordinates and rates of both stages from their accelerations.
-    #[inline(always)]
-    pub(super) fn update(
-        &self,
-        state: &ChainState<T, LINKS, W>,
-        stages: &mut Stages<T, LINKS, W>,
-        free: &[bool; C],
-    ) {
-        let weights = &self.weights;
-        let h = weights.h;
-        for j in 0..LINKS {
-            for i in 0..W {
-                if !free[j * W + i] {
-                    continue;
-                }
-                let (v, k1, k2) = (state.rate[j][i], stages.k[0][j][i], stages.k[1][j][i]);
-                let moved = h * (weights.third * v + h * (weights.ninth * (k1 - T::HALF * k2)));
-                stages.q[0][j][i] = self.moved(state, j, i, moved);
-                stages.v[0][j][i] = v + h * (weights.five * k1 - weights.twelfth * k2);
-                (stages.q[1][j][i], stages.v[1][j][i]) = self.end(state, j, i, [k1, k2]);
-            }
-        }
-    }
-
-    /// Coordinate and rate at the tick's end.
-    #[inline(always)]
-    fn end(&self, state: &ChainState<T, LINKS, W>, j: usize, i: usize, [k1, k2]: [T; 2]) -> (T, T) {
-        let (h, v) = (self.weights.h, state.rate[j][i]);
-        let moved = h * (v + h * (T::HALF * k1));
-        let rate = v + h * (k2 + (T::TWO + T::ONE) * k1) * self.weights.quarter;
-        (self.moved(state, j, i, moved), rate)
-    }
-
-    #[inline(always)]
-    fn moved(&self, state: &ChainState<T, LINKS, W>, j: usize, i: usize, moved: T) -> T {
-        if i == 0 {
-            state.joints[j].angle.part + self.model.turns * moved
-        } else {
-            state.shape[j][i] + moved
-        }
-    }
-
-    /// Takes stage 2, which is the tick's end, as the new state.
+    /// Takes stage 2 with its changes, which is the tick's end, as the new state. `pose` is that of
+    /// stage 2 as guessed.
     #[inline(always)]
     pub(super) fn accept(
         &self,
         state: &mut ChainState<T, LINKS, W>,
         commands: &[Command<T>; LINKS],
         stages: &Stages<T, LINKS, W>,
+        changes: &Changes<T, LINKS, W>,
+        pose: &[Pose<T, Q>; LINKS],
         free: &[bool; C],
     ) {
+        let Weights { three_quarters, quarter, half_square, .. } = self.weights;
+        let mut moved = [[T::ZERO; W]; LINKS];
         for j in 0..LINKS {
             for i in 0..W {
-                if free[j * W + i] {
-                    let k = [stages.k[0][j][i], stages.k[1][j][i]];
-                    let (q, v) = self.end(state, j, i, k);
-                    state.rate[j][i] = v;
-                    state.acceleration[j][i] = k[1];
-                    if i == 0 {
-                        let Angle { turns, .. } = state.joints[j].angle;
-                        let angle = Angle { turns, part: T::ZERO }.plus(q);
-                        state.joints[j] = JointState { angle, rate: v, acceleration: k[1] };
-                    } else {
-                        state.shape[j][i] = q;
-                    }
+                let (first, second) = (changes[0][j][i], changes[1][j][i]);
+                moved[j][i] = half_square * first;
+                state.rate[j][i] = stages.v[1][j][i] + (three_quarters * first + quarter * second);
+                state.acceleration[j][i] = stages.k[1][j][i] + second;
+                if i > 0 {
+                    state.shape[j][i] = stages.q[1][j][i] + moved[j][i];
                 }
             }
-            if !free[j * W] {
-                state.joints[j] = commands[j].end;
-                state.rate[j][0] = commands[j].end.rate;
-                state.acceleration[j][0] = commands[j].end.acceleration;
-            }
+            state.joints[j] = if free[j * W] {
+                let Angle { turns, .. } = state.joints[j].angle;
+                let part = stages.q[1][j][0] + self.model.turns * moved[j][0];
+                let angle = Angle { turns, part: T::ZERO }.plus(part);
+                let (rate, acceleration) = (state.rate[j][0], state.acceleration[j][0]);
+                JointState { angle, rate, acceleration }
+            } else {
+                commands[j].end
+            };
         }
-        self.bound(state);
+        if self.bound(state) && self.turns_little(&moved) {
+            self.locate_near(state, pose, &moved);
+        } else {
+            self.locate(state);
+        }
     }
 
-    /// Keeps a state finite. One comparison of a sum, as no state that a move makes is near.
+    /// True if the iteration has changed the coordinates by no more than [`TURN`].
     #[inline(always)]
-    fn bound(&self, state: &mut ChainState<T, LINKS, W>) {
+    fn turns_little(&self, moved: &Slots<T, LINKS, W>) -> bool {
+        let mut sum = T::ZERO;
+        for row in moved {
+            for moved in row {
+                sum += moved.abs();
+            }
+        }
+        sum <= T::from_f64(TURN)
+    }
+
+    /// Keeps a state finite, and returns true if it was. One comparison of a sum, as no state that a
+    /// move makes is near.
+    #[inline(always)]
+    fn bound(&self, state: &mut ChainState<T, LINKS, W>) -> bool {
         let (mut rates, mut bends) = (T::ZERO, T::ZERO);
         for j in 0..LINKS {
             for i in 0..W {
@@ -153,9 +154,11 @@ where
         }
         let sum = bends + T::from_f64(MOST_BEND / MOST_TURN) * self.weights.h * rates;
         // NaN is not below it either.
-        if !(..=T::from_f64(MOST_BEND)).contains(&sum) {
+        let bounded = (..=T::from_f64(MOST_BEND)).contains(&sum);
+        if !bounded {
             self.bound_each(state);
         }
+        bounded
     }
 
     #[cold]

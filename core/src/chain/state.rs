@@ -45,6 +45,9 @@ pub struct ChainState<T, const LINKS: usize, const W: usize> {
     pub(super) acceleration: [[T; W]; LINKS],
     /// Torque at each joint, N m; 0 at a passive one.
     pub(super) torque: [T; LINKS],
+    /// End of every link in the global frame, m, and from the link's joint in the link's own.
+    pub(super) ends: [Vector<T>; LINKS],
+    pub(super) tips: [Vector<T>; LINKS],
     /// Place of the pin in the global frame if the chain is closed, and what it pushes with, N.
     pub(super) pin: Option<Vector<T>>,
     pub(super) force: Vector<T>,

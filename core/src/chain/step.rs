@@ -1,4 +1,4 @@
-//! One tick: Radau IIA with two stages, simplified Newton iterations on both stages at once.
+//! One tick: Radau IIA with two stages, one simplified Newton iteration on both stages at once.
 //!
 //! The stages lie at a third of the tick and at its end. With `A = [5/12, −1/12; 3/4, 1/4]` and the
 //! stages' accelerations `k₁`, `k₂` as unknowns the rates are `v + hA k` and the coordinates
@@ -12,13 +12,10 @@
 use super::mass::Mass;
 use super::pin::Pinned;
 use super::pose::{Pose, Vector, plus};
-use super::solve::Factors;
-use super::stages::{Slots, Stages};
+use super::solve::{Factors, Values};
+use super::stages::{Changes, Slots, Stages};
 use super::{Chain, ChainState, Command};
 use crate::math::{Complex, Scalar};
-
-/// Change of both stages' accelerations in an iteration.
-pub(super) type Changes<T, const C: usize> = [[T; C]; 2];
 
 impl<T, const LINKS: usize, const W: usize, const C: usize, const Q: usize> Chain<T, LINKS, W, C, Q>
 where
@@ -30,24 +27,29 @@ where
     pub fn step(&self, state: &mut ChainState<T, LINKS, W>, commands: &[Command<T>; LINKS]) {
         if let Some(pin) = state.pin {
             self.step_closed(state, commands, pin);
+        } else if self.passive {
+            self.step_open::<0>(state, commands);
         } else {
-            self.step_open(state, commands);
+            self.step_open::<1>(state, commands);
         }
     }
 
+    /// A tick of an open chain; `FROM` is 1 if all joints are driven.
     #[inline(never)]
-    fn step_open(&self, state: &mut ChainState<T, LINKS, W>, commands: &[Command<T>; LINKS]) {
+    fn step_open<const FROM: usize>(
+        &self,
+        state: &mut ChainState<T, LINKS, W>,
+        commands: &[Command<T>; LINKS],
+    ) {
         let free = &self.open;
-        let mut stages = self.first_guess(state, commands, free);
-        self.update(state, &mut stages, free);
+        let stages = self.first_guess(state, commands, free);
         let poses = self.poses(&stages);
         let mass = self.model.mass::<C, false>(&poses[1]);
-        let factors = Factors::new(&mass.matrix, &self.diagonal(), free);
+        let factors = Factors::<T, LINKS, W, FROM>::new(&mass.matrix, &self.diagonal, free);
         let residuals = self.residuals(&poses, &stages, None);
-        let y = factors.solve(&self.right(&residuals, free), free);
-        let changes = self.change(&mut stages, &y);
-        state.torque = self.torques(&residuals[1], &mass, &changes, free);
-        self.accept(state, commands, &stages, free);
+        let changes = self.changes(&factors.solve(&self.right(&residuals)));
+        state.torque = self.torques::<FROM>(&residuals[1], &mass, &changes, free);
+        self.accept(state, commands, &stages, &changes, &poses[1], free);
     }
 
     #[inline(never)]
@@ -58,33 +60,23 @@ where
         pin: Vector<T>,
     ) {
         let free = &self.closed;
-        let mut stages = self.first_guess(state, commands, free);
-        self.update(state, &mut stages, free);
-        let mut forces = [state.force; 2];
-        for iteration in 0..ITERATIONS {
-            if iteration > 0 {
-                self.update(state, &mut stages, free);
-            }
-            // Anew in each iteration: the directions in which the pin acts turn with the links.
-            let poses = self.poses(&stages);
-            let mass = self.model.mass::<C, false>(&poses[1]);
-            let factors = Factors::new(&mass.matrix, &self.diagonal(), free);
-            let pinned = Pinned::new(&factors, self.model.tip_moves(&poses[1]), free);
-            let residuals = self.residuals(&poses, &stages, Some(forces));
-            let mut y = factors.solve(&self.right(&residuals, free), free);
-            let missed = self.missed(&poses, &stages, pin);
-            let pushed = self.hold_pin(&pinned, &missed, &mut y);
-            let changes = self.change(&mut stages, &y);
-            for stage in 0..2 {
-                forces[stage] = plus(forces[stage], T::ONE, pushed[stage]);
-            }
-            if iteration + 1 == ITERATIONS {
-                let torques = self.torques(&residuals[1], &mass, &changes, free);
-                state.torque = pinned.torques(torques, &pushed[1], free);
+        let stages = self.first_guess(state, commands, free);
+        let poses = self.poses(&stages);
+        let mass = self.model.mass::<C, false>(&poses[1]);
+        let factors = Factors::<T, LINKS, W, 0>::new(&mass.matrix, &self.diagonal, free);
+        let pinned = Pinned::new(&factors, self.model.tip_moves(&poses[1]));
+        let residuals = self.residuals(&poses, &stages, Some(state.force));
+        let missed = self.missed(&poses, &stages, pin);
+        let (y, pushed) = pinned.solve(&factors, &self.right(&residuals), missed);
+        let (changes, pushed) = (self.changes(&y), self.push(pushed));
+        state.torque = self.torques::<0>(&residuals[1], &mass, &changes, free);
+        for j in 0..LINKS {
+            if !free[j * W] {
+                state.torque[j] -= pinned.torque(j, &pushed[1]);
             }
         }
-        state.force = forces[1];
-        self.accept(state, commands, &stages, free);
+        state.force = plus(state.force, T::ONE, pushed[1]);
+        self.accept(state, commands, &stages, &changes, &poses[1], free);
     }
 
     #[inline(always)]
@@ -92,26 +84,13 @@ where
         [self.model.pose(&stages.q[0]), self.model.pose(&stages.q[1])]
     }
 
-    /// Contribution of the stiffness to the diagonal.
-    #[inline(always)]
-    fn diagonal(&self) -> [Complex<T>; C] {
-        let mut diagonal = [Complex::ZERO; C];
-        for j in 0..LINKS {
-            for i in 1..W {
-                let stiffness = self.model.links[j].stiffness[i];
-                diagonal[j * W + i] = self.weights.stiffness.scaled(stiffness);
-            }
-        }
-        diagonal
-    }
-
-    /// Residuals of both stages, elastic forces included.
+    /// Residuals of both stages, elastic forces included. `force` is the pin's.
     #[inline(always)]
     fn residuals(
         &self,
         poses: &[[Pose<T, Q>; LINKS]; 2],
         stages: &Stages<T, LINKS, W>,
-        forces: Option<[Vector<T>; 2]>,
+        force: Option<Vector<T>>,
     ) -> [Slots<T, LINKS, W>; 2] {
         let model = &self.model;
         core::array::from_fn(|stage| {
@@ -123,7 +102,6 @@ where
                     }
                 }
             }
-            let force = forces.map(|forces| forces[stage]);
             let mut residual = model.inverse_dynamics(&poses[stage], v, &a, force);
             for j in 0..LINKS {
                 for i in 1..W {
@@ -136,30 +114,26 @@ where
     }
 
     #[inline(always)]
-    fn right(&self, residuals: &[Slots<T, LINKS, W>; 2], free: &[bool; C]) -> [Complex<T>; C] {
-        let mut right = [Complex::ZERO; C];
+    fn right(&self, residuals: &[Slots<T, LINKS, W>; 2]) -> Values<T, LINKS, W> {
+        let mut right = [[Complex::ZERO; W]; LINKS];
         for j in 0..LINKS {
             for i in 0..W {
-                if free[j * W + i] {
-                    let right_side = self.weights.forward(residuals[0][j][i], residuals[1][j][i]);
-                    right[j * W + i] = self.weights.mass * right_side;
+                right[j][i] = self.weights.forward(residuals[0][j][i], residuals[1][j][i]);
+                if self.model.alpha != T::ZERO {
+                    right[j][i] = self.weights.mass * right[j][i];
                 }
             }
         }
         right
     }
 
-    /// Changes the stages' accelerations by a solution.
+    /// Changes of both stages' accelerations by a solution.
     #[inline(always)]
-    fn change(&self, stages: &mut Stages<T, LINKS, W>, y: &[Complex<T>; C]) -> Changes<T, C> {
-        let mut changes = [[T::ZERO; C]; 2];
+    fn changes(&self, y: &Values<T, LINKS, W>) -> Changes<T, LINKS, W> {
+        let mut changes = [[[T::ZERO; W]; LINKS]; 2];
         for j in 0..LINKS {
             for i in 0..W {
-                let both = self.weights.back(y[j * W + i]);
-                for stage in 0..2 {
-                    changes[stage][j * W + i] = both[stage];
-                    stages.k[stage][j][i] += both[stage];
-                }
+                [changes[0][j][i], changes[1][j][i]] = self.weights.back(y[j][i]);
             }
         }
         changes
@@ -168,37 +142,39 @@ where
     /// Torques at the tick's end: the residuals of the joints, and what the iteration's change of
     /// the accelerations changes of them.
     #[inline(always)]
-    fn torques(
+    fn torques<const FROM: usize>(
         &self,
         residual: &Slots<T, LINKS, W>,
         mass: &Mass<T, C>,
-        changes: &Changes<T, C>,
+        changes: &Changes<T, LINKS, W>,
         free: &[bool; C],
     ) -> [T; LINKS] {
-        let damping = self.model.alpha * self.weights.h * self.weights.quarter;
         let mut change = changes[1];
-        if damping != T::ZERO {
-            for i in 0..C {
-                change[i] += damping * (changes[1][i] + (T::TWO + T::ONE) * changes[0][i]);
+        if self.model.alpha != T::ZERO {
+            let damping = self.model.alpha * self.weights.quarter;
+            for j in 0..LINKS {
+                for i in 0..W {
+                    let three = (T::TWO + T::ONE) * changes[0][j][i];
+                    change[j][i] += damping * (changes[1][j][i] + three);
+                }
             }
         }
         let mut torques = [T::ZERO; LINKS];
         for j in 0..LINKS {
             let row = j * W;
-            if free[row] {
+            if FROM == 0 && free[row] {
                 continue;
             }
             torques[j] = residual[j][0];
-            for i in 0..C {
-                if free[i] {
-                    let entry = if i < row { mass.matrix[row][i] } else { mass.matrix[i][row] };
-                    torques[j] += entry * change[i];
+            // What is driven does not change.
+            for link in 0..LINKS {
+                for i in FROM..W {
+                    let (own, other) = (link * W + i, row);
+                    let (below, beside) = if own < other { (other, own) } else { (own, other) };
+                    torques[j] += mass.matrix[below][beside] * change[link][i];
                 }
             }
         }
         torques
     }
 }
-
-/// Newton iterations of a tick of a closed chain.
-const ITERATIONS: usize = 2;

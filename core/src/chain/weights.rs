@@ -6,7 +6,14 @@ use crate::scene::Damping;
 /// Constants of the step for one tick length and damping.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Weights<T> {
+    /// `h`, and shares of it.
     pub(super) h: T,
+    pub(super) half: T,
+    pub(super) third: T,
+    pub(super) sixth: T,
+    pub(super) three_quarters: T,
+    pub(super) quarter: T,
+    pub(super) half_square: T,
     pub(super) per_tick: T,
     /// `1/(1 + hαλ)`, and its inverse.
     pub(super) mass: Complex<T>,
@@ -18,12 +25,6 @@ pub(super) struct Weights<T> {
     /// `2√2` and its inverse.
     pub(super) root: T,
     pub(super) inverse_root: T,
-    pub(super) third: T,
-    /// `5/12` and `1/12`.
-    pub(super) five: T,
-    pub(super) twelfth: T,
-    pub(super) quarter: T,
-    pub(super) ninth: T,
 }
 
 impl<T: Scalar> Weights<T> {
@@ -37,6 +38,12 @@ impl<T: Scalar> Weights<T> {
         let f = T::from_f64;
         Self {
             h: f(tick),
+            half: f(0.5 * tick),
+            third: f(tick / 3.0),
+            sixth: f(tick / 6.0),
+            three_quarters: f(0.75 * tick),
+            quarter: f(0.25 * tick),
+            half_square: f(0.5 * tick * tick),
             per_tick: f(1.0 / tick),
             mass: mass.cast(),
             undamped: damped.cast(),
@@ -44,11 +51,6 @@ impl<T: Scalar> Weights<T> {
             pin: (lambda + square).scaled(tick).inverse().cast(),
             root: f(crate::math::sqrt(8.0)),
             inverse_root: f(1.0 / crate::math::sqrt(8.0)),
-            third: f(1.0 / 3.0),
-            five: f(5.0 / 12.0),
-            twelfth: f(1.0 / 12.0),
-            quarter: f(0.25),
-            ninth: f(1.0 / 9.0),
         }
     }
 

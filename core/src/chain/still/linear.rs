@@ -18,16 +18,16 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     ) -> Bulges<LINKS> {
         let effort = self.cheapness();
         let mut matrix = [[0.0; C]; C];
-        let mut right = [Complex::ZERO; C];
+        let mut right = [[Complex::ZERO; W]; LINKS];
         // C is at least three times the number of links, of which two a mode are used.
         let used: [bool; C] =
             core::array::from_fn(|i| i < 2 * LINKS && self.modes.frequency[i / 2].is_finite());
         let d = |j: usize, term: usize, row: usize| derivative[j][term][row / 2][row % 2];
         for row in (0..C).filter(|&row| used[row]) {
-            right[row].re = -left[row / 2][row % 2];
+            right[row / W][row % W].re = -left[row / 2][row % 2];
             for j in 0..LINKS {
                 for term in 0..TERMS {
-                    right[row].re += d(j, term, row) * bulges[j][term];
+                    right[row / W][row % W].re += d(j, term, row) * bulges[j][term];
                     for other in 0..TERMS {
                         let cheap = effort[j][term][other];
                         for column in (0..=row).filter(|&column| used[column]) {
@@ -37,14 +37,17 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
                 }
             }
         }
-        let none = [Complex::ZERO; C];
-        let multipliers = Factors::new(&matrix, &none, &used).solve(&right, &used);
+        let none = [[Complex::ZERO; W]; LINKS];
+        let factors = Factors::<f64, LINKS, W, 0>::new(&matrix, &none, &used);
+        let multipliers = factors.solve(&right);
         core::array::from_fn(|j| {
             core::array::from_fn(|term| {
                 let mut sum = 0.0;
                 for row in (0..C).filter(|&row| used[row]) {
                     for other in 0..TERMS {
-                        sum += effort[j][term][other] * d(j, other, row) * multipliers[row].re;
+                        sum += effort[j][term][other]
+                            * d(j, other, row)
+                            * multipliers[row / W][row % W].re;
                     }
                 }
                 sum

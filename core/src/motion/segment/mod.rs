@@ -159,17 +159,23 @@ impl<T: Scalar> Segment<T> {
     /// Returns the hub any real number of ticks after the segment's first, for solvers that choose
     /// their own steps. `ticks` may be negative, down to the segment's true beginning.
     pub fn hub_at(&self, ticks: T) -> HubState<T> {
+        let (angle, rate, acceleration) = self.angle_at(ticks);
+        let (sin, cos) = angle.sin_cos();
+        HubState { angle, rate, acceleration, sin, cos }
+    }
+
+    /// Angle, rate and acceleration of [`Self::hub_at`], without sine and cosine.
+    #[inline(always)]
+    pub(crate) fn angle_at(&self, ticks: T) -> (Angle<T>, T, T) {
         if ticks == T::ZERO {
-            return self.hub(0);
+            return (self.begin.angle, self.begin.rate, self.begin.acceleration);
         }
-        let (angle, rate, acceleration) = match self.rest {
+        match self.rest {
             Rest::Cruise { rate, step } => {
                 (self.origin.plus(T::from_fraction(step) * ticks), rate, T::ZERO)
             }
             _ => self.scaled(self.derivatives(self.offset + ticks * self.advance)),
-        };
-        let (sin, cos) = angle.sin_cos();
-        HubState { angle, rate, acceleration, sin, cos }
+        }
     }
 
     /// Ticks from the segment's true beginning to its first tick, 0 to 1.
