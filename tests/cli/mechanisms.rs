@@ -168,8 +168,11 @@ fn plans_that_no_chain_can_follow_are_refused() {
         (&["plan", "two-links", "--to", "1,1.3", "--duration", "0.1"], "must be"),
         (&["plan", "four-bar", "--to", "1,1,1"], "must be"),
         (&["plan", "two-links", "--to", "1,1.3", "--max-rate", "1,2,3"], "--max-rate = [1.0, 2.0"),
-        (&["plan", "two-links", "--to", "1,1.3", "--max-torque", "1,0.01"], "limits.torque"),
-        (&["plan", "two-links", "--to", "1,1.3", "--max-rate", "9,0.5"], "limits.rate"),
+        (
+            &["plan", "two-links", "--to", "1,1.3", "--max-torque", "1,0.01"],
+            "joints[1].limits.torque",
+        ),
+        (&["plan", "two-links", "--to", "1,1.3", "--max-rate", "9,0.5"], "joints[1].limits.rate"),
         (&["plan", "a-tip30", "--to", "1", "--max-rate", "1,2"], "--max-rate = [1.0, 2.0]"),
         (&["plan", "a-tip30", "--to", "1,2"], "--to = [1.0, 2.0]: must be one value"),
     ] {

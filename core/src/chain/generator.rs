@@ -6,6 +6,7 @@ use super::{Chain, ChainState, Command};
 use crate::Error;
 use crate::generator::Setpoint;
 use crate::math::Scalar;
+use crate::mechanism::of_joint;
 use crate::motion::{Limits, MoveSummary, Plannable};
 
 /// Setpoints of all joints, one every tick, with the places that follow from them.
@@ -86,7 +87,7 @@ impl<
     /// A joint that does not exist or has no motor, or a limit of torque or moment, which a
     /// generator cannot keep.
     pub fn limit(&mut self, joint: usize, limits: Limits) -> Result<(), Error> {
-        self.driven("limits.joint", joint)?.limit(limits)
+        self.driven("limits.joint", joint)?.limit(limits).map_err(|error| of_joint(error, joint))
     }
 
     /// Plans a move of `joint`, counted from 0, behind its others. Runs in f64 and is not for the

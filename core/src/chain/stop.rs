@@ -8,6 +8,7 @@
 use super::{ChainGenerator, JointState};
 use crate::Error;
 use crate::math::Scalar;
+use crate::mechanism::of_joint;
 
 /// A stop under way.
 #[derive(Clone, Copy, Debug)]
@@ -67,24 +68,36 @@ impl<
         if self.stop.is_some() {
             return Ok(());
         }
+        let limits = self.can_stop()?;
+        let ticks = self.stopping_ticks(&limits);
+        self.stop = Some(Stop { ticks, passed: 0, whole: T::ZERO });
+        Ok(())
+    }
+
+    /// The limits that a stop keeps, rad/s²; 0 of a passive joint, which keeps none.
+    ///
+    /// # Errors
+    /// A driven joint without a limit of deceleration or acceleration.
+    pub(crate) fn can_stop(&self) -> Result<[T; LINKS], Error> {
         let mut limits = [T::ZERO; LINKS];
         for j in 0..LINKS {
             if self.chain.is_driven(j, self.state.is_closed()) {
                 limits[j] = self.queues[j].braking();
                 if limits[j] == T::ZERO {
-                    return Err(Error::OutOfRange {
-                        parameter: "limits.acceleration",
-                        value: f64::INFINITY,
-                        min: 1e-9,
-                        max: 1e12,
-                        unit: "rad/s^2",
-                    });
+                    return Err(of_joint(
+                        Error::OutOfRange {
+                            parameter: "limits.acceleration",
+                            value: f64::INFINITY,
+                            min: 1e-9,
+                            max: 1e12,
+                            unit: "rad/s^2",
+                        },
+                        j,
+                    ));
                 }
             }
         }
-        let ticks = self.stopping_ticks(&limits);
-        self.stop = Some(Stop { ticks, passed: 0, whole: T::ZERO });
-        Ok(())
+        Ok(limits)
     }
 
     /// True while a stop is under way.

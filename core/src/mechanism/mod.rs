@@ -24,6 +24,7 @@ pub use link::{Link, Stiffness};
 use crate::Error;
 use crate::scene::{Damping, Payload};
 use names::indexed;
+pub(crate) use names::of_joint;
 
 /// Most links of a chain.
 pub const MAX_LINKS: usize = 8;

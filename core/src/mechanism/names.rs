@@ -17,3 +17,28 @@ macro_rules! indexed {
 }
 
 pub(super) use indexed;
+
+use crate::Error;
+
+/// Fields of a joint's limits, as an error of one joint and of a list of joints names them.
+const LIMITS: [(&str, [&str; 8]); 6] = [
+    ("limits.rate", indexed!("joints", "limits.rate")),
+    ("limits.acceleration", indexed!("joints", "limits.acceleration")),
+    ("limits.deceleration", indexed!("joints", "limits.deceleration")),
+    ("limits.jerk", indexed!("joints", "limits.jerk")),
+    ("limits.torque", indexed!("joints", "limits.torque")),
+    ("limits.moment", indexed!("joints", "limits.moment")),
+];
+
+/// The error with the place of the joint, counted from 0, before a field of its limits.
+pub(crate) fn of_joint(mut error: Error, joint: usize) -> Error {
+    if let Error::OutOfRange { parameter, .. }
+    | Error::LimitExceeded { parameter, .. }
+    | Error::CannotCheck { parameter, .. } = &mut error
+        && let Some((_, places)) = LIMITS.iter().find(|(field, _)| field == parameter)
+        && let Some(place) = places.get(joint)
+    {
+        *parameter = place;
+    }
+    error
+}

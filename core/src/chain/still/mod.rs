@@ -12,7 +12,7 @@ mod search;
 use super::Chain;
 use crate::Error;
 use crate::math::Scalar;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, of_joint};
 use crate::motion::{Limits, Move};
 use search::Search;
 
@@ -74,10 +74,11 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// # Errors
     /// A limit that is no number, or one of a clamp's moment, which a chain does not tell.
     pub fn with_limits(self, limits: [Limits; LINKS]) -> Result<Self, Error> {
-        for limits in limits {
-            if let Some(value) = limits.validate()?.moment {
+        for (j, limits) in limits.iter().enumerate() {
+            let limits = limits.validate().map_err(|error| of_joint(error, j))?;
+            if let Some(value) = limits.moment {
                 let (parameter, unit) = ("limits.moment", "N m");
-                return Err(Error::CannotCheck { parameter, value, unit });
+                return Err(of_joint(Error::CannotCheck { parameter, value, unit }, j));
             }
         }
         Ok(Self { limits, ..self })

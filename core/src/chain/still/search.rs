@@ -6,6 +6,7 @@ use crate::Error;
 use crate::chain::ChainState;
 use crate::chain::modes::ChainModes;
 use crate::math::Scalar;
+use crate::mechanism::of_joint;
 use crate::motion::{BULGE, Limits, Move};
 
 /// Most flights of a search in one duration.
@@ -115,9 +116,10 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             let motion = Limits { torque: None, ..*limits };
             let start = crate::HubState::resting_at(from[j])?;
             // Only what it refuses matters here.
-            let plan = crate::motion::Plan::new(&moves[j], start, &motion, self.planner.tick)?;
-            drop(plan);
-            limits.admit_torque(flight.torque[j])?;
+            crate::motion::Plan::new(&moves[j], start, &motion, self.planner.tick)
+                .map(drop)
+                .and_then(|()| limits.admit_torque(flight.torque[j]))
+                .map_err(|error| of_joint(error, j))?;
         }
         Ok(ChainPlan { moves, residual, torque: flight.torque, flights: self.flights })
     }

@@ -120,8 +120,10 @@ fn a_move_that_cannot_be_is_refused() {
     let tight = planner.with_limits([limits(2.0 * torque[0]), limits(0.9 * torque[1])]);
     assert!(matches!(
         tight.expect("limits").plan(&from, &to, duration),
-        Err(Error::LimitExceeded { parameter: "limits.torque", .. })
+        Err(Error::LimitExceeded { parameter: "joints[1].limits.torque", .. })
     ));
+    let bad = planner.with_limits([Limits::default(), limits(-1.0)]);
+    assert!(matches!(bad, Err(Error::OutOfRange { parameter: "joints[1].limits.torque", .. })));
     let passive = Mechanism { closure: None, ..scenes::four_bar().mechanism };
     assert!(matches!(
         ChainPlanner::<f64, 3, 4, 12, 5>::new(&passive, 0.01),

@@ -84,7 +84,10 @@ fn a_stop_at_any_tick_stays_on_the_path_and_keeps_the_limits() {
 fn a_stop_needs_limits_and_lets_no_move_in() {
     let chain = Chain::new(&scenes::arm_dd().mechanism, 0.01).expect("a chain");
     let mut free = Arm::new(chain, [0.0, 0.3]).expect("a generator");
-    assert!(matches!(free.stop(), Err(Error::OutOfRange { parameter: "limits.acceleration", .. })));
+    assert!(matches!(
+        free.stop(),
+        Err(Error::OutOfRange { parameter: "joints[0].limits.acceleration", .. })
+    ));
     let mut arm = arm();
     for _ in 0..20 {
         arm.tick();
