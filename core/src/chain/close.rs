@@ -25,7 +25,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     pub fn close(&self, state: &mut ChainState<T, LINKS, W>) {
         let (factors, pinned) = self.end_answer(state);
         let to = pinned.velocity(&state.rate).map(|v| Complex::new(-v, T::ZERO));
-        let (jump, _) = pinned.solve(&factors, &[[Complex::ZERO; W]; LINKS], to);
+        let (jump, _) = pinned.solve(&factors, to);
         for j in 0..LINKS {
             for k in 0..W {
                 state.rate[j][k] += jump[j][k].re;
@@ -45,7 +45,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         let mass = self.model.mass::<C, false>(&pose);
         let none = [[Complex::ZERO; W]; LINKS];
         let factors = Factors::new(&mass.matrix, &none, &self.closed);
-        let pinned = Pinned::new(&factors, self.model.tip_moves(&pose));
+        let pinned = Pinned::new(&factors, self.model.tip_moves(&pose), &none);
         (factors, pinned)
     }
 

@@ -2,9 +2,10 @@
 
 use super::queue::JointQueue;
 use super::stop::Stop;
-use super::{Chain, ChainState, Command};
+use super::{Chain, ChainState, Command, JointState};
 use crate::Error;
 use crate::generator::Setpoint;
+use crate::hub::Angle;
 use crate::math::Scalar;
 use crate::mechanism::of_joint;
 use crate::motion::{Limits, MoveSummary, Plannable};
@@ -146,12 +147,10 @@ impl<
             let [third, end] = self.stopping_commands(stop);
             return core::array::from_fn(|j| Command { third: third[j], end: end[j] });
         }
-        let commands = core::array::from_fn(|j| {
-            let queue = &self.queues[j];
-            Command { third: queue.at(self.third), end: queue.at(T::ONE) }
-        });
-        for queue in &mut self.queues {
-            queue.advance();
+        let still = JointState::at_rest(Angle { turns: 0, part: T::ZERO });
+        let mut commands = [Command { third: still, end: still }; LINKS];
+        for (queue, command) in self.queues.iter_mut().zip(&mut commands) {
+            *command = queue.next_command(self.third);
         }
         commands
     }

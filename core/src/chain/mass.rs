@@ -174,10 +174,13 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
                 kernel[p][q] = kernel[q][p];
             }
         }
-        let lever: [T; Q] = core::array::from_fn(|q| {
-            body.lengths[q] * (t[q][0] * beyond.first[0] + t[q][1] * beyond.first[1])
-        });
-        let levers: [T; W] = over_points(&lever);
+        let mut levers = [T::ZERO; W];
+        // A payload at the end of the last link has no lever.
+        if j + 1 < LINKS || self.load.offset != T::ZERO {
+            levers = over_points(&core::array::from_fn::<T, Q, _>(|q| {
+                body.lengths[q] * (t[q][0] * beyond.first[0] + t[q][1] * beyond.first[1])
+            }));
+        }
         let rows: [[T; W]; Q] = core::array::from_fn(|q| over_points(&kernel[q]));
         let mut own = [[T::ZERO; W]; W];
         for p in 0..W {

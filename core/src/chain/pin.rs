@@ -7,68 +7,62 @@ use super::stages::{Slots, Stages};
 use super::{Chain, Model};
 use crate::math::{Complex, Scalar};
 
-/// The stage equations' answer to forces at the chain's end: a Schur complement on their factors
-/// `LDLᵀ`.
+/// A right side of the stage equations and the answer to forces at the chain's end: a Schur
+/// complement on their factors `LDLᵀ`.
 pub(super) struct Pinned<T, const LINKS: usize, const W: usize> {
     /// How far each coordinate moves the end, m per unit, in the global frame: `G`.
     moves: [[Vector<T>; W]; LINKS],
-    /// `D⁻¹L⁻¹Gᵀ` of each axis.
-    answers: [Values<T, LINKS, W>; 2],
+    /// `D⁻¹L⁻¹` of `Gᵀ`, of each axis, and of the right side.
+    answers: [Values<T, LINKS, W>; 3],
     /// `G(LDLᵀ)⁻¹Gᵀ`, entries xx, xy and yy.
     pub end: [Complex<T>; 3],
+    /// What the right side moves the end by.
+    moved: [Complex<T>; 2],
 }
 
 impl<T: Scalar, const LINKS: usize, const W: usize> Pinned<T, LINKS, W> {
     #[inline(always)]
-    pub fn new(factors: &Factors<T, LINKS, W, 0>, moves: [[Vector<T>; W]; LINKS]) -> Self {
-        let mut forward = [[[Complex::ZERO; W]; LINKS]; 2];
-        for axis in 0..2 {
-            for j in 0..LINKS {
-                for k in 0..W {
-                    forward[axis][j][k].re = moves[j][k][axis];
-                }
+    pub fn new(
+        factors: &Factors<T, LINKS, W, 0>,
+        moves: [[Vector<T>; W]; LINKS],
+        right: &Values<T, LINKS, W>,
+    ) -> Self {
+        let mut sides = [[[Complex::ZERO; W]; LINKS], [[Complex::ZERO; W]; LINKS], *right];
+        for j in 0..LINKS {
+            for k in 0..W {
+                (sides[0][j][k].re, sides[1][j][k].re) = (moves[j][k][0], moves[j][k][1]);
             }
-            factors.forward(&mut forward[axis]);
         }
-        let mut answers = forward;
-        let mut end = [Complex::ZERO; 3];
+        factors.forward(&mut sides);
+        let (mut end, mut moved) = ([Complex::ZERO; 3], [Complex::ZERO; 2]);
         for j in 0..LINKS {
             for k in 0..W {
                 let inverse = factors.inverse()[j][k];
-                let [x, y] = [forward[0][j][k], forward[1][j][k]];
+                let [x, y, right] = [sides[0][j][k], sides[1][j][k], sides[2][j][k]];
                 let [answer_x, answer_y] = [x * inverse, y * inverse];
                 end = [end[0] + answer_x * x, end[1] + answer_x * y, end[2] + answer_y * y];
-                (answers[0][j][k], answers[1][j][k]) = (answer_x, answer_y);
+                moved = [moved[0] + answer_x * right, moved[1] + answer_y * right];
+                (sides[0][j][k], sides[1][j][k]) = (answer_x, answer_y);
+                sides[2][j][k] = right * inverse;
             }
         }
-        Self { moves, answers, end }
+        Self { moves, answers: sides, end, moved }
     }
 
-    /// Solves with a `right` side and two forces at the end such that it moves by `to`. Returns the
-    /// solution and the forces.
+    /// Solves with two forces at the end such that it moves by `to`. Returns the solution and the
+    /// forces.
     #[inline(always)]
     pub fn solve(
         &self,
         factors: &Factors<T, LINKS, W, 0>,
-        right: &Values<T, LINKS, W>,
         to: [Complex<T>; 2],
     ) -> (Values<T, LINKS, W>, [Complex<T>; 2]) {
-        let mut x = *right;
-        factors.forward(&mut x);
-        let mut missing = to;
-        for j in 0..LINKS {
-            for k in 0..W {
-                for axis in 0..2 {
-                    missing[axis] = missing[axis] - self.answers[axis][j][k] * x[j][k];
-                }
-            }
-        }
+        let missing = [to[0] - self.moved[0], to[1] - self.moved[1]];
         let pushed = solve_pair(self.end, missing);
+        let [answers_x, answers_y, mut x] = self.answers;
         for j in 0..LINKS {
             for k in 0..W {
-                let [x_axis, y_axis] = [self.answers[0][j][k], self.answers[1][j][k]];
-                x[j][k] =
-                    x[j][k] * factors.inverse()[j][k] + (x_axis * pushed[0] + y_axis * pushed[1]);
+                x[j][k] = x[j][k] + (answers_x[j][k] * pushed[0] + answers_y[j][k] * pushed[1]);
             }
         }
         factors.backward(&mut x);

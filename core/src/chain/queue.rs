@@ -2,7 +2,7 @@
 
 use heapless::Deque;
 
-use super::JointState;
+use super::{Command, JointState};
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
@@ -116,38 +116,62 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
         Ok(summary)
     }
 
-    /// The joint `ahead` ticks after the latest, 0 to 1; where two segments meet there, by the one
-    /// before.
+    /// Motion in the coming tick, `third` of it ahead and at its end; where two segments meet
+    /// there, by the one before. The queue goes on by that tick.
     #[inline(always)]
-    pub fn at(&self, ahead: T) -> JointState<T> {
-        let (k, count) = (T::from_u32(self.k), self.current.count());
-        if self.k < count && self.k + 1 < count {
-            return state(&self.current, k + ahead);
+    pub fn next_command(&mut self, third: T) -> Command<T> {
+        if self.k + 1 < self.current.count() {
+            let k = T::from_u32(self.k);
+            self.k += 1;
+            let (third, end) = (state(&self.current, k + third), state(&self.current, k + T::ONE));
+            return Command { third, end };
         }
-        self.far(ahead)
+        self.command_at_border(third)
     }
 
-    /// The joint any number of ticks ahead.
+    /// The same where a segment ends in the tick.
+    #[inline(never)]
+    fn command_at_border(&mut self, third: T) -> Command<T> {
+        let next = self.waiting.front().unwrap_or(&self.tail);
+        let whole = self.k + 1 == self.current.count() && next.ticks_before() == T::ZERO;
+        let command = if whole {
+            let end = JointState {
+                acceleration: self.current.end_acceleration(),
+                ..state(next, T::ZERO)
+            };
+            Command { third: state(&self.current, T::from_u32(self.k) + third), end }
+        } else {
+            Command { third: self.far(third), end: self.far(T::ONE) }
+        };
+        self.advance();
+        command
+    }
+
+    /// The joint any number of ticks ahead; where two segments meet there, by the one before.
     #[inline(never)]
     pub fn far(&self, ahead: T) -> JointState<T> {
         let mut segment = &self.current;
         let mut ticks = T::from_u32(self.k) + ahead;
-        for next in self.waiting.iter().chain(core::iter::once(&self.tail)) {
-            let count = T::from_u32(segment.count());
-            let border = count - next.ticks_before();
+        let mut waiting = self.waiting.iter();
+        loop {
+            let (next, is_tail) = waiting.next().map_or((&self.tail, true), |next| (next, false));
+            let (count, before) = (T::from_u32(segment.count()), next.ticks_before());
+            let border = count - before;
             if ticks < border {
-                break;
+                return state(segment, ticks);
             }
             if ticks == border {
                 // From the left, but exactly where the next one begins.
-                let exact = next.ticks_before() == T::ZERO;
+                let exact = before == T::ZERO;
                 let at = if exact { state(next, T::ZERO) } else { state(segment, ticks) };
                 return JointState { acceleration: segment.end_acceleration(), ..at };
             }
             ticks -= count;
             segment = next;
+            if is_tail {
+                return state(segment, ticks);
+            }
         }
-        state(segment, ticks)
     }
 
     /// Goes on by one tick.
@@ -167,15 +191,17 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
                 break;
             }
             self.k -= self.current.count();
-            if let Some(next) = self.waiting.pop_front() {
-                self.current = next;
+            if let Some(next) = self.waiting.front() {
+                self.current.copy_from(next);
+                // Its copy has been taken.
+                let _ = self.waiting.pop_front();
                 self.holds = false;
             } else {
                 // A hold that has run out goes on from where it is.
                 if self.holds {
                     self.tail = self.tail.moved(state(&self.current, T::from_u32(u32::MAX)).angle);
                 }
-                self.current = self.tail;
+                self.current.copy_from(&self.tail);
                 self.holds = true;
             }
         }

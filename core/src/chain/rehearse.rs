@@ -106,7 +106,7 @@ impl<
     fn half_commands(&self) -> [[Command<T>; LINKS]; 2] {
         let at = |ahead: f64| {
             let ahead = T::from_f64(ahead);
-            self.queues.each_ref().map(|queue| queue.at(ahead))
+            self.queues.each_ref().map(|queue| queue.far(ahead))
         };
         let ends = [[at(1.0 / 6.0), at(0.5)], [at(2.0 / 3.0), at(1.0)]];
         ends.map(|[third, end]| core::array::from_fn(|j| Command { third: third[j], end: end[j] }))

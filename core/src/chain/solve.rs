@@ -124,13 +124,14 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const FROM: usize> Factors<T
         least
     }
 
-    /// Solves for one right side. Rows without an unknown get 0.
+    /// Solves for one right side, which is 0 below `FROM`. Rows without an unknown get 0.
     #[inline(always)]
     pub fn solve(&self, right: &Values<T, LINKS, W>) -> Values<T, LINKS, W> {
-        let mut x = *right;
-        self.forward(&mut x);
+        let mut sides = [*right];
+        self.forward(&mut sides);
+        let [mut x] = sides;
         for i in 0..LINKS {
-            for k in 0..W {
+            for k in FROM..W {
                 x[i][k] = x[i][k] * self.inverse[i][k];
             }
         }
@@ -144,25 +145,28 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const FROM: usize> Factors<T
         &self.inverse
     }
 
-    /// Changes `x` to `L⁻¹x`.
+    /// Changes each of `sides` to `L⁻¹` of it. A factor is loaded once for all of them.
     #[inline(never)]
-    pub fn forward(&self, x: &mut Values<T, LINKS, W>) {
+    pub fn forward<const N: usize>(&self, sides: &mut [Values<T, LINKS, W>; N]) {
         for i in 0..LINKS {
-            let mut row = x[i];
             for p in 0..i {
-                let (block, above) = (&self.blocks[i][p], &x[p]);
+                let block = &self.blocks[i][p];
                 for k in FROM..W {
                     for c in FROM..W {
-                        row[k] = row[k] - block[k][c] * above[c];
+                        for x in sides.iter_mut() {
+                            x[i][k] = x[i][k] - block[k][c] * x[p][c];
+                        }
                     }
                 }
             }
+            let block = &self.blocks[i][i];
             for k in FROM..W {
                 for c in FROM..k {
-                    row[k] = row[k] - self.blocks[i][i][k][c] * row[c];
+                    for x in sides.iter_mut() {
+                        x[i][k] = x[i][k] - block[k][c] * x[i][c];
+                    }
                 }
             }
-            x[i] = row;
         }
     }
 

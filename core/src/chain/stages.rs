@@ -49,39 +49,48 @@ impl<T, const LINKS: usize, const W: usize, const C: usize, const Q: usize> Chai
 where
     T: Scalar,
 {
+    /// True if joint `j` has no motor: never where `FROM` says that none has.
+    #[inline(always)]
+    pub(super) fn is_free<const FROM: usize>(
+        &self,
+        state: &ChainState<T, LINKS, W>,
+        j: usize,
+    ) -> bool {
+        FROM == 0 && (if state.pin.is_some() { &self.closed } else { &self.open })[j * W]
+    }
+
     /// Both stages accelerate as the last tick ended; driven joints as commanded.
     #[inline(always)]
-    pub(super) fn first_guess(
+    pub(super) fn first_guess<const FROM: usize>(
         &self,
         state: &ChainState<T, LINKS, W>,
         commands: &[Command<T>; LINKS],
-        free: &[bool; C],
     ) -> Stages<T, LINKS, W> {
         let Weights { h, half, third, sixth, .. } = self.weights;
-        let mut stages =
-            Stages { k: [state.acceleration; 2], q: [state.shape; 2], v: [state.rate; 2] };
+        let zero = [[[T::ZERO; W]; LINKS]; 2];
+        let mut stages = Stages { k: zero, q: zero, v: zero };
         for j in 0..LINKS {
-            for i in 1..W {
+            for i in 0..W {
                 let (v, k) = (state.rate[j][i], state.acceleration[j][i]);
-                stages.q[0][j][i] += third * (v + sixth * k);
-                stages.v[0][j][i] += third * k;
-                stages.q[1][j][i] += h * (v + half * k);
-                stages.v[1][j][i] += h * k;
-            }
-            if free[j * W] {
-                let (part, turns) = (state.joints[j].angle.part, self.model.turns);
-                let (v, k) = (state.rate[j][0], state.acceleration[j][0]);
-                stages.q[0][j][0] = part + turns * (third * (v + sixth * k));
-                stages.v[0][j][0] += third * k;
-                stages.q[1][j][0] = part + turns * (h * (v + half * k));
-                stages.v[1][j][0] += h * k;
-            } else {
-                for (stage, joint) in [&commands[j].third, &commands[j].end].into_iter().enumerate()
-                {
-                    stages.q[stage][j][0] = joint.angle.part;
-                    stages.v[stage][j][0] = joint.rate;
-                    stages.k[stage][j][0] = joint.acceleration;
+                if i == 0 && !self.is_free::<FROM>(state, j) {
+                    let Command { third, end } = &commands[j];
+                    for (stage, joint) in [third, end].into_iter().enumerate() {
+                        stages.q[stage][j][0] = joint.angle.part;
+                        stages.v[stage][j][0] = joint.rate;
+                        stages.k[stage][j][0] = joint.acceleration;
+                    }
+                    continue;
                 }
+                let moved = [third * (v + sixth * k), h * (v + half * k)];
+                for stage in 0..2 {
+                    stages.q[stage][j][i] = if i == 0 {
+                        state.joints[j].angle.part + self.model.turns * moved[stage]
+                    } else {
+                        state.shape[j][i] + moved[stage]
+                    };
+                    stages.k[stage][j][i] = k;
+                }
+                (stages.v[0][j][i], stages.v[1][j][i]) = (v + third * k, v + h * k);
             }
         }
         stages
@@ -90,19 +99,18 @@ where
     /// Takes stage 2 with its changes, which is the tick's end, as the new state. `pose` is that of
     /// stage 2 as guessed.
     #[inline(always)]
-    pub(super) fn accept(
+    pub(super) fn accept<const FROM: usize>(
         &self,
         state: &mut ChainState<T, LINKS, W>,
         commands: &[Command<T>; LINKS],
         stages: &Stages<T, LINKS, W>,
         changes: &Changes<T, LINKS, W>,
         pose: &[Pose<T, Q>; LINKS],
-        free: &[bool; C],
     ) {
         let Weights { three_quarters, quarter, half_square, .. } = self.weights;
         let mut moved = [[T::ZERO; W]; LINKS];
         for j in 0..LINKS {
-            for i in 0..W {
+            for i in FROM..W {
                 let (first, second) = (changes[0][j][i], changes[1][j][i]);
                 moved[j][i] = half_square * first;
                 state.rate[j][i] = stages.v[1][j][i] + (three_quarters * first + quarter * second);
@@ -111,47 +119,43 @@ where
                     state.shape[j][i] = stages.q[1][j][i] + moved[j][i];
                 }
             }
-            state.joints[j] = if free[j * W] {
+            if self.is_free::<FROM>(state, j) {
                 let Angle { turns, .. } = state.joints[j].angle;
                 let part = stages.q[1][j][0] + self.model.turns * moved[j][0];
                 let angle = Angle { turns, part: T::ZERO }.plus(part);
                 let (rate, acceleration) = (state.rate[j][0], state.acceleration[j][0]);
-                JointState { angle, rate, acceleration }
+                state.joints[j] = JointState { angle, rate, acceleration };
             } else {
-                commands[j].end
-            };
+                let joint = commands[j].end;
+                (state.rate[j][0], state.acceleration[j][0]) = (joint.rate, joint.acceleration);
+                state.joints[j] = joint;
+            }
         }
-        if self.bound(state) && self.turns_little(&moved) {
+        if self.bound::<FROM>(state) && turns_little::<T, LINKS, W, FROM>(&moved) {
             self.locate_near(state, pose, &moved);
         } else {
             self.locate(state);
         }
     }
 
-    /// True if the iteration has changed the coordinates by no more than [`TURN`].
-    #[inline(always)]
-    fn turns_little(&self, moved: &Slots<T, LINKS, W>) -> bool {
-        let mut sum = T::ZERO;
-        for row in moved {
-            for moved in row {
-                sum += moved.abs();
-            }
-        }
-        sum <= T::from_f64(TURN)
-    }
-
     /// Keeps a state finite, and returns true if it was. One comparison of a sum, as no state that a
     /// move makes is near.
     #[inline(always)]
-    fn bound(&self, state: &mut ChainState<T, LINKS, W>) -> bool {
-        let (mut rates, mut bends) = (T::ZERO, T::ZERO);
+    fn bound<const FROM: usize>(&self, state: &mut ChainState<T, LINKS, W>) -> bool {
+        let (mut rates, mut kicks, mut bends) = (T::ZERO, T::ZERO, T::ZERO);
+        let mut torques = T::ZERO;
         for j in 0..LINKS {
-            for i in 0..W {
-                rates += state.rate[j][i].abs() + self.weights.h * state.acceleration[j][i].abs();
+            for i in FROM..W {
+                rates += state.rate[j][i].abs();
+                kicks += state.acceleration[j][i].abs();
+            }
+            for i in 1..W {
                 bends += state.shape[j][i].abs();
             }
-            bends += T::from_f64(MOST_BEND / MOST) * state.torque[j].abs();
+            torques += state.torque[j].abs();
         }
+        let rates = rates + self.weights.h * kicks;
+        let bends = bends + T::from_f64(MOST_BEND / MOST) * torques;
         let sum = bends + T::from_f64(MOST_BEND / MOST_TURN) * self.weights.h * rates;
         // NaN is not below it either.
         let bounded = (..=T::from_f64(MOST_BEND)).contains(&sum);
@@ -179,4 +183,18 @@ where
         }
         state.force = state.force.map(|force| bounded(force, T::from_f64(MOST)));
     }
+}
+
+/// True if the iteration has changed the coordinates by no more than [`TURN`].
+#[inline(always)]
+fn turns_little<T: Scalar, const LINKS: usize, const W: usize, const FROM: usize>(
+    moved: &Slots<T, LINKS, W>,
+) -> bool {
+    let mut sum = T::ZERO;
+    for row in moved {
+        for i in FROM..W {
+            sum += row[i].abs();
+        }
+    }
+    sum <= T::from_f64(TURN)
 }

@@ -42,14 +42,14 @@ where
         commands: &[Command<T>; LINKS],
     ) {
         let free = &self.open;
-        let stages = self.first_guess(state, commands, free);
+        let stages = self.first_guess::<FROM>(state, commands);
         let poses = self.poses(&stages);
         let mass = self.model.mass::<C, false>(&poses[1]);
         let factors = Factors::<T, LINKS, W, FROM>::new(&mass.matrix, &self.diagonal, free);
         let residuals = self.residuals(&poses, &stages, None);
-        let changes = self.changes(&factors.solve(&self.right(&residuals)));
+        let changes = self.changes::<FROM>(&factors.solve(&self.right::<FROM>(&residuals)));
         state.torque = self.torques::<FROM>(&residuals[1], &mass, &changes, free);
-        self.accept(state, commands, &stages, &changes, &poses[1], free);
+        self.accept::<FROM>(state, commands, &stages, &changes, &poses[1]);
     }
 
     #[inline(never)]
@@ -60,15 +60,15 @@ where
         pin: Vector<T>,
     ) {
         let free = &self.closed;
-        let stages = self.first_guess(state, commands, free);
+        let stages = self.first_guess::<0>(state, commands);
         let poses = self.poses(&stages);
         let mass = self.model.mass::<C, false>(&poses[1]);
         let factors = Factors::<T, LINKS, W, 0>::new(&mass.matrix, &self.diagonal, free);
-        let pinned = Pinned::new(&factors, self.model.tip_moves(&poses[1]));
         let residuals = self.residuals(&poses, &stages, Some(state.force));
-        let missed = self.missed(&poses, &stages, pin);
-        let (y, pushed) = pinned.solve(&factors, &self.right(&residuals), missed);
-        let (changes, pushed) = (self.changes(&y), self.push(pushed));
+        let right = self.right::<0>(&residuals);
+        let pinned = Pinned::new(&factors, self.model.tip_moves(&poses[1]), &right);
+        let (y, pushed) = pinned.solve(&factors, self.missed(&poses, &stages, pin));
+        let (changes, pushed) = (self.changes::<0>(&y), self.push(pushed));
         state.torque = self.torques::<0>(&residuals[1], &mass, &changes, free);
         for j in 0..LINKS {
             if !free[j * W] {
@@ -76,7 +76,7 @@ where
             }
         }
         state.force = plus(state.force, T::ONE, pushed[1]);
-        self.accept(state, commands, &stages, &changes, &poses[1], free);
+        self.accept::<0>(state, commands, &stages, &changes, &poses[1]);
     }
 
     #[inline(always)]
@@ -93,31 +93,35 @@ where
         force: Option<Vector<T>>,
     ) -> [Slots<T, LINKS, W>; 2] {
         let model = &self.model;
-        core::array::from_fn(|stage| {
-            let (v, mut a) = (&stages.v[stage], stages.k[stage]);
-            if model.alpha != T::ZERO {
+        let mut residuals = [[[T::ZERO; W]; LINKS]; 2];
+        for stage in 0..2 {
+            let (v, k) = (&stages.v[stage], &stages.k[stage]);
+            residuals[stage] = if model.alpha == T::ZERO {
+                model.inverse_dynamics(&poses[stage], v, k, force)
+            } else {
+                let mut damped = *k;
                 for j in 0..LINKS {
                     for i in 0..W {
-                        a[j][i] += model.alpha * v[j][i];
+                        damped[j][i] += model.alpha * v[j][i];
                     }
                 }
-            }
-            let mut residual = model.inverse_dynamics(&poses[stage], v, &a, force);
+                model.inverse_dynamics(&poses[stage], v, &damped, force)
+            };
             for j in 0..LINKS {
                 for i in 1..W {
                     let bend = stages.q[stage][j][i] + model.beta * v[j][i];
-                    residual[j][i] += model.links[j].stiffness[i] * bend;
+                    residuals[stage][j][i] += model.links[j].stiffness[i] * bend;
                 }
             }
-            residual
-        })
+        }
+        residuals
     }
 
     #[inline(always)]
-    fn right(&self, residuals: &[Slots<T, LINKS, W>; 2]) -> Values<T, LINKS, W> {
+    fn right<const FROM: usize>(&self, residuals: &[Slots<T, LINKS, W>; 2]) -> Values<T, LINKS, W> {
         let mut right = [[Complex::ZERO; W]; LINKS];
         for j in 0..LINKS {
-            for i in 0..W {
+            for i in FROM..W {
                 right[j][i] = self.weights.forward(residuals[0][j][i], residuals[1][j][i]);
                 if self.model.alpha != T::ZERO {
                     right[j][i] = self.weights.mass * right[j][i];
@@ -129,10 +133,10 @@ where
 
     /// Changes of both stages' accelerations by a solution.
     #[inline(always)]
-    fn changes(&self, y: &Values<T, LINKS, W>) -> Changes<T, LINKS, W> {
+    fn changes<const FROM: usize>(&self, y: &Values<T, LINKS, W>) -> Changes<T, LINKS, W> {
         let mut changes = [[[T::ZERO; W]; LINKS]; 2];
         for j in 0..LINKS {
-            for i in 0..W {
+            for i in FROM..W {
                 [changes[0][j][i], changes[1][j][i]] = self.weights.back(y[j][i]);
             }
         }
@@ -153,7 +157,7 @@ where
         if self.model.alpha != T::ZERO {
             let damping = self.model.alpha * self.weights.quarter;
             for j in 0..LINKS {
-                for i in 0..W {
+                for i in FROM..W {
                     let three = (T::TWO + T::ONE) * changes[0][j][i];
                     change[j][i] += damping * (changes[1][j][i] + three);
                 }

@@ -112,7 +112,7 @@ impl<
         let mut ticks = T::TWO;
         for (queue, limit) in self.queues.iter().zip(limits) {
             if *limit > T::ZERO {
-                let needed = slowest * queue.at(T::ZERO).rate.abs() * per_tick / *limit;
+                let needed = slowest * queue.far(T::ZERO).rate.abs() * per_tick / *limit;
                 ticks = if needed > ticks { needed } else { ticks };
             }
         }
