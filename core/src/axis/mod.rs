@@ -19,6 +19,7 @@
 
 mod change;
 mod follow;
+mod mechanism;
 mod pace;
 mod path;
 mod sequence;
@@ -29,6 +30,7 @@ use core::fmt;
 pub use change::Change;
 use follow::Reach;
 use heapless::Deque;
+pub use mechanism::{MechanismAxes, MechanismTick};
 pub use pace::{Pace, Timing};
 pub use sequence::{Freshness, Sequence};
 

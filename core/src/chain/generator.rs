@@ -171,6 +171,28 @@ impl<
         &self.chain
     }
 
+    /// True if every driven joint rests, and no move is under way or waiting.
+    pub fn rests(&self) -> bool {
+        let closed = self.state.is_closed();
+        let still =
+            |j: usize| !self.chain.is_driven(j, closed) || self.state.joints[j].rate == T::ZERO;
+        self.is_holding() && (0..LINKS).all(still)
+    }
+
+    /// Begins anew, at rest in static equilibrium with the driven joints at `angles`, rad. Limits
+    /// stay. Set-up only.
+    ///
+    /// # Errors
+    /// Those of [`Chain::at_rest`]. Nothing has changed then.
+    pub fn restart(&mut self, angles: &[f64; LINKS]) -> Result<(), Error> {
+        self.state = self.chain.at_rest(angles)?;
+        for (queue, joint) in self.queues.iter_mut().zip(&self.state.joints) {
+            queue.rest_at(joint.angle);
+        }
+        (self.stop, self.next) = (None, 0);
+        Ok(())
+    }
+
     /// True if no joint has a move under way or waiting.
     pub fn is_holding(&self) -> bool {
         self.stop.is_none() && self.queues.iter().all(JointQueue::is_holding)

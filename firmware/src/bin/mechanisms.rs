@@ -1,5 +1,6 @@
 //! Runs every chain of links, counts its ticks and prints the bits of its setpoints: lines
-//! `bits,name,tick,…` with the words of every joint in hexadecimal, and `tick,name,least,worst`.
+//! `bits,name,tick,…` with the words of every joint in hexadecimal, `frame,joint,…` with the bytes
+//! for its drive, and `tick,name,least,worst`.
 #![no_std]
 #![no_main]
 
@@ -60,6 +61,11 @@ impl<C: Counter> mechanisms::Sink for Lines<'_, C> {
             }
         }
         writeln!(self.output).expect("the host takes the lines");
+    }
+
+    fn frame(&mut self, joint: usize, payload: [u8; 8]) {
+        let payload = u64::from_le_bytes(payload);
+        writeln!(self.output, "frame,{joint},{payload:016x}").expect("the host takes the lines");
     }
 }
 

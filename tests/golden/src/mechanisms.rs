@@ -1,8 +1,11 @@
 //! Chains of links that host and target run alike.
 
+use stillbeam::axis::{MechanismAxes, Mode, Policy};
 use stillbeam::chain::{Chain, ChainGenerator, ChainSetpoint};
+use stillbeam::drive::odrive;
 use stillbeam::mechanism::{Closure, Joint, Link, Mechanism};
-use stillbeam::{Error, Move, Profile};
+use stillbeam::motor::{self, Direction, Drivetrain, Ratio};
+use stillbeam::{Angle, Error, Limits, Move, Profile};
 
 /// A move of one joint, counted from 0: when it begins (s), how long it takes (s), its end (rad).
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +27,9 @@ pub trait Sink {
         tick: u32,
         make: impl FnOnce() -> ChainSetpoint<f32, LINKS>,
     );
+
+    /// Takes the bytes that the drive of a joint, counted from 0, is told at the latest tick.
+    fn frame(&mut self, joint: usize, payload: [u8; 8]);
 }
 
 const TICK: f64 = 0.01;
@@ -120,7 +126,44 @@ pub fn run(sink: &mut impl Sink) -> Result<(), Error> {
     one::<3, 3, 9, 3>("three-links", &three_links()?, [0.2; 3], &THREE, 90, sink)?;
     one::<3, 3, 9, 3>("four-bar", &four_bar()?, [0.5, 0.0, 0.0], &CRANK, 110, sink)?;
     one::<3, 3, 9, 3>("latch", &latch()?, [0.2; 3], &LATCH, 160, sink)?;
-    one::<2, 4, 8, 5>("two-links-fine", &two_links()?, [0.0, 0.3], &TWO, 90, sink)
+    one::<2, 4, 8, 5>("two-links-fine", &two_links()?, [0.0, 0.3], &TWO, 90, sink)?;
+    two_axes(sink)
+}
+
+/// Ticks without a word from the host after which the axes stop.
+const PATIENCE: u32 = 30;
+
+/// Two links as two axes of one mechanism: enabled, sent on their moves, and left alone. They stop
+/// along their common path. What each tick says goes to two drives, behind gears.
+#[inline(never)]
+fn two_axes(sink: &mut impl Sink) -> Result<(), Error> {
+    let chain = Chain::<f32, 2, 3, 6, 3>::new(&two_links()?, TICK)?;
+    let limits = Limits { acceleration: Some(30.0), ..Limits::default() };
+    let policy = Policy { limits, patience: TICK * f64::from(PATIENCE), missed: 2 };
+    let mut axes = MechanismAxes::<f32, 2, 3, 6, 3, 4>::new(chain, [0.0; 2], &[policy; 2])?;
+    let geared = |motor, direction, zero| {
+        let joint = motor::Joint { ratio: Ratio { motor, link: 2 }, ..motor::Joint::direct(0.05) };
+        Drivetrain::<f32>::new(&joint, direction, zero)
+    };
+    let trains = [geared(81, Direction::Same, 0.25)?, geared(35, Direction::Opposite, -3.0)?];
+    axes.enable(&[0.0, 0.3].map(|angle| Angle::from_radians(angle).cast()))?;
+    for turn in &TWO {
+        axes.push(turn.joint, &Move::To { profile: turn.profile, duration: 0.6, to: turn.to })?;
+    }
+    for k in 0..=2 * PATIENCE {
+        let mut setpoints = None;
+        sink.tick("two-axes", k, || {
+            let tick = axes.tick();
+            setpoints = Some(tick.setpoint.joints);
+            tick.setpoint
+        });
+        for (joint, (setpoint, train)) in setpoints.iter().flatten().zip(&trains).enumerate() {
+            if let Some(encoded) = odrive::encode(&train.demand(setpoint)) {
+                sink.frame(joint, encoded.payload);
+            }
+        }
+    }
+    if axes.mode() == Mode::Stopped { Ok(()) } else { Err(Error::Moving) }
 }
 
 #[inline(never)]
