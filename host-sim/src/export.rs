@@ -14,11 +14,10 @@
 
 use std::path::Path;
 
-use stillbeam::Stepper;
 use stillbeam::planner::Planner;
 use stillbeam::prepared::Prepare;
 
-use crate::dispatch::{self, StepperVisitor};
+use crate::dispatch;
 use crate::error::Error;
 use crate::scene_file::SceneFile;
 use crate::solver::Solver;
@@ -62,8 +61,8 @@ pub fn prepare(
     for &mass in payloads {
         let mut scene = scene.clone();
         scene.arm.payload.mass = mass;
-        let (kind, words) = dispatch::with_stepper(&scene, solver, Words)?;
-        let kind = Type(kind);
+        let stepper = dispatch::stepper(&scene, solver)?;
+        let kind = Type(stepper.kind());
         let wanted = *first.get_or_insert(kind);
         if kind != wanted {
             return Err(Error::new(format_args!(
@@ -73,7 +72,7 @@ pub fn prepare(
                 payloads[0]
             )));
         }
-        arms.push(words);
+        arms.push(stepper.words());
         if still {
             planners.push(words_of(&Planner::<f32, 2>::new(&scene.arm, solver.tick)?));
         }
@@ -117,17 +116,6 @@ fn words_of(value: &impl Prepare) -> Vec<u32> {
     let mut words = Vec::new();
     value.prepare(&mut |word| words.push(word));
     words
-}
-
-/// Takes the words of a stepper, and its type.
-struct Words;
-
-impl StepperVisitor for Words {
-    type Output = ([u32; 2], Vec<u32>);
-
-    fn visit<S: Stepper + Prepare + Clone>(self, stepper: S) -> Result<Self::Output, Error> {
-        Ok((stepper.kind(), words_of(&stepper)))
-    }
 }
 
 /// The type of a stepper: [`Prepared::KIND`](stillbeam::prepared::Prepared::KIND).

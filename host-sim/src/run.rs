@@ -2,13 +2,12 @@
 
 use std::collections::HashSet;
 
-use stillbeam::hub::HubState;
-use stillbeam::motion::{Path, Segment, Shaped, Shaper, Waypoint};
+use stillbeam::motion::{Path, Segment, Shaper, Waypoint};
 use stillbeam::select::Choice;
-use stillbeam::stepper::{AnyMotion, Response, Stepper};
-use stillbeam::{AxisKind, Error as CoreError, Generator, Move, Scalar as Real, Setpoint};
+use stillbeam::{AxisKind, Error as CoreError, Move};
+use stillbeam_erased::{AnyGenerator, AnySetpoint, AnyStepper, Shaped};
 
-use crate::dispatch::{StepperVisitor, with_chosen, with_stepper};
+use crate::dispatch;
 use crate::error::Error;
 use crate::limits::load::Progress;
 use crate::limits::{self, Excess, Peak, Quantity, Refusal, Way, remedy};
@@ -16,9 +15,6 @@ use crate::scene_file::SceneFile;
 use crate::solver::Solver;
 use crate::step::{Motion, Step};
 use crate::table::Row;
-
-/// Capacity of the desktop's generator queue, segments: two of the longest moves.
-pub const QUEUE: usize = 14;
 
 /// Runs a scene from its beginning to the end of the last rest: a row every tick, from t = 0.
 ///
@@ -47,14 +43,11 @@ fn refused_or_run(
 ) -> Result<Vec<Row>, Error> {
     let commanded = |steps: &[Step]| {
         let scene = SceneFile { moves: steps.to_vec(), ..scene.clone() };
-        let rows = with_stepper(&scene, solver, Rows { scene: &scene });
+        let rows = dispatch::stepper(&scene, solver).and_then(|stepper| drive(&*stepper, &scene));
         rows.is_ok_and(|rows| own_excess(&scene, solver.tick, &rows).is_ok_and(|own| own.is_none()))
     };
     admit_loads(scene, solver.tick, &commanded, progress)?;
-    let rows = match choice {
-        Some(_) => with_chosen(scene, solver, choice, Rows { scene }),
-        None => with_stepper(scene, solver, Rows { scene }),
-    }?;
+    let rows = drive(&*dispatch::stepper_chosen(scene, solver, choice)?, scene)?;
     match own_excess(scene, solver.tick, &rows)? {
         Some(excess) => Err(Refusal { excess, count: scene.moves.len(), way: Way::Method }.into()),
         None => Ok(rows),
@@ -101,24 +94,12 @@ fn own_excess(scene: &SceneFile, tick: f64, rows: &[Row]) -> Result<Option<Exces
     }))
 }
 
-struct Rows<'a> {
-    scene: &'a SceneFile,
-}
-
-impl StepperVisitor for Rows<'_> {
-    type Output = Vec<Row>;
-
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Vec<Row>, Error> {
-        drive(stepper, self.scene)
-    }
-}
-
 /// Ticks a stepper through a scene. Returns a row every tick.
-pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Error> {
+pub fn drive(stepper: &dyn AnyStepper, scene: &SceneFile) -> Result<Vec<Row>, Error> {
     if let Some(shaper) = &scene.shaper {
-        return drive_shaped(&stepper, scene, shaper);
+        return drive_shaped(stepper, scene, shaper);
     }
-    let tick = stepper.tick();
+    let tick = stepper.period();
     // The moves' own, and the rest that is added to show what they leave behind.
     let mut motions = scene.motions();
     let planned = scene.trajectory(tick)?;
@@ -129,83 +110,70 @@ pub fn drive<S: Stepper>(stepper: S, scene: &SceneFile) -> Result<Vec<Row>, Erro
     each_tick_of(stepper, scene.from, &motions, |generator, k, ends| {
         let setpoint = generator.tick();
         let shown = if ends { generator.setpoint_before() } else { setpoint };
-        let tip_angle = generator.stepper().tip_angle(generator.state());
-        let centre = payload(scene, &shown, tip_angle);
-        rows.push(row(k as f64 * tick, scene.arm.mount.axis, &shown, centre));
+        rows.push(row_of(scene, k as f64 * tick, &shown, generator.tip_angle()));
     })?;
     Ok(rows)
 }
 
-/// Ticks a stepper as [`drive`] does, along a shaped motion, which no generator's queue holds.
-fn drive_shaped<S: Stepper>(
-    stepper: &S,
+/// Ticks a stepper as [`drive`] does, along a shaped motion.
+fn drive_shaped(
+    stepper: &dyn AnyStepper,
     scene: &SceneFile,
     shaper: &Shaper,
 ) -> Result<Vec<Row>, Error> {
-    let tick = stepper.tick();
+    let tick = stepper.period();
     let trajectory = scene.trajectory(tick)?;
-    // As on the target: what the tick evaluates is of its own precision.
     let plans = trajectory.plans().iter();
-    let segments: Vec<_> =
-        plans.flat_map(|plan| plan.segments.iter().map(Segment::cast::<S::Scalar>)).collect();
-    let motion = Shaped::new(&segments, shaper, tick);
+    let segments: Vec<Segment<f64>> =
+        plans.flat_map(|plan| plan.segments.iter().copied()).collect();
     let ends: HashSet<u32> = trajectory.arrivals().map(|end| (end / tick).round() as u32).collect();
-    let mut state = stepper.equilibrium(&stepper.gravity().aimed(&motion.hub(0)));
+    let motion = Shaped { segments: &segments, shaper };
     let mut rows = Vec::new();
-    for k in 0..=motion.ticks() {
-        if k > 0 {
-            motion.advance(stepper, &mut state, k - 1);
-        }
-        let hub = if ends.contains(&k) { motion.arrival(k) } else { motion.hub(k) };
-        let hub = stepper.gravity().aimed(&hub);
-        let Response { torque, tip } = stepper.response::<AnyMotion>(&state, &hub);
-        let HubState { angle, rate, acceleration, .. } = hub;
-        let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
-        let centre = payload(scene, &setpoint, stepper.tip_angle(&state));
-        rows.push(row(f64::from(k) * tick, scene.arm.mount.axis, &setpoint, centre));
-    }
+    stepper.along(&motion, &|k| ends.contains(&k), &mut |k, setpoint, tip_angle| {
+        rows.push(row_of(scene, f64::from(k) * tick, &setpoint, tip_angle));
+    });
     Ok(rows)
 }
 
 /// Feeds the scene's moves to a generator as its queue takes them, and has `each` tick it through
-/// all of them. `each(generator, k, ends)` calls [`Generator::tick`] once, for tick `k`. `ends` is
-/// true if a move ends at that tick. The scene's motion keeps its kinematic limits.
-pub fn each_tick<S: Stepper>(
-    stepper: S,
+/// all of them. `each(generator, k, ends)` calls [`AnyGenerator::tick`] once, for tick `k`. `ends`
+/// is true if a move ends at that tick. The scene's motion keeps its kinematic limits.
+pub fn each_tick(
+    stepper: &dyn AnyStepper,
     scene: &SceneFile,
-    each: impl FnMut(&mut Generator<S, QUEUE>, u64, bool),
+    each: impl FnMut(&mut dyn AnyGenerator, u64, bool),
 ) -> Result<(), Error> {
     if scene.shaper.is_some() {
         return Err(Error::new(
             "shaper: a generator has none; use run, reference, compare or sweep",
         ));
     }
-    scene.trajectory(stepper.tick())?;
+    scene.trajectory(stepper.period())?;
     each_tick_of(stepper, scene.from, &scene.motions(), each)
 }
 
 /// Feeds and ticks as [`each_tick`] does, with moves from rest at `from` rad.
-fn each_tick_of<S: Stepper>(
-    stepper: S,
+fn each_tick_of(
+    stepper: &dyn AnyStepper,
     from: f64,
     motions: &[Motion],
-    mut each: impl FnMut(&mut Generator<S, QUEUE>, u64, bool),
+    mut each: impl FnMut(&mut dyn AnyGenerator, u64, bool),
 ) -> Result<(), Error> {
-    let mut generator = Generator::<S, QUEUE>::new(stepper, from)?;
+    let mut generator = stepper.generator(from)?;
     let mut waiting = motions.iter().peekable();
     let mut feeding = None;
     let mut ends = Vec::new();
     let mut total = 0;
     for k in 0.. {
         while let Some(motion) = waiting.peek() {
-            let Some(ticks) = take(&mut generator, motion, &mut feeding)? else { break };
+            let Some(ticks) = take(&mut *generator, motion, &mut feeding)? else { break };
             total += ticks;
             if !motion.is_dwell() {
                 ends.push(total);
             }
             waiting.next();
         }
-        each(&mut generator, k, ends.binary_search(&k).is_ok());
+        each(&mut *generator, k, ends.binary_search(&k).is_ok());
         if waiting.peek().is_none() && k == total {
             break;
         }
@@ -221,8 +189,8 @@ pub(crate) struct Feeding {
 
 /// Gives as much of a motion to a generator as its queue has room for. Returns the motion's ticks
 /// once it is taken as a whole.
-pub(crate) fn take<S: Stepper>(
-    generator: &mut Generator<S, QUEUE>,
+pub(crate) fn take(
+    generator: &mut dyn AnyGenerator,
     motion: &Motion,
     feeding: &mut Option<Feeding>,
 ) -> Result<Option<u64>, Error> {
@@ -237,7 +205,7 @@ pub(crate) fn take<S: Stepper>(
                 Some(fed) => fed,
                 None => Feeding {
                     path: generator.path(waypoints.spline())?,
-                    rows: waypoints.rows(generator.stepper().tick()).into_iter(),
+                    rows: waypoints.rows(generator.period()).into_iter(),
                 },
             };
             let done = generator.feed(&mut fed.path, &mut fed.rows).map_err(|error| {
@@ -252,34 +220,26 @@ pub(crate) fn take<S: Stepper>(
     }
 }
 
-/// Returns the payload's centre in the global frame, m, if it is not the tip.
-fn payload<T: Real>(scene: &SceneFile, setpoint: &Setpoint<T>, tip_angle: T) -> Option<[f64; 2]> {
-    let offset = scene.arm.payload.offset;
-    (offset != 0.0).then(|| {
-        let centre = setpoint.payload_centre(T::from_f64(offset), tip_angle);
-        let centre = Setpoint { tip: centre, ..*setpoint };
-        centre.global_tip_on(scene.arm.mount.axis).map(T::to_f64)
-    })
+/// Converts a setpoint of a scene's arm to a row of the table.
+fn row_of(scene: &SceneFile, t: f64, setpoint: &AnySetpoint, tip_angle: f64) -> Row {
+    row(t, scene.arm.mount.axis, setpoint, scene.arm.payload.offset, tip_angle)
 }
 
-/// Converts a setpoint of an axis of that kind to the units of the table. `payload` is the
-/// payload's centre in the global frame, m, if it is not the tip.
-pub fn row<T: Real>(
-    t: f64,
-    axis: AxisKind,
-    setpoint: &Setpoint<T>,
-    payload: Option<[f64; 2]>,
-) -> Row {
+/// Converts a setpoint of an axis of that kind to the units of the table, with the payload's centre
+/// if that is `offset` m beyond the tip. `tip_angle` (rad) is that of the same tick.
+pub fn row(t: f64, axis: AxisKind, setpoint: &AnySetpoint, offset: f64, tip_angle: f64) -> Row {
     let [x, y] = setpoint.global_tip_on(axis);
+    let payload = (offset != 0.0).then(|| setpoint.global_payload_on(axis, offset, tip_angle));
+    let setpoint = setpoint.precise();
     Row {
         t_s: t,
         hub_angle_rad: setpoint.angle.radians(),
-        hub_rate_rad_s: setpoint.rate.to_f64(),
-        hub_accel_rad_s2: setpoint.acceleration.to_f64(),
-        tip_x_m: x.to_f64(),
-        tip_y_m: y.to_f64(),
-        deflection_m: setpoint.deflection().to_f64(),
-        torque_nm: setpoint.torque.to_f64(),
+        hub_rate_rad_s: setpoint.rate,
+        hub_accel_rad_s2: setpoint.acceleration,
+        tip_x_m: x,
+        tip_y_m: y,
+        deflection_m: setpoint.deflection(),
+        torque_nm: setpoint.torque,
         payload_x_m: payload.map(|[x, _]| x),
         payload_y_m: payload.map(|[_, y]| y),
     }

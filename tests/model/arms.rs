@@ -61,7 +61,7 @@ fn the_payload_comes_out() {
     let file = with(&file, arm);
     let stepper =
         Elastica::<f64, 2>::new(&Rod::new(&arm).expect("an arm"), TICK, Quality::Fine, 1.0);
-    let rows = drive(stepper.expect("a stepper"), &file).expect("a run");
+    let rows = drive(&stepper.expect("a stepper"), &file).expect("a run");
     for (row, sample) in rows.iter().zip(&by_rod(&file)) {
         let [x, y] = [row.payload_x_m, row.payload_y_m].map(|x| x.expect("a column"));
         let apart = (x - sample.payload[0]).hypot(y - sample.payload[1]);
@@ -166,9 +166,9 @@ fn a_joint_that_hardly_gives_is_a_clamp() {
         let model = FourElements::consistent(arm).expect("a model");
         let elastica = Elastica::<f64, 2>::new(&rod, TICK, Quality::Fast, 1.0);
         [
-            drive(Newmark4::<f64>::new(&model, TICK).expect("a stepper"), &file),
-            drive(Modal2::<f64>::new(&model, TICK).expect("a stepper"), &file),
-            drive(elastica.expect("a stepper"), &file),
+            drive(&Newmark4::<f64>::new(&model, TICK).expect("a stepper"), &file),
+            drive(&Modal2::<f64>::new(&model, TICK).expect("a stepper"), &file),
+            drive(&elastica.expect("a stepper"), &file),
         ]
         .map(|rows| rows.expect("a run"))
     };

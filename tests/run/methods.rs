@@ -3,22 +3,10 @@
 use std::any::type_name;
 use std::collections::BTreeSet;
 
-use stillbeam::Stepper;
 use stillbeam_golden::methods::{self, Visitor, visit_all};
-use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
-use stillbeam_sim::error::Error;
+use stillbeam_sim::dispatch;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Mass, Method, Quality, SolverKeys};
-
-struct TypeName;
-
-impl StepperVisitor for TypeName {
-    type Output = &'static str;
-
-    fn visit<S: Stepper + Clone>(self, _: S) -> Result<&'static str, Error> {
-        Ok(type_name::<S>())
-    }
-}
 
 struct Compare {
     scene: SceneFile,
@@ -48,9 +36,9 @@ impl Visitor for Compare {
         };
         assert_eq!(keys.unread(method), [""; 0], "{typed}");
         let solver = keys.resolve().unwrap_or_else(|error| panic!("{typed}: {error}"));
-        let built = with_stepper(&self.scene, &solver, TypeName);
+        let built = dispatch::stepper(&self.scene, &solver);
         let built = built.unwrap_or_else(|error| panic!("{typed}: {error}"));
-        assert_eq!(built, type_name::<M::Stepper>(), "{typed}");
+        assert_eq!(built.type_name(), type_name::<M::Stepper>(), "{typed}");
         self.same.insert(M::ID);
         self.families.insert(M::METHOD);
     }

@@ -3,12 +3,15 @@
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 use stillbeam::Move;
+use stillbeam::motion::Limits;
+use stillbeam_erased::AnyGenerator;
+use stillbeam_sim::dispatch;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::run::row;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver};
 
 use crate::error::{core, refused};
-use crate::hand::{Hand, generator};
 use crate::keys;
 use crate::rows::Rows;
 use crate::scene::Scene;
@@ -16,7 +19,7 @@ use crate::scene::Scene;
 /// A generator, its scene and the end of its queue.
 #[pyclass(module = "stillbeam._stillbeam")]
 pub struct Generator {
-    hand: Box<dyn Hand>,
+    generator: Box<dyn AnyGenerator>,
     scene: Py<Scene>,
     tick: f64,
     /// Ticks that were made.
@@ -39,8 +42,9 @@ impl Generator {
         let (solver, ..) = keys::resolve(solver, file)?;
         let angle = angle.unwrap_or(file.from);
         let acceleration = bound(file, &solver, acceleration)?;
-        let hand = py.detach(|| generator(file, &solver, angle, acceleration)).map_err(refused)?;
-        Ok(Self { hand, scene, tick: solver.tick, made: 0, end: (angle, 0.0) })
+        let generator =
+            py.detach(|| set_up(file, &solver, angle, acceleration)).map_err(refused)?;
+        Ok(Self { generator, scene, tick: solver.tick, made: 0, end: (angle, 0.0) })
     }
 
     /// Puts a move behind the others, by the keys of a scene's `[move]`. Returns its duration, s.
@@ -55,14 +59,14 @@ impl Generator {
         changes.set_item("move", &table)?;
         let planned = bare.changed(py, &changes)?;
         let motion = single(&planned.file, rate)?;
-        let summary = self.hand.push(&motion).map_err(core)?;
+        let summary = self.generator.push(&motion).map_err(core)?;
         self.end = (summary.end.angle.radians(), summary.end.rate);
         Ok(f64::from(summary.ticks) * self.tick)
     }
 
     /// Goes to another target from where the hub is. Returns the duration, s.
     fn retarget(&mut self, angle: f64, duration: f64, rate: f64) -> PyResult<f64> {
-        let ticks = self.hand.retarget(angle, rate, duration).map_err(core)?;
+        let ticks = self.generator.retarget(angle, rate, duration).map_err(core)?;
         self.end = (angle, rate);
         Ok(f64::from(ticks) * self.tick)
     }
@@ -87,13 +91,13 @@ impl Generator {
     /// True if no move is under way or waiting.
     #[getter]
     fn is_holding(&self) -> bool {
-        self.hand.is_holding()
+        self.generator.is_holding()
     }
 
     /// True if hub and arm rest.
     #[getter]
     fn is_asleep(&self) -> bool {
-        self.hand.is_asleep()
+        self.generator.is_asleep()
     }
 
     /// Time of the next setpoint, s.
@@ -109,11 +113,25 @@ impl Generator {
         let (axis, offset) = (arm.mount.axis, arm.payload.offset);
         let mut list = Vec::with_capacity(count);
         for _ in 0..count {
-            list.push(self.hand.tick(self.made as f64 * self.tick, axis, offset));
+            let setpoint = self.generator.tick();
+            let time = self.made as f64 * self.tick;
+            list.push(row(time, axis, &setpoint, offset, self.generator.tip_angle()));
             self.made += 1;
         }
         Rows { list, axis, tick: self.tick }
     }
+}
+
+/// Builds the generator of a scene's arm, at rest at `angle` rad.
+fn set_up(
+    scene: &SceneFile,
+    solver: &Solver,
+    angle: f64,
+    acceleration: Option<f64>,
+) -> Result<Box<dyn AnyGenerator>, Error> {
+    let mut generator = dispatch::stepper_for(scene, solver, acceleration)?.generator(angle)?;
+    generator.limit(Limits { torque: None, moment: None, ..scene.limits })?;
+    Ok(generator)
 }
 
 /// Returns the hub acceleration for which elastica is set up, rad/s²; `None` leaves it to the

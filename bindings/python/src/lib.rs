@@ -11,7 +11,6 @@ mod driven;
 mod error;
 mod export;
 mod generator;
-mod hand;
 mod identify;
 mod keys;
 mod machine;

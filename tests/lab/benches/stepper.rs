@@ -9,13 +9,13 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use stillbeam::hub::{Angle, HubState};
-use stillbeam::stepper::{AnyMotion, Stepper};
+use stillbeam::stepper::AnyMotion;
 use stillbeam::{Generator, Move};
+use stillbeam_erased::{Erasable, StepperVisitor, with_stepper};
 use stillbeam_lab::baseline::Textbook;
 use stillbeam_lab::sweep::picture::describe;
 use stillbeam_lab::sweep::spec::Spec;
-use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
-use stillbeam_sim::error::Error;
+use stillbeam_sim::dispatch;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::scenes;
 use stillbeam_sim::solver::{ELEMENTS, Solver};
@@ -63,7 +63,7 @@ struct Tick<'a>(&'a mut Criterion, &'a str);
 impl StepperVisitor for Tick<'_> {
     type Output = ();
 
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<(), Error> {
+    fn visit<S: Erasable>(self, stepper: S) {
         let hub = black_box(turning::<S::Scalar>());
         let mut state = stepper.equilibrium(&hub);
         self.0.benchmark_group("tick").bench_function(self.1, |b| {
@@ -72,7 +72,6 @@ impl StepperVisitor for Tick<'_> {
                 stepper.response::<AnyMotion>(&state, &hub)
             });
         });
-        Ok(())
     }
 }
 
@@ -81,33 +80,22 @@ struct WholeTick<'a>(&'a mut Criterion, &'a str);
 impl StepperVisitor for WholeTick<'_> {
     type Output = ();
 
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<(), Error> {
-        let mut generator = Generator::<S, 8>::new(stepper, 0.0)?;
+    fn visit<S: Erasable>(self, stepper: S) {
+        let mut generator = Generator::<S, 8>::new(stepper, 0.0).expect("an angle");
         // Longer than any benchmark.
-        generator.push(&Move::SpinUp { duration: 160_000.0, rate: 6.0 })?;
+        generator.push(&Move::SpinUp { duration: 160_000.0, rate: 6.0 }).expect("a move");
         self.0.benchmark_group("generator").bench_function(self.1, |b| b.iter(|| generator.tick()));
-        Ok(())
-    }
-}
-
-struct Build;
-
-impl StepperVisitor for Build {
-    type Output = ();
-
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<(), Error> {
-        black_box(stepper);
-        Ok(())
     }
 }
 
 fn steppers(c: &mut Criterion) {
     let arm = scene();
     for (name, solver) in solvers() {
-        with_stepper(&arm, &solver, Tick(c, &name)).expect("a stepper");
-        with_stepper(&arm, &solver, WholeTick(c, &name)).expect("a stepper");
+        let spec = dispatch::spec(&arm, &solver, None, None).expect("a stepper");
+        with_stepper(&arm.arm, &spec, Tick(c, &name)).expect("a stepper");
+        with_stepper(&arm.arm, &spec, WholeTick(c, &name)).expect("a stepper");
         c.benchmark_group("set-up").bench_function(&name, |b| {
-            b.iter(|| with_stepper(black_box(&arm), &solver, Build));
+            b.iter(|| dispatch::stepper(black_box(&arm), &solver));
         });
     }
 }

@@ -22,6 +22,7 @@ pub mod markers;
 pub mod mechanisms;
 pub mod pages;
 pub mod plant;
+pub mod random;
 pub mod reference;
 pub mod shortest;
 pub mod stability;

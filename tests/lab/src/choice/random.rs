@@ -12,6 +12,8 @@ use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
 use stillbeam_sim::error::Error;
 use stillbeam_sim::reference::rod;
 
+use crate::random::log;
+
 /// Distribution that [`Case::random`] draws, for the page. Keep the two together.
 pub const DISTRIBUTION: &[(&str, &str)] = &[
     ("link", "length 0.1 to 2 m, mass 5 g to 2 kg, first period with its payload 0.05 to 3 s"),
@@ -53,11 +55,6 @@ pub struct Case {
     pub moves: Vec<Move>,
     /// Tolerance of the tip and of the torque.
     pub tolerance: Tolerance,
-}
-
-/// Draws a value that is uniform in the logarithm.
-fn log(rng: &mut StdRng, from: f64, to: f64) -> f64 {
-    from * (to / from).powf(rng.random_range(0.0..1.0))
 }
 
 impl Case {

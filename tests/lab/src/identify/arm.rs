@@ -9,6 +9,8 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::identify::arm::Sensor;
 use stillbeam_sim::identify::forced::Lowpass;
 
+use crate::random::log;
+
 /// Kind of a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
@@ -180,8 +182,4 @@ fn mounted(arm: &Scene, sensor: Option<Sensor>) -> Result<Scene, Error> {
         Some(Sensor { at, mass }) => arm.with_mass(PointMass { position: at, mass })?,
         None => *arm,
     })
-}
-
-fn log(rng: &mut StdRng, from: f64, to: f64) -> f64 {
-    from * (to / from).powf(rng.random_range(0.0..1.0))
 }

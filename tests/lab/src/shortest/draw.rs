@@ -5,6 +5,8 @@ use rand::{Rng, SeedableRng};
 use stillbeam::motion::optimal::{Bounds, TimeOptimal};
 use stillbeam::{Angle, HubState};
 
+use crate::random::{decades, sign};
+
 /// Kinds of cases, drawn in turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
@@ -178,8 +180,7 @@ fn distance(rng: &mut StdRng, case: &Case) -> f64 {
     } else {
         (rate / acceleration).max((rate / jerk).sqrt())
     };
-    let sign = if rng.random_bool(0.5) { 1.0 } else { -1.0 };
-    let scale = sign * rate * time;
+    let scale = sign(rng) * rate * time;
     match rng.random_range(0..4) {
         0 => scale * decades(rng, -5.0, 0.0),
         1 => {
@@ -189,8 +190,4 @@ fn distance(rng: &mut StdRng, case: &Case) -> f64 {
         }
         _ => scale * decades(rng, -1.0, 1.5),
     }
-}
-
-fn decades(rng: &mut StdRng, from: f64, to: f64) -> f64 {
-    10f64.powf(rng.random_range(from..to))
 }

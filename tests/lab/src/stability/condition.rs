@@ -3,11 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 use stillbeam::Scene;
 use stillbeam::model::Model;
+use stillbeam_erased::{Mass, ModelVisitor, with_model};
 
 use super::probe;
-use stillbeam_sim::dispatch::{Visitor, with_model};
 use stillbeam_sim::error::Error;
-use stillbeam_sim::solver::{ELEMENTS, Mass};
+use stillbeam_sim::solver::ELEMENTS;
 
 /// Rounding errors for one number of elements at one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,8 @@ pub fn losses(turns: &[f64]) -> Result<Vec<Loss>, Error> {
     for elements in ELEMENTS {
         for &turn in turns {
             let of = Of { arm: &arm, elements, tick: turn / omega };
-            all.push(with_model(&arm, elements, Mass::Consistent, of)?);
+            let loss = with_model(&arm, elements, Mass::Consistent, of).map_err(Error::new)?;
+            all.push(loss);
         }
     }
     Ok(all)
@@ -48,10 +49,10 @@ struct Of<'a> {
     tick: f64,
 }
 
-impl Visitor for Of<'_> {
+impl ModelVisitor for Of<'_> {
     type Output = Loss;
 
-    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Result<Loss, Error> {
+    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Loss {
         let full = |get: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(N, N, get);
         let mass = full(&|i, j| model.mass().get(i, j));
         let stiffness = full(&|i, j| model.stiffness().get(i, j));
@@ -77,14 +78,14 @@ impl Visitor for Of<'_> {
             mode = stiffness.clone().cholesky().map_or(mode.clone(), |k| k.solve(&(&mass * &mode)));
             mode /= mode.norm();
         }
-        Ok(Loss {
+        Loss {
             elements: self.elements,
             turn: self.tick,
             assembled: condition(&effective),
             scaled: condition(&scaled),
             solved: [off(plain), off(by_scale)],
             product: products(self.arm, self.elements, &stiffness, &mode),
-        })
+        }
     }
 }
 

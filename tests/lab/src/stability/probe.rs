@@ -1,11 +1,10 @@
 //! Runs a method once and judges it.
 
 use stillbeam::model::Modes;
-use stillbeam::stepper::Stepper;
-use stillbeam::{Hub, Limits, Link, Move, Payload, Profile, Scalar as Real, Scene};
+use stillbeam::{Hub, Limits, Link, Move, Payload, Profile, Scene};
 
 use crate::stress::growth::grows;
-use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
+use stillbeam_sim::dispatch;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::run::each_tick;
 use stillbeam_sim::scene_file::{Deduced, SceneFile};
@@ -150,16 +149,9 @@ pub fn verdict(found: &[f64], truth: &[f64], held: usize) -> Verdict {
 
 /// Returns the deflection at every tick, m.
 pub fn deflections(scene: &SceneFile, solver: &Solver) -> Result<Vec<f64>, Error> {
-    struct Deflections<'a>(&'a SceneFile);
-    impl StepperVisitor for Deflections<'_> {
-        type Output = Vec<f64>;
-        fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Vec<f64>, Error> {
-            let mut all = Vec::new();
-            each_tick(stepper, self.0, |generator, _, _| {
-                all.push(generator.tick().deflection().to_f64());
-            })?;
-            Ok(all)
-        }
-    }
-    with_stepper(scene, solver, Deflections(scene))
+    let mut all = Vec::new();
+    each_tick(&*dispatch::stepper(scene, solver)?, scene, |generator, _, _| {
+        all.push(generator.tick().precise().deflection());
+    })?;
+    Ok(all)
 }

@@ -12,6 +12,7 @@ use stillbeam_sim::solver::{ELEMENTS, Mass, Method, Quality, Scalar, Solver, Sol
 use stillbeam_sim::step::Step;
 
 use super::mounted::mounted;
+use crate::random::{decades, sign};
 
 /// Drawn quantities and their ranges, for a page.
 pub const RANGES: [(&str, &str); 15] = [
@@ -149,14 +150,6 @@ fn shape(rng: &mut StdRng, length: f64, mass: f64) -> Varied {
         let mounted = PointMass { position, mass: mass * decades(rng, -3.0, 0.5) };
         shape.with_mass(length, mounted).expect("on the link")
     })
-}
-
-fn decades(rng: &mut StdRng, low: f64, high: f64) -> f64 {
-    10f64.powf(rng.random_range(low..high))
-}
-
-fn sign(rng: &mut StdRng) -> f64 {
-    if rng.random_bool(0.5) { 1.0 } else { -1.0 }
 }
 
 /// Draws a fraction of critical damping of the first mode, by α, by β or by both.

@@ -2,12 +2,11 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use stillbeam::stepper::Stepper;
-use stillbeam::{Move, Scalar as Real, Setpoint};
+use stillbeam::{Move, Setpoint};
 
 use super::draw::Drawn;
 use super::growth::grows;
-use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
+use stillbeam_sim::dispatch;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::run::each_tick;
 use stillbeam_sim::scene_file::SceneFile;
@@ -78,48 +77,47 @@ struct Sample {
     torque: f64,
 }
 
-struct Record<'a> {
-    scene: &'a SceneFile,
+#[derive(Default)]
+struct Record {
     samples: Vec<Sample>,
     broken: Option<u64>,
     angle: f64,
     rate: f64,
 }
 
-impl StepperVisitor for &mut Record<'_> {
-    type Output = ();
+impl Record {
+    fn of(scene: &SceneFile, solver: &Solver) -> Result<Self, Error> {
+        let mut record = Self::default();
+        each_tick(&*dispatch::stepper(scene, solver)?, scene, |generator, k, _| {
+            record.take(k, &generator.tick().precise());
+        })?;
+        Ok(record)
+    }
 
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<(), Error> {
-        each_tick(stepper, self.scene, |generator, k, _| {
-            let setpoint = generator.tick();
-            if self.broken.is_none() && !is_sound(&setpoint) {
-                self.broken = Some(k);
-            }
-            let (deflection, torque) = (setpoint.deflection().to_f64(), setpoint.torque.to_f64());
-            self.samples.push(Sample { deflection, torque });
-            self.angle = setpoint.angle.radians();
-            self.rate = self.rate.max(setpoint.rate.to_f64().abs());
-        })
+    fn take(&mut self, k: u64, setpoint: &Setpoint<f64>) {
+        if self.broken.is_none() && !is_sound(setpoint) {
+            self.broken = Some(k);
+        }
+        let (deflection, torque) = (setpoint.deflection(), setpoint.torque);
+        self.samples.push(Sample { deflection, torque });
+        self.angle = setpoint.angle.radians();
+        self.rate = self.rate.max(setpoint.rate.abs());
     }
 }
 
-fn is_sound<T: Real>(s: &Setpoint<T>) -> bool {
+fn is_sound(s: &Setpoint<f64>) -> bool {
     let all = [s.angle.part, s.rate, s.acceleration, s.torque, s.tip[0], s.tip[1]];
-    all.iter().all(|x| x.is_finite()) && s.angle.part.to_f64().abs() <= 0.5
+    all.iter().all(|x| x.is_finite()) && s.angle.part.abs() <= 0.5
 }
 
 fn both(drawn: &Drawn, solver: &Solver) -> Result<Run, Error> {
     let scene = &drawn.scene;
-    fn run<'a>(scene: &'a SceneFile, solver: &Solver, scalar: Scalar) -> Result<Record<'a>, Error> {
-        let mut record = Record { scene, samples: Vec::new(), broken: None, angle: 0.0, rate: 0.0 };
-        with_stepper(scene, &Solver { scalar, ..*solver }, &mut record)?;
-        Ok(record)
-    }
-    let (double, single) = (run(scene, solver, Scalar::F64)?, run(scene, solver, Scalar::F32)?);
+    let run = |scene: &SceneFile, scalar| Record::of(scene, &Solver { scalar, ..*solver });
+    let (double, single) = (run(scene, Scalar::F64)?, run(scene, Scalar::F32)?);
     let mut stiffer = scene.clone();
     stiffer.arm.link.bending_stiffness *= 1.0 + NUDGE;
     // At the edge of what is accepted it may be refused: then it says nothing.
-    let nudged = run(&stiffer, solver, Scalar::F64).ok();
+    let nudged = run(&stiffer, Scalar::F64).ok();
     let length = scene.arm.link.length;
     let most = |of: &dyn Fn(&Sample) -> f64| {
         double.samples.iter().map(|sample| of(sample).abs()).fold(0.0, f64::max)

@@ -3,10 +3,10 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use stillbeam::stepper::Stepper;
+use stillbeam_erased::AnyStepper;
 
 use super::row::Cost;
-use stillbeam_sim::dispatch::{StepperVisitor, with_stepper};
+use stillbeam_sim::dispatch;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::run::each_tick;
 use stillbeam_sim::scene_file::SceneFile;
@@ -27,61 +27,42 @@ const RUNS: std::ops::RangeInclusive<usize> = 7..=50;
 /// slowest tick is one that computes more, not one that the machine interrupted.
 pub fn cost(scene: &SceneFile, keys: SolverKeys) -> Result<Cost, Error> {
     let solver = keys.resolve()?;
-    let mut sizes = (0, 0);
     let mut setups = Vec::with_capacity(SETUPS);
     for _ in 0..SETUPS {
         let start = Instant::now();
-        sizes = with_stepper(scene, &solver, Build)?;
+        black_box(dispatch::stepper(scene, &solver)?);
         setups.push(start.elapsed().as_secs_f64());
     }
-    let mut ticks = with_stepper(scene, &solver, Ticks { scene })?;
+    let stepper = dispatch::stepper(scene, &solver)?;
+    let mut ticks = ticks(scene, &*stepper)?;
+    let [state, whole] = stepper.sizes();
     Ok(Cost {
         setup_us: significant(1e6 * median(&mut setups), 3),
-        state_bytes: sizes.0 as u64,
-        stepper_bytes: sizes.1 as u64,
+        state_bytes: state as u64,
+        stepper_bytes: whole as u64,
         worst_ns: significant(1e9 * ticks.iter().copied().fold(0.0, f64::max), 3),
         tick_ns: significant(1e9 * median(&mut ticks), 3),
     })
 }
 
-struct Build;
-
-impl StepperVisitor for Build {
-    /// Bytes of the state and of the stepper.
-    type Output = (usize, usize);
-
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<(usize, usize), Error> {
-        black_box(stepper);
-        Ok((size_of::<S::State>(), size_of::<S>()))
+/// Returns the fastest time of each tick of the scene, s.
+fn ticks(scene: &SceneFile, stepper: &dyn AnyStepper) -> Result<Vec<f64>, Error> {
+    let empty = empty_measurement();
+    let mut fastest: Vec<f64> = Vec::new();
+    let mut runs = 0;
+    while runs < *RUNS.start() || (runs < *RUNS.end() && runs * fastest.len() < TICKS) {
+        each_tick(stepper, scene, |generator, k, _| {
+            let start = Instant::now();
+            black_box(generator.tick());
+            let time = start.elapsed().saturating_sub(empty).as_secs_f64();
+            match fastest.get_mut(k as usize) {
+                Some(best) => *best = best.min(time),
+                None => fastest.push(time),
+            }
+        })?;
+        runs += 1;
     }
-}
-
-struct Ticks<'a> {
-    scene: &'a SceneFile,
-}
-
-impl StepperVisitor for Ticks<'_> {
-    type Output = Vec<f64>;
-
-    /// Returns the fastest time of each tick of the scene, s.
-    fn visit<S: Stepper + Clone>(self, stepper: S) -> Result<Vec<f64>, Error> {
-        let empty = empty_measurement();
-        let mut fastest: Vec<f64> = Vec::new();
-        let mut runs = 0;
-        while runs < *RUNS.start() || (runs < *RUNS.end() && runs * fastest.len() < TICKS) {
-            each_tick(stepper.clone(), self.scene, |generator, k, _| {
-                let start = Instant::now();
-                black_box(generator.tick());
-                let time = start.elapsed().saturating_sub(empty).as_secs_f64();
-                match fastest.get_mut(k as usize) {
-                    Some(best) => *best = best.min(time),
-                    None => fastest.push(time),
-                }
-            })?;
-            runs += 1;
-        }
-        Ok(fastest)
-    }
+    Ok(fastest)
 }
 
 /// Returns the time of an empty measurement.
