@@ -36,7 +36,6 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         }
         state.pin = Some(state.ends[LINKS - 1]);
         state.force = [T::ZERO; 2];
-        state.struck = true;
     }
 
     /// The answer of the closed chain's end to forces on it in the place where it is now, by the

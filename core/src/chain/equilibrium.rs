@@ -225,7 +225,6 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             torque: core::array::from_fn(|j| if free[j * W] { T::ZERO } else { f(missing[j][0]) }),
             pin: if closed { self.pin } else { None },
             force: rest.force.map(f),
-            struck: false,
             ends: [[T::ZERO; 2]; LINKS],
             tips: [[T::ZERO; 2]; LINKS],
         };

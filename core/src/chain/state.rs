@@ -51,8 +51,6 @@ pub struct ChainState<T, const LINKS: usize, const W: usize> {
     /// Place of the pin in the global frame if the chain is closed, and what it pushes with, N.
     pub(super) pin: Option<Vector<T>>,
     pub(super) force: Vector<T>,
-    /// True from the impact of a chain that closes to the end of the next tick.
-    pub(super) struck: bool,
 }
 
 impl<T: Scalar, const LINKS: usize, const W: usize> ChainState<T, LINKS, W> {

@@ -26,11 +26,7 @@ where
     #[inline(always)]
     pub fn step(&self, state: &mut ChainState<T, LINKS, W>, commands: &[Command<T>; LINKS]) {
         if let Some(pin) = state.pin {
-            if state.struck {
-                self.step_struck(state, commands, pin);
-            } else {
-                self.step_closed(state, commands, pin);
-            }
+            self.step_closed(state, commands, pin);
         } else if self.passive {
             self.step_open::<0>(state, commands);
         } else {
@@ -54,29 +50,6 @@ where
         let changes = self.changes::<FROM>(&factors.solve(&self.right::<FROM>(&residuals)));
         state.torque = self.torques::<FROM>(&residuals[1], &mass, &changes, free);
         self.accept::<FROM>(state, commands, &stages, &changes, &poses[1]);
-    }
-
-    /// The tick after an impact. Accelerations before it are no guess for those after it: the tick
-    /// is made twice, the second time from the mean accelerations of the first.
-    #[cold]
-    #[inline(never)]
-    fn step_struck(
-        &self,
-        state: &mut ChainState<T, LINKS, W>,
-        commands: &[Command<T>; LINKS],
-        pin: Vector<T>,
-    ) {
-        let mut again = ChainState { struck: false, ..*state };
-        self.step_closed(state, commands, pin);
-        for j in 0..LINKS {
-            for i in 0..W {
-                let gain = state.rate[j][i] - again.rate[j][i];
-                again.acceleration[j][i] = gain * self.weights.per_tick;
-            }
-        }
-        again.force = state.force;
-        *state = again;
-        self.step_closed(state, commands, pin);
     }
 
     #[inline(never)]
