@@ -13,11 +13,11 @@ use stillbeam_tests::firmware_page::{FITTED, Fit};
 use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 
 /// Whole application on the emulated board. Until arms had joints that give, offset payloads and
-/// mounts it was 64 and 16 KiB.
-const FLASH: u64 = 68 * 1024;
+/// mounts it was 64 and 16 KiB; until it recorded, and took changes of mind, 68 KiB of flash.
+const FLASH: u64 = 74 * 1024;
 const RAM: u64 = 18 * 1024;
-/// With the planner of still moves: until then 116 and 32 KiB.
-const STILL_FLASH: u64 = 128 * 1024;
+/// With the planner of still moves: until then 116 and 32 KiB, and 128 KiB of flash.
+const STILL_FLASH: u64 = 132 * 1024;
 const STILL_RAM: u64 = 40 * 1024;
 
 /// Time of an instruction of the emulated board, s.
@@ -412,7 +412,7 @@ fn no_panic_is_reachable_from_an_axis_tick() {
 fn the_nucleo_boards_build_and_fit() {
     for (features, flash) in [
         ("nucleo-g474re", 96 * 1024),
-        ("nucleo-g474re,still", 142 * 1024),
+        ("nucleo-g474re,still", 150 * 1024),
         ("nucleo-g491re", 96 * 1024),
     ] {
         let image = firmware::application(features).unwrap_or_else(|error| panic!("{error}"));

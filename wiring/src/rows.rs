@@ -114,7 +114,7 @@ mod tests {
     fn a_path_of_any_length_goes_through_the_queue() {
         let (mut joint, mut rows) = (joint(), Rows::default());
         rows.begin(joint.axis.path(Spline::Cubic).expect("an enabled axis"));
-        let row = |k: u32| Waypoint::at(0.1 * f64::from(k), 0.1 * f64::from(k % 2));
+        let row = |k: u32| Waypoint::at(0.1 * f64::from(k), 0.015 * f64::from(k % 2));
         let (mut next, mut full, mut passed) = (1, 0, 0);
         for count in 0..1100_u32 {
             while next <= 100 {
