@@ -13,8 +13,9 @@ use stillbeam_tests::firmware_page::{FITTED, Fit};
 use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 
 /// Whole application on the emulated board. Until arms had joints that give, offset payloads and
-/// mounts it was 64 and 16 KiB; until it recorded, and took changes of mind, 68 KiB of flash.
-const FLASH: u64 = 74 * 1024;
+/// mounts it was 64 and 16 KiB; 68 KiB of flash until drives were watched and moves held against their
+/// frames, until it recorded and took changes of mind.
+const FLASH: u64 = 76 * 1024;
 const RAM: u64 = 18 * 1024;
 /// With the planner of still moves: until then 116 and 32 KiB, and 128 KiB of flash.
 const STILL_FLASH: u64 = 132 * 1024;
@@ -175,13 +176,15 @@ fn an_encoder_that_jumps_moves_no_setpoint() {
     assert_ne!(jolted, quiet, "the hub feels it");
 }
 
-/// A minute of the machines' conversation, over and over: every setpoint and frame is the host's
-/// own, every round is refused the same, and no tick is late.
+/// A minute of the conversation about faults, over and over: every setpoint and frame is the host's
+/// own, every round is refused the same, and no tick is late. Without the machines behind the
+/// drives, which take most of the time.
 #[test]
 fn a_minute_in_the_loop_does_not_drift() {
-    let mut session = loaded_session();
+    let mut session = begin();
+    let steps: Vec<&str> = MACHINE.into_iter().filter(|step| !step.starts_with("jump")).collect();
     let mut lines = Vec::new();
-    stillbeam_sim::talk::endure(&mut session, &MACHINE, 60.0, &mut |line| {
+    stillbeam_sim::talk::endure(&mut session, &steps, 60.0, &mut |line| {
         lines.push(line.to_owned());
     })
     .unwrap_or_else(|error| panic!("{error}: {lines:#?}"));
@@ -191,8 +194,9 @@ fn a_minute_in_the_loop_does_not_drift() {
     let status = status(&mut session);
     let faults = [status.missed, status.early, status.overruns, status.dropped, status.garbled];
     assert_eq!(faults, [0; 5], "{status:?}");
-    // Lock-step numbers its ticks by the firmware's own count.
-    assert_eq!(status.clock, session.now(), "{lines:#?}");
+    // The firmware's own count of ticks, before the one that it answered in.
+    let behind = session.now().wrapping_sub(status.clock);
+    assert!(behind <= 1, "{behind} ticks: {lines:#?}");
 }
 
 #[test]
