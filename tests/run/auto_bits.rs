@@ -3,7 +3,7 @@
 use stillbeam::model::{EightElements, Rod};
 use stillbeam::planner::{Planner, Request, StillMove, Target};
 use stillbeam::select::{Auto, Rung};
-use stillbeam::stepper::{Elastica, Modal, Quality, Rigid, Stepper};
+use stillbeam::stepper::{Elastica, FastPaths, Modal, Quality, Rigid, Stepper};
 use stillbeam::{Damping, Generator, Hub, Link, Move, Payload, Profile, Scalar, Scene};
 
 const TICK: f64 = 0.01;
@@ -97,7 +97,9 @@ fn course_in<T: Scalar>(scene: &Scene) -> StillMove {
 fn same<S: Stepper>(scene: &Scene, rung: Rung, linked: S) {
     let course = course_in::<S::Scalar>(scene);
     let auto = Auto::<S::Scalar>::new(scene, TICK, rung, BEND).expect("rung");
-    assert_eq!(Auto::<S::Scalar>::FAST, S::FAST, "{rung}: other paths");
+    // How often the code at rest is linked changes no bit.
+    let paths = |FastPaths { linear, at_rest, .. }| (linear, at_rest);
+    assert_eq!(paths(Auto::<S::Scalar>::FAST), paths(S::FAST), "{rung}: other paths");
     let (chosen, linked) = (bits(auto, &course), bits(linked, &course));
     for (k, (a, b)) in chosen.iter().zip(&linked).enumerate() {
         assert_eq!(a.map(f64::to_bits), b.map(f64::to_bits), "{rung}, {scene:?}, tick {k}");
