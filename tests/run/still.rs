@@ -74,7 +74,8 @@ fn a_scene_file_says_what_a_still_move_keeps_least() {
     let still = duration("");
     let fastest = duration("least = \"time\"");
     assert!(fastest < 0.99 * still, "{fastest} {still}");
-    assert!(duration("within = 0.02") < fastest);
+    // In whole ticks a residual need not save any.
+    assert!(duration("within = 0.02") <= fastest);
     assert!((duration("least = \"effort\"\nduration = 0.25") - 0.25).abs() < 1e-9);
     for (words, said) in [
         ("least = \"heat\"\nduration = 0.25", "heat"),
