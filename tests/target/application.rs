@@ -15,7 +15,7 @@ use stillbeam_tests::{assert_near, firmware, firmware_page, image, root};
 /// Whole application on the emulated board. Until arms had joints that give, offset payloads and
 /// mounts it was 64 and 16 KiB; 68 KiB of flash until drives were watched and moves held against their
 /// frames, until it recorded and took changes of mind.
-const FLASH: u64 = 76 * 1024;
+const FLASH: u64 = 77 * 1024;
 const RAM: u64 = 18 * 1024;
 /// With the planner of still moves: until then 116 and 32 KiB, and 128 KiB of flash.
 const STILL_FLASH: u64 = 132 * 1024;
@@ -416,7 +416,7 @@ fn no_panic_is_reachable_from_an_axis_tick() {
 fn the_nucleo_boards_build_and_fit() {
     for (features, flash) in [
         ("nucleo-g474re", 96 * 1024),
-        ("nucleo-g474re,still", 150 * 1024),
+        ("nucleo-g474re,still", 154 * 1024),
         ("nucleo-g491re", 96 * 1024),
     ] {
         let image = firmware::application(features).unwrap_or_else(|error| panic!("{error}"));
@@ -463,7 +463,8 @@ fn as_many_axes_fit_as_the_page_says() {
     }
 }
 
-/// What is counted for the table of axes is what the application's tick costs, to 5 %.
+/// What is counted for the table of axes is what the application's tick costs, to 8 %: the
+/// application's also watches the heartbeats of its drives.
 #[test]
 fn the_image_that_counts_axes_stands_for_the_application() {
     let fit = firmware_page::fit("Newmark1Nodal").unwrap_or_else(|error| panic!("{error}"));
@@ -475,7 +476,7 @@ fn the_image_that_counts_axes_stands_for_the_application() {
     }
     let own = status(&mut session).worst;
     println!("application {own}, {fit:?}");
-    assert!(own.abs_diff(fit.moving) * 20 <= own, "application {own}, {fit:?}");
+    assert!(own.abs_diff(fit.moving) * 12 <= own, "application {own}, {fit:?}");
 }
 
 /// Lines that hold counts of instructions or bytes, with every number as `#`. How long a plan

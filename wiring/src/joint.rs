@@ -305,8 +305,8 @@ mod tests {
     fn a_silent_drive_stops_the_axis_which_holds() {
         let mut joint = moving();
         let stopped = (0..36).find(|_| tick(&mut joint, false).mode != Mode::Enabled);
-        // The last heartbeat was 10 ticks before.
-        assert_eq!(stopped, Some(26));
+        // The last heartbeat was 10 ticks before: the 36th tick without one stops it.
+        assert_eq!(stopped, Some(25));
         assert_eq!(joint.axis.cause(), Some(Cause::DriveLost));
         for _ in 0..200 {
             tick(&mut joint, false);

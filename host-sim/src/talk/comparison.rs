@@ -232,6 +232,8 @@ impl Comparison {
         let told = self.axes[number].replica.told(tick);
         let microseconds = (1e6 * self.axes[number].replica.tick()).round() as u32;
         let stamp = slcan::stamp(tick.sequence(), microseconds);
+        let period = self.axes[number].replica.tick();
+        self.axes[number].drive.await_setpoint(period);
         for ours in told {
             let theirs = self.next_frame(machine)?;
             if theirs != (ours, stamp) {

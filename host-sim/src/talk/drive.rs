@@ -70,10 +70,6 @@ impl Drive {
     /// # Errors
     /// A machine that cannot be simulated on.
     pub fn advance(&mut self, tick: f64) -> Result<(), Error> {
-        self.starved += tick;
-        if self.on && self.starved > WATCHDOG + 0.5 * tick {
-            (self.on, self.errors) = (false, WATCHDOG_EXPIRED);
-        }
         if let Some((_, since)) = &mut self.said {
             *since += tick;
         }
@@ -81,6 +77,15 @@ impl Drive {
         body.advance(self.on)?;
         self.position = body.reading() as f32;
         Ok(())
+    }
+
+    /// Waits for the setpoint of a tick of `tick` s that the firmware has made. While it plans, its
+    /// ticks are heard of later than they are granted.
+    pub fn await_setpoint(&mut self, tick: f64) {
+        self.starved += tick;
+        if self.on && self.starved > WATCHDOG + 0.5 * tick {
+            (self.on, self.errors) = (false, WATCHDOG_EXPIRED);
+        }
     }
 
     /// Switches itself off, with a brake, until its errors are cleared.

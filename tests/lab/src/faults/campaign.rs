@@ -211,6 +211,10 @@ impl<'a> Run<'a> {
         self.board.receive(&[0]);
         let garbled = self.board.garbled;
         let lost = |board: &Board| board.axis().generator().hub().angle.radians().abs() > 9e5;
+        if matches!(self.fault, Fault::Payload | Fault::Nonsense) {
+            // The drive's frames need not carry the torque that another payload takes.
+            self.send(Command::Payload(self.configuration.scene.payload));
+        }
         self.send(Command::Enable);
         if lost(&self.board) {
             // Garbage took it further than a move can name: it is told where it is.
