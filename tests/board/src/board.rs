@@ -11,6 +11,7 @@ use stillbeam::motor::Demand;
 use stillbeam::{Error, Payload, PlainMove, PlannedMove, UniformScene};
 use stillbeam_protocol::frame::{Splitter, decode};
 use stillbeam_protocol::{Command, Refusal, Request};
+use stillbeam_wiring::Order;
 use stillbeam_wiring::axes::{Joint, QUEUE, Stepper, stepper};
 use stillbeam_wiring::{Configuration, Work};
 
@@ -117,6 +118,11 @@ impl Board {
     /// Takes a frame from the drive.
     pub fn hear_drive(&mut self, frame: &ClassicFrame) {
         self.joint.hear_drive(frame);
+    }
+
+    /// Returns what the drive is told beside the setpoints, once.
+    pub fn take_order(&mut self) -> Option<Order> {
+        self.joint.take_order()
     }
 
     /// Makes a tick at that reading of the clock. Returns `None` if it is not due.

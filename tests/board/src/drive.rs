@@ -5,6 +5,7 @@ use stillbeam::drive::ClassicFrame;
 use stillbeam::drive::odrive::{EncoderEstimates, Node};
 
 use crate::board::Step;
+use stillbeam_wiring::Order;
 
 /// A drive that follows its setpoints and reports its position.
 pub struct Drive {
@@ -29,5 +30,12 @@ impl Drive {
         let estimates = EncoderEstimates { position: self.position, velocity: 0.0 };
         // Eight bytes are a frame.
         node.estimates_frame(&estimates).unwrap_or_else(|| unreachable!("eight bytes"))
+    }
+
+    /// Carries out what the firmware tells it beside the setpoints.
+    pub fn obey(&mut self, order: Order) {
+        if let Order::SetPosition(turns) = order {
+            self.position = turns;
+        }
     }
 }

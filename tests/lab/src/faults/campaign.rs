@@ -220,6 +220,11 @@ impl<'a> Run<'a> {
             // Garbage took it further than a move can name: it is told where it is.
             self.send(Command::Disable);
             self.send(Command::Home(0.0));
+            if let Some(order) = self.board.take_order() {
+                self.drive.obey(order);
+            }
+            let frame = self.drive.report(self.board.node());
+            self.board.hear_drive(&frame);
             self.send(Command::Enable);
         }
         let from = self.board.axis().generator().hub().angle.radians();
