@@ -2,7 +2,7 @@
 
 use stillbeam::axis::Mode;
 use stillbeam::drive::ClassicFrame;
-use stillbeam::drive::odrive::{EncoderEstimates, Node};
+use stillbeam::drive::odrive::{EncoderEstimates, Heartbeat, Node};
 
 use crate::board::Step;
 use stillbeam_wiring::Order;
@@ -30,6 +30,12 @@ impl Drive {
         let estimates = EncoderEstimates { position: self.position, velocity: 0.0 };
         // Eight bytes are a frame.
         node.estimates_frame(&estimates).unwrap_or_else(|| unreachable!("eight bytes"))
+    }
+
+    /// Its heartbeat without errors: in closed-loop control, or idle.
+    pub fn heartbeat(&self, node: Node, on: bool) -> Option<ClassicFrame> {
+        let state = if on { 8 } else { 1 };
+        node.heartbeat_frame(&Heartbeat { errors: 0, state, procedure_result: 0 })
     }
 
     /// Carries out what the firmware tells it beside the setpoints.

@@ -215,6 +215,7 @@ impl<'a> Run<'a> {
             // The drive's frames need not carry the torque that another payload takes.
             self.send(Command::Payload(self.configuration.scene.payload));
         }
+        self.well(false);
         self.send(Command::Enable);
         if lost(&self.board) {
             // Garbage took it further than a move can name: it is told where it is.
@@ -230,7 +231,10 @@ impl<'a> Run<'a> {
         let from = self.board.axis().generator().hub().angle.radians();
         let to = if from > 0.0 { from - 0.7 } else { from + 0.7 };
         self.send(Command::Move(PlainMove::To { profile: Profile::Quintic, duration: 1.5, to }));
-        for _ in 0..160 {
+        for k in 0..160 {
+            if k % 10 == 0 {
+                self.well(true);
+            }
             self.send(Command::Heartbeat);
             self.tick(PERIOD);
         }
@@ -244,6 +248,14 @@ impl<'a> Run<'a> {
     }
 
     /// Sends a command over a line without faults.
+    /// Lets the drive say that it is well, where an altered frame may have said otherwise.
+    fn well(&mut self, on: bool) {
+        let heartbeat = self.drive.heartbeat(self.board.node(), on);
+        if let (Fault::Drive | Fault::PowerUp, Some(frame)) = (self.fault, heartbeat) {
+            self.board.hear_drive(&frame);
+        }
+    }
+
     fn send(&mut self, command: Command) {
         let mut frame = [0; MAX];
         // Every request fits.
