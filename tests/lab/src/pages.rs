@@ -148,6 +148,9 @@ pub struct Pages {
     findings: OnceCell<Findings>,
 }
 
+/// A page as it stands, as it is to be, and its pictures.
+type Filled = (String, String, Vec<(PathBuf, String)>);
+
 impl Pages {
     /// Creates the pages of the repository at `root`.
     pub fn at(root: &Path) -> Self {
@@ -208,7 +211,7 @@ impl Pages {
     }
 
     /// Returns a page as it stands, with its blocks as they are now, and its pictures.
-    fn filled(&self, page: &Page) -> Result<(String, String, Vec<(PathBuf, String)>), Error> {
+    fn filled(&self, page: &Page) -> Result<Filled, Error> {
         let path = self.root.join(page.path);
         let text = read(&path)?;
         has_places(&path, &text, page.blocks.iter().copied())?;
