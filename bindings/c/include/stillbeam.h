@@ -27,7 +27,7 @@
 /**
  * Words of 8 bytes in `sb_arm`.
  */
-#define SB_ARM_WORDS 400
+#define SB_ARM_WORDS 416
 
 /**
  * Words of 8 bytes in `sb_planner`.

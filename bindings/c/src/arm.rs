@@ -9,7 +9,7 @@ use crate::scene::Scene;
 use crate::setup::{Lock, Setup};
 
 /// Words of 8 bytes in `sb_arm`.
-pub const SB_ARM_WORDS: usize = 400;
+pub const SB_ARM_WORDS: usize = 416;
 
 /// Storage of an arm under its policy. Its content is not for the caller. It may be static, on a
 /// stack or in a heap, and need not be initialised to anything.
