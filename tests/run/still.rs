@@ -69,7 +69,7 @@ fn a_scene_file_says_what_a_still_move_keeps_least() {
     };
     let duration = |words: &str| {
         let scene = SceneFile::parse("test", &moves(words)).expect("a scene");
-        scene.trajectory(0.001).expect("a motion").duration()
+        scene.trajectory(0.001).expect("a motion").arrivals().next().expect("an arrival")
     };
     let still = duration("");
     let fastest = duration("least = \"time\"");
