@@ -29,6 +29,10 @@ const SET_INPUT_POS: u16 = 0x0c;
 const GET_ENCODER_ESTIMATES: u16 = 0x09;
 const PER_UNIT: f32 = 1000.0;
 
+/// `AXIS_STATE_IDLE` and `AXIS_STATE_CLOSED_LOOP_CONTROL`.
+const IDLE: u8 = 1;
+const CLOSED_LOOP: u8 = 8;
+
 /// An axis by its node id, 0 to 63.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node(u8);
@@ -73,16 +77,15 @@ impl Node {
     /// Set_Axis_State: on (8, closed-loop control) or off (1, idle). Send a position first, so that
     /// the drive does not begin at an old one.
     pub fn set_axis_state<F: Frame>(self, on: bool) -> Option<F> {
-        F::new(self.id(SET_AXIS_STATE), &[if on { 8 } else { 1 }, 0, 0, 0])
+        F::new(self.id(SET_AXIS_STATE), &[state(on), 0, 0, 0])
     }
 
     /// Reads Set_Axis_State for this node: true if it switches on, false if off, `None` if it is
     /// another frame.
     pub fn axis_state(self, frame: &impl Frame) -> Option<bool> {
-        let ours = frame.id() == self.id(SET_AXIS_STATE).into() && frame.is_data_frame();
-        match frame.data() {
-            [8, 0, 0, 0] if ours => Some(true),
-            [1, 0, 0, 0] if ours => Some(false),
+        match self.payload(SET_AXIS_STATE, frame)? {
+            [CLOSED_LOOP, 0, 0, 0] => Some(true),
+            [IDLE, 0, 0, 0] => Some(false),
             _ => None,
         }
     }
@@ -111,11 +114,21 @@ impl Node {
         standard(u16::from(self.0) << 5 | command)
     }
 
+    /// The bytes of a data frame of this node and command.
+    fn payload<F: Frame>(self, command: u16, frame: &F) -> Option<&[u8]> {
+        let ours = frame.id() == self.id(command).into() && frame.is_data_frame();
+        ours.then(|| frame.data())
+    }
+
     /// The eight bytes of a data frame of this node and command.
     fn of<F: Frame>(self, command: u16, frame: &F) -> Option<&[u8; 8]> {
-        let ours = frame.id() == self.id(command).into() && frame.is_data_frame();
-        if ours { frame.data().try_into().ok() } else { None }
+        self.payload(command, frame)?.try_into().ok()
     }
+}
+
+/// The axis state of a drive that is on or off.
+fn state(on: bool) -> u8 {
+    if on { CLOSED_LOOP } else { IDLE }
 }
 
 /// Payload of Set_Input_Pos. `None` if a value is not finite.

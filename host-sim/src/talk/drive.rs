@@ -2,7 +2,7 @@
 //! machine and report its encoder.
 
 use stillbeam::drive::ClassicFrame;
-use stillbeam::drive::odrive::{EncoderEstimates, Heartbeat, Node};
+use stillbeam::drive::odrive::{EncoderEstimates, Errors, Heartbeat, Node};
 use stillbeam_protocol::slcan;
 
 use super::body::Body;
@@ -15,14 +15,6 @@ const HEARTBEAT: f64 = 0.1;
 /// `watchdog_timeout`.
 const WATCHDOG: f64 = 0.1;
 
-/// ODrive's `DRV_FAULT` and `WATCHDOG_TIMER_EXPIRED`.
-const DRIVER_FAULT: u32 = 0x20;
-const WATCHDOG_EXPIRED: u32 = 0x0100_0000;
-
-/// `AXIS_STATE_IDLE` and `AXIS_STATE_CLOSED_LOOP_CONTROL`.
-const IDLE: u8 = 1;
-const CLOSED_LOOP: u8 = 8;
-
 /// An ODrive. Its shaft is at its latest setpoint, or where its machine is.
 pub struct Drive {
     node: Node,
@@ -32,7 +24,7 @@ pub struct Drive {
     velocity: f32,
     /// True in closed-loop control.
     on: bool,
-    /// What switched it off, until it is cleared; 0 for nothing.
+    /// Errors that switched it off, until they are cleared; 0 for none.
     errors: u32,
     /// True while no frame comes or goes.
     cut: bool,
@@ -84,13 +76,13 @@ impl Drive {
     pub fn await_setpoint(&mut self, tick: f64) {
         self.starved += tick;
         if self.on && self.starved > WATCHDOG + 0.5 * tick {
-            (self.on, self.errors) = (false, WATCHDOG_EXPIRED);
+            (self.on, self.errors) = (false, Errors::WATCHDOG_EXPIRED);
         }
     }
 
     /// Switches itself off, with a brake, until its errors are cleared.
     pub fn fail(&mut self) {
-        (self.on, self.errors) = (false, DRIVER_FAULT);
+        (self.on, self.errors) = (false, Errors::DRIVER_FAULT);
     }
 
     /// Cuts its line to the bus, or mends it.
@@ -151,8 +143,7 @@ impl Drive {
         let estimates = EncoderEstimates { position: self.position, velocity };
         let mut frames: Vec<ClassicFrame> =
             self.node.estimates_frame(&estimates).into_iter().collect();
-        let state = if self.on { CLOSED_LOOP } else { IDLE };
-        let heartbeat = Heartbeat { errors: self.errors, state, procedure_result: 0 };
+        let heartbeat = Heartbeat::new(self.on, self.errors);
         let (last, since) = self.said.map_or((None, f64::INFINITY), |(h, t)| (Some(h), t));
         let due = since > HEARTBEAT - 1e-6;
         let waits = busy && last.is_some_and(|last| last != heartbeat) && since < 2.0 * HEARTBEAT;

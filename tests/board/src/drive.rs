@@ -34,8 +34,7 @@ impl Drive {
 
     /// Its heartbeat without errors: in closed-loop control, or idle.
     pub fn heartbeat(&self, node: Node, on: bool) -> Option<ClassicFrame> {
-        let state = if on { 8 } else { 1 };
-        node.heartbeat_frame(&Heartbeat { errors: 0, state, procedure_result: 0 })
+        node.heartbeat_frame(&Heartbeat::new(on, 0))
     }
 
     /// Carries out what the firmware tells it beside the setpoints.

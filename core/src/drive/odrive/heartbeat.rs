@@ -2,7 +2,7 @@
 
 use embedded_can::Frame;
 
-use super::Node;
+use super::{CLOSED_LOOP, IDLE, Node, state};
 use crate::drive::Condition;
 
 const HEARTBEAT: u16 = 0x01;
@@ -11,9 +11,6 @@ const SET_CONTROLLER_MODE: u16 = 0x0b;
 const CLEAR_ERRORS: u16 = 0x18;
 const SET_ABSOLUTE_POSITION: u16 = 0x19;
 
-/// `AXIS_STATE_IDLE` and `AXIS_STATE_CLOSED_LOOP_CONTROL`.
-const IDLE: u8 = 1;
-const CLOSED_LOOP: u8 = 8;
 /// `CONTROL_MODE_POSITION_CONTROL`.
 const POSITION_CONTROL: u32 = 3;
 
@@ -48,7 +45,19 @@ pub enum InputMode {
     Filtered = 3,
 }
 
+impl Errors {
+    /// `DRV_FAULT`, a bit of [`Self::active`]: the gate driver reports an error.
+    pub const DRIVER_FAULT: u32 = 0x20;
+    /// `WATCHDOG_TIMER_EXPIRED`, a bit of [`Self::active`]: no setpoint came for too long.
+    pub const WATCHDOG_EXPIRED: u32 = 0x0100_0000;
+}
+
 impl Heartbeat {
+    /// Creates the heartbeat of a drive in closed-loop control or idle, with its active errors.
+    pub fn new(on: bool, errors: u32) -> Self {
+        Self { errors, state: state(on), procedure_result: 0 }
+    }
+
     /// Idle is off, closed-loop control is on, any error is a fault.
     pub fn condition(&self) -> Condition {
         match (self.errors, self.state) {
@@ -93,7 +102,7 @@ impl Node {
 
     /// True for a Clear_Errors frame of this node.
     pub fn clears_errors(self, frame: &impl Frame) -> bool {
-        frame.id() == self.id(CLEAR_ERRORS).into() && frame.is_data_frame()
+        self.payload(CLEAR_ERRORS, frame).is_some()
     }
 
     /// Set_Controller_Mode: position control with that input mode.
@@ -115,8 +124,7 @@ impl Node {
 
     /// The turns in a Set_Absolute_Position frame of this node, if they are finite.
     pub fn absolute_position(self, frame: &impl Frame) -> Option<f32> {
-        let ours = frame.id() == self.id(SET_ABSOLUTE_POSITION).into() && frame.is_data_frame();
-        let bytes = frame.data().try_into().ok().filter(|_| ours)?;
+        let bytes = self.payload(SET_ABSOLUTE_POSITION, frame)?.try_into().ok()?;
         Some(f32::from_le_bytes(bytes)).filter(|turns| turns.is_finite())
     }
 }

@@ -4,7 +4,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::axis::Mode;
 use stillbeam::drive::ClassicFrame;
-use stillbeam::drive::odrive::{EncoderEstimates, Heartbeat};
+use stillbeam::drive::odrive::{EncoderEstimates, Errors, Heartbeat};
 use stillbeam::motor::Direction;
 use stillbeam::{PlainMove, Profile, Scene};
 use stillbeam_board::machine::{TICK, ticks};
@@ -40,10 +40,6 @@ const ENERGY: f64 = 1e-4;
 
 /// Time without a setpoint after which the drive's watchdog switches it off, s.
 const WATCHDOG: f64 = 0.1;
-
-/// ODrive's `DRV_FAULT` and `WATCHDOG_TIMER_EXPIRED`.
-const DRIVER_FAULT: u32 = 0x20;
-const WATCHDOG_EXPIRED: u32 = 0x0100_0000;
 
 /// Rate at which a brake holds the hub of a drive that is off, 1/s.
 const BRAKE: f64 = 200.0;
@@ -176,7 +172,7 @@ impl<'a> Run<'a> {
             if !cut {
                 self.report();
             } else if k == self.begin + ticks(WATCHDOG) {
-                (self.on, self.errors) = (false, WATCHDOG_EXPIRED);
+                (self.on, self.errors) = (false, Errors::WATCHDOG_EXPIRED);
             }
             let missed = faulty && k == self.begin && self.fault == Fault::MissedTicks;
             let counts = if missed { PERIOD * rng.random_range(4..9) } else { PERIOD };
@@ -196,7 +192,7 @@ impl<'a> Run<'a> {
         match self.fault {
             Fault::Stop => self.board.ask(Command::Stop),
             Fault::EncoderJump => self.encoder.jump(rng.random_range(-0.01..0.01)),
-            Fault::DriveFault => (self.on, self.errors) = (false, DRIVER_FAULT),
+            Fault::DriveFault => (self.on, self.errors) = (false, Errors::DRIVER_FAULT),
             _ => {}
         }
     }
@@ -205,8 +201,7 @@ impl<'a> Run<'a> {
     fn report(&mut self) {
         let node = self.board.node();
         let estimates = EncoderEstimates { position: self.reading as f32, velocity: 0.0 };
-        let state = if self.on { 8 } else { 1 };
-        let heartbeat = Heartbeat { errors: self.errors, state, procedure_result: 0 };
+        let heartbeat = Heartbeat::new(self.on, self.errors);
         let frames: [Option<ClassicFrame>; 2] =
             [node.estimates_frame(&estimates), node.heartbeat_frame(&heartbeat)];
         for frame in frames.iter().flatten() {
