@@ -18,13 +18,14 @@ pub(crate) fn admit(
     planned: &PlannedMove<f32>,
 ) -> Result<(), Error> {
     let summary = planned.summary();
-    let [inertia, weight] = rigid(scene);
+    let inertia = scene.hub.inertia + scene.rigid_inertia();
+    let weight = scene.in_plane_gravity() * scene.first_moment();
     let (rate, acceleration) = (summary.peaks.rate as f32, summary.peaks.acceleration as f32);
     let setpoint = Setpoint {
         angle: summary.end.angle.cast(),
         rate,
         acceleration,
-        torque: inertia as f32 * acceleration + weight as f32,
+        torque: inertia as f32 * acceleration + weight.abs() as f32,
         tip: [0.0; 2],
     };
     let mut peaks = DemandPeaks::default();
@@ -32,35 +33,13 @@ pub(crate) fn admit(
     odrive::RANGE.admit(&peaks)
 }
 
-/// Returns the inertia of hub, link and payload about the hub's axis, kg m², and the greatest
-/// moment of their weight, N m.
-fn rigid(scene: &UniformScene) -> [f64; 2] {
-    let UniformScene { link, hub, payload, gravity, .. } = *scene;
-    let (r, length) = (hub.radius, link.length);
-    let tip = r + length + payload.offset;
-    let inertia = hub.inertia
-        + link.mass * (r * r + r * length + length * length / 3.0)
-        + payload.mass * tip * tip
-        + payload.inertia;
-    let weight = gravity * (link.mass * (r + 0.5 * length) + payload.mass * tip);
-    [inertia, if weight < 0.0 { -weight } else { weight }]
-}
-
 #[cfg(test)]
 mod tests {
     use stillbeam::{PlainMove, Profile};
-    use stillbeam_protocol::{Command, Refusal};
+    use stillbeam_protocol::Refusal;
 
-    use crate::Configuration;
-    use crate::axes::{CONFIGURATIONS, Joint, stepper};
-
-    fn enabled(configuration: &Configuration) -> Joint {
-        let stepper = stepper(&configuration.scene).expect("the delivered arm");
-        let mut joint = Joint::new(configuration, stepper).expect("the delivered axis");
-        joint.measured = Some(joint.train.mapping().zero());
-        joint.carry_out(&Command::Enable).expect("it has reported");
-        joint
-    }
+    use crate::axes::{CONFIGURATIONS, Joint};
+    use crate::bench::enabled;
 
     fn ask(joint: &mut Joint, duration: f64, to: f64) -> Result<u32, Refusal<'static>> {
         let motion = PlainMove::To { profile: Profile::Quintic, duration, to };

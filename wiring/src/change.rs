@@ -20,8 +20,8 @@ pub(crate) fn carry_out<S: Stepper<Scalar = f32>, const QUEUE: usize>(
     match *change {
         Change::Target { angle, rate, duration } => {
             let (min, max) = crate::HOME_RANGE;
-            check("target.angle", angle, [min, max], "rad")?;
-            check("target.rate", rate, [-MAX_RATE, MAX_RATE], "rad/s")?;
+            Error::check("target.angle", angle, min, max, "rad")?;
+            Error::check("target.rate", rate, -MAX_RATE, MAX_RATE, "rad/s")?;
             let (angle, rate) = (Angle::from_radians(angle).cast(), rate as f32);
             axis.change(&Motion::Target { angle, rate, duration })
         }
@@ -31,41 +31,13 @@ pub(crate) fn carry_out<S: Stepper<Scalar = f32>, const QUEUE: usize>(
     }
 }
 
-fn check(
-    parameter: &'static str,
-    value: f64,
-    [min, max]: [f64; 2],
-    unit: &'static str,
-) -> Result<(), Error> {
-    if (min..=max).contains(&value) {
-        Ok(())
-    } else {
-        Err(Error::OutOfRange { parameter, value, min, max, unit })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use stillbeam_protocol::{Command, Refusal};
 
     use super::*;
-    use crate::axes::{CONFIGURATIONS, Joint, stepper};
-
-    /// An enabled axis at 0.
-    fn joint() -> Joint {
-        let configuration = &CONFIGURATIONS[0];
-        let stepper = stepper(&configuration.scene).expect("the delivered arm");
-        let mut joint = Joint::new(configuration, stepper).expect("the delivered axis");
-        joint.measured = Some(joint.train.mapping().zero());
-        joint.carry_out(&Command::Enable).expect("it is measured");
-        joint
-    }
-
-    /// Makes a tick with the host there.
-    fn tick(joint: &mut Joint) -> stillbeam::Setpoint<f32> {
-        joint.axis.heard();
-        joint.axis.tick().setpoint
-    }
+    use crate::axes::{CONFIGURATIONS, Joint};
+    use crate::bench::{enabled, tick};
 
     fn change(joint: &mut Joint, change: Change) -> Result<(), Refusal<'static>> {
         joint.carry_out(&Command::Change(change))
@@ -73,7 +45,7 @@ mod tests {
 
     #[test]
     fn a_target_is_met_with_its_rate() {
-        let mut joint = joint();
+        let mut joint = enabled(&CONFIGURATIONS[0]);
         tick(&mut joint);
         let target = Change::Target { angle: 0.2, rate: 0.1, duration: 0.5 };
         assert_eq!(change(&mut joint, target), Ok(()));
@@ -89,7 +61,7 @@ mod tests {
 
     #[test]
     fn what_is_no_target_is_refused_and_changes_nothing() {
-        let mut joint = joint();
+        let mut joint = enabled(&CONFIGURATIONS[0]);
         let before = tick(&mut joint);
         let of = |angle, rate| Change::Target { angle, rate, duration: 0.5 };
         let refused = [

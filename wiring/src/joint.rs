@@ -148,10 +148,7 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
     /// Calls the angle where a disabled axis stands `angle`, rad.
     fn home(&mut self, angle: f64) -> Result<(), Refusal<'static>> {
         let (min, max) = HOME_RANGE;
-        if !(min..=max).contains(&angle) {
-            let (parameter, unit) = ("home.angle", "rad");
-            return Err(Error::OutOfRange { parameter, value: angle, min, max, unit }.into());
-        }
+        Error::check("home.angle", angle, min, max, "rad")?;
         let shaft = self.measured.ok_or(Refusal::NotMeasured)?;
         match self.axis.mode() {
             Mode::Disabled => {
@@ -204,12 +201,11 @@ mod tests {
     use stillbeam::{PlainMove, Profile};
 
     use super::*;
-    use crate::axes::{CONFIGURATIONS, Joint, stepper};
+    use crate::axes::{CONFIGURATIONS, Joint};
+    use crate::bench::disabled;
 
     fn joint() -> Joint {
-        let configuration = &CONFIGURATIONS[0];
-        let stepper = stepper(&configuration.scene).expect("the delivered arm");
-        Joint::new(configuration, stepper).expect("the delivered axis")
+        disabled(&CONFIGURATIONS[0])
     }
 
     #[test]

@@ -14,6 +14,8 @@
 mod admit;
 #[cfg_attr(feature = "_other-axes", path = "../../target/firmware/axes.rs")]
 pub mod axes;
+#[cfg(test)]
+mod bench;
 mod change;
 mod configuration;
 pub mod drive;

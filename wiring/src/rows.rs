@@ -80,25 +80,10 @@ impl Rows {
 #[cfg(test)]
 mod tests {
     use stillbeam::motion::Spline;
-    use stillbeam_protocol::Command;
 
     use super::*;
-    use crate::axes::{CONFIGURATIONS, Joint, stepper};
-
-    fn joint() -> Joint {
-        let configuration = &CONFIGURATIONS[0];
-        let stepper = stepper(&configuration.scene).expect("the delivered arm");
-        let mut joint = Joint::new(configuration, stepper).expect("the delivered axis");
-        joint.measured = Some(joint.train.mapping().zero());
-        joint.carry_out(&Command::Enable).expect("it is measured");
-        joint
-    }
-
-    /// Makes a tick with the host there and returns the hub's angle, rad.
-    fn tick(joint: &mut Joint) -> f64 {
-        joint.axis.heard();
-        joint.axis.tick().setpoint.angle.radians()
-    }
+    use crate::axes::{CONFIGURATIONS, Joint};
+    use crate::bench::{enabled, tick};
 
     fn offer(
         joint: &mut Joint,
@@ -112,7 +97,7 @@ mod tests {
     /// A hundred rows through eight segments: offered again while there is no room, all passed.
     #[test]
     fn a_path_of_any_length_goes_through_the_queue() {
-        let (mut joint, mut rows) = (joint(), Rows::default());
+        let (mut joint, mut rows) = (enabled(&CONFIGURATIONS[0]), Rows::default());
         rows.begin(joint.axis.path(Spline::Cubic).expect("an enabled axis"));
         let row = |k: u32| Waypoint::at(0.1 * f64::from(k), 0.015 * f64::from(k % 2));
         let (mut next, mut full, mut passed) = (1, 0, 0);
@@ -128,7 +113,7 @@ mod tests {
                 }
             }
             rows.advance(|path, piece| joint.axis.take_piece(path, piece));
-            let angle = tick(&mut joint);
+            let angle = tick(&mut joint).angle.radians();
             if count % 10 == 0 && (1..=100).contains(&(count / 10)) {
                 let Waypoint { angle: expected, .. } = row(count / 10);
                 assert!((angle - expected).abs() < 1e-5, "{count}: {angle}");
@@ -142,7 +127,7 @@ mod tests {
     /// Rows that come too late, or behind a stop, are refused, and the path is over.
     #[test]
     fn a_path_that_ends_before_its_time_says_why() {
-        let (mut joint, mut rows) = (joint(), Rows::default());
+        let (mut joint, mut rows) = (enabled(&CONFIGURATIONS[0]), Rows::default());
         let late = Waypoint::at(3.0, 0.0).turning(0.0);
         assert_eq!(offer(&mut joint, &mut rows, late, true), Err(Refusal::NoPath));
         rows.begin(joint.axis.path(Spline::Cubic).expect("an enabled axis"));

@@ -10,8 +10,8 @@ pub const PATIENCE: f64 = 0.35;
 /// Time that a drive may take to switch on, s.
 pub const SWITCH_ON: f64 = 1.0;
 
-/// What is known of a drive. It is watched from its first heartbeat on: a drive that sends none is
-/// not taken for lost.
+/// The last that was heard of a drive. It is watched from its first heartbeat on: a drive that
+/// sends none is not taken for lost.
 #[derive(Clone, Copy, Debug)]
 pub struct Watch {
     /// Condition in the latest heartbeat.

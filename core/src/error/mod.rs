@@ -190,7 +190,10 @@ pub(crate) const MAX_TICKS: u32 = 1 << 24;
 impl Error {
     /// Returns `value` if it lies in `min..=max`, compared in its own precision, else the error
     /// that names `parameter`.
-    pub(crate) fn check<T: Scalar>(
+    ///
+    /// # Errors
+    /// [`Self::OutOfRange`], for what is no number too.
+    pub fn check<T: Scalar>(
         parameter: &'static str,
         value: T,
         min: f64,

@@ -63,14 +63,7 @@ impl Body {
             motor: Motor { rotor_inertia: rotor, ..Motor::default() },
         };
         let arm = Scene::from(scene);
-        let [mass, first, second] = arm.link_moments();
-        let (r, reach) = (arm.hub.radius, arm.payload_reach());
-        let load = arm.hub.inertia
-            + mass * r * r
-            + 2.0 * first * r
-            + second
-            + arm.payload.mass * reach * reach
-            + arm.payload.inertia;
+        let load = arm.hub.inertia + arm.rigid_inertia();
         let velocity_gain = TAU * (rotor + load / parts.ratio().powi(2)) * BANDWIDTH;
         let config = Config {
             position_gain: BANDWIDTH / 3.0,
