@@ -6,8 +6,8 @@ use stillbeam::planner::{FastestMove, Planner, Request};
 use stillbeam::{Limits, Profile};
 use stillbeam_sim::limits::Case;
 use stillbeam_sim::plan::Options;
+use stillbeam_sim::plan::asked::Asked;
 use stillbeam_sim::plan::judge::Motion;
-use stillbeam_sim::plan::kept::Asked;
 use stillbeam_sim::plan::shortest;
 use stillbeam_sim::scenes;
 
@@ -79,7 +79,8 @@ fn a_robust_move_leaves_what_it_may_in_the_rod() {
     assert!(refused.starts_with("within: no such move was found"), "{refused}");
 }
 
-/// Member D bare, π rad in one first period: two modes at rest, at a lower peak than the still move's
+/// Member D bare, π rad in one first period: two modes at rest, at a lower peak than the still
+/// move's
 /// 12.2 π/T² and with less than a third of its residual. What is left is the third mode's.
 #[test]
 fn both_modes_rest_in_a_short_move() {

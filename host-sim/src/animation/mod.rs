@@ -10,6 +10,7 @@ mod shape;
 mod view;
 
 use maud::{Markup, PreEscaped, html};
+use stillbeam::Scene;
 
 pub use pose::{INTERVALS, Pose};
 
@@ -89,6 +90,20 @@ impl Ink {
 }
 
 impl Animation {
+    /// The arm of a link on a hub that turns, its deflection in mm.
+    pub fn of_link(arm: &Scene, label: String, goal: Option<f64>, seconds: f64) -> Self {
+        Self {
+            label,
+            radius: arm.hub.radius,
+            length: arm.link.length,
+            goal,
+            quantity: "deflection, mm".to_owned(),
+            factor: 1e3,
+            seconds,
+            panels: Vec::new(),
+        }
+    }
+
     /// Factor by which the run is shown slower than it is: 1, 2, 5, 10, 20, …, the smallest with
     /// which it takes 2 s.
     pub fn slowness(&self) -> f64 {

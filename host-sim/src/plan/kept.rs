@@ -4,25 +4,20 @@
 //! every motion is, torque and clamp moment by the reference rod, which still rings from the move
 //! before. If that shows more than the planner saw, it plans again within tighter limits.
 
-use std::cell::OnceCell;
-
-use stillbeam::planner::{FastestMove, Planner, Prediction, Request, StillMove};
+use stillbeam::planner::{Planner, Prediction, Request, StillMove};
 use stillbeam::{Error as CoreError, Limits, Remedy};
 
-use super::Options;
-use super::judge::Motion as Judged;
-use super::shortest::{self, INTERVALS};
+use super::asked::Asked;
+use super::check::{Check, tighten};
 use crate::error::Error;
-use crate::limits::{Case, Excess, Peak, Quantity, Refusal, Way, kinematic, load, remedy};
-use crate::reference::rod::Resume;
-use crate::step::{Motion, Step};
+use crate::limits::{Excess, Way, load};
 
 /// Fraction of the torque limit for which a shortest move is planned. A method's own setpoints,
 /// good to a hundredth of the peak, then keep the limit too.
 pub const GOAL: f64 = 0.985;
 
 /// Number of times that limits are tightened.
-const ROUNDS: u32 = 8;
+pub(super) const ROUNDS: u32 = 8;
 
 /// Number of durations that are tried if tightened limits do not converge, and their growth.
 const LONGER: u32 = 40;
@@ -32,29 +27,6 @@ const GROWTH: f64 = 1.03;
 /// halved.
 const SHORTER: f64 = 0.8;
 const HALVINGS: u32 = 5;
-
-/// A still move as it is asked for.
-#[derive(Clone, Copy, Debug)]
-pub struct Asked<'a> {
-    /// The moves before it, the arm, the shaper and the tick.
-    pub before: Case<'a>,
-    /// Limits of the drive.
-    pub limits: &'a Limits,
-    /// Hub angle at the beginning, rad.
-    pub from: f64,
-    /// Hub angle at the end, rad.
-    pub to: f64,
-    /// Duration, s. `None` asks for the shortest within the limits.
-    pub duration: Option<f64>,
-    /// Fraction to which the arm's frequencies are known, for a robust move.
-    pub robust: Option<f64>,
-    /// What it may leave and what it keeps least.
-    pub options: Options,
-    /// Time after it, s.
-    pub settle: f64,
-    /// Number of moves in the scene.
-    pub count: usize,
-}
 
 /// A plan and its planner's prediction.
 #[derive(Clone, Copy, Debug)]
@@ -75,93 +47,13 @@ impl Asked<'_> {
             Some(spread) => Planner::<f32, 2>::robust(self.before.arm, tick, spread)?,
             None => Planner::<f32, 2>::new(self.before.arm, tick)?,
         };
-        let search = Search { asked: self, planner, state: OnceCell::new() };
-        search.weight()?;
+        let search = Search { asked: self, planner, check: Check::new(self)? };
         let plan = match self.duration {
             Some(duration) => search.lasting(duration)?,
             None => search.shortest()?,
         };
         let prediction = search.planner.predict(&plan, None);
         Ok(Kept { plan, prediction, first_period: search.planner.first_period() })
-    }
-
-    /// Plans the fastest move with a piecewise-linear acceleration, in f64, within the limits on
-    /// the reference rod, and returns `2π/ω₁`, s, beside it. `None` for what is not its kind, or if
-    /// it does not converge.
-    pub fn plan_fastest(&self) -> Result<Option<(FastestMove<INTERVALS>, f64)>, Error> {
-        let Case { arm, tick, .. } = self.before;
-        let period = Planner::<f32, 2>::new(arm, tick)?.first_period();
-        if self.options.is_some() {
-            return self.plan_piecewise().map(|found| Some((found, period)));
-        }
-        let own = self.duration.is_none() && self.robust.is_none();
-        if !own || !self.before.steps.is_empty() {
-            return Ok(None);
-        }
-        let found = self.piecewise(&self.options)?;
-        Ok(found.map(|found| (found, period)))
-    }
-
-    /// Plans a move with a piecewise-linear acceleration, as the options ask: the fastest, or the
-    /// gentlest of a duration. What is not its kind is refused.
-    pub fn plan_piecewise(&self) -> Result<FastestMove<INTERVALS>, Error> {
-        let options = self.options.validate(self.duration)?;
-        self.piecewise(&options)?.ok_or_else(|| options.unmet())
-    }
-
-    fn piecewise(&self, options: &Options) -> Result<Option<FastestMove<INTERVALS>>, Error> {
-        let Case { arm, tick, .. } = self.before;
-        let planner = Planner::<f32, 2>::new(arm, tick)?;
-        let search = Search { asked: self, planner, state: OnceCell::new() };
-        search.weight()?;
-        let precise = match self.robust {
-            Some(spread) => Planner::<f64, 2>::robust(arm, tick, spread)?,
-            None => Planner::<f64, 2>::new(arm, tick)?,
-        };
-        let mut limits = *self.limits;
-        let mut residual = options.residual.unwrap_or(0.0);
-        for _ in 0..ROUNDS {
-            let request = Request::from_rest(self.from, self.to).limits(limits).residual(residual);
-            let found = match (self.duration, options.least) {
-                (Some(duration), Some(least)) => {
-                    precise.gentlest(&request.duration(duration).objective(least))?
-                }
-                _ => precise.fastest(&request)?,
-            };
-            let Some(found) = found else { return Ok(None) };
-            let over = search.over_along(shortest::path(&found), self.limits)?;
-            let left = self.left(&found, options)?;
-            let most = options.residual.unwrap_or(f64::INFINITY);
-            if over.is_empty() && left <= most {
-                return Ok(Some(found));
-            }
-            if left > most {
-                // The planner does not see the third mode.
-                residual = (residual * 0.99 * most / left).max(0.5 * residual);
-            }
-            for excess in over {
-                if let Some(limit) = excess.quantity.of_mut(&mut limits) {
-                    *limit *= (1.0 - 1e-5) / excess.ratio();
-                }
-            }
-        }
-        Ok(None)
-    }
-}
-
-impl Asked<'_> {
-    /// Returns the largest residual in the reference rod, of L, over the frequencies to which the
-    /// arm is known; 0 if nobody asks.
-    fn left(&self, found: &FastestMove<INTERVALS>, options: &Options) -> Result<f64, Error> {
-        if options.residual.is_none() {
-            return Ok(0.0);
-        }
-        let motion = Judged::of(self.from, shortest::path(found), self.before.tick);
-        let spread = self.robust.unwrap_or(0.0);
-        let looks: &[f64] = if spread > 0.0 { &[-1.0, -0.5, 0.0, 0.5, 1.0] } else { &[0.0] };
-        looks.iter().try_fold(0.0, |most, look| {
-            Ok(f64::max(most, motion.judge(self.before.arm, look * spread)?.residual))
-        })
     }
 }
 
@@ -174,36 +66,13 @@ enum Failure {
 struct Search<'a> {
     asked: &'a Asked<'a>,
     planner: Planner<f32, 2>,
-    /// State of the rod at the beginning of the move; `None` at rest.
-    state: OnceCell<Option<Resume>>,
+    check: Check<'a>,
 }
 
 impl Search<'_> {
-    /// Refuses a move if holding the arm at rest somewhere on its way exceeds a limit.
-    fn weight(&self) -> Result<(), Error> {
-        let Asked { before, limits, from, to, .. } = self.asked;
-        for quantity in [Quantity::Torque, Quantity::Moment] {
-            let Some(limit) = quantity.limit(limits, before.tick) else { continue };
-            let peak = Peak { value: 0.0, at: 0.0 };
-            let excess = Excess { quantity, peak, limit, index: before.steps.len() };
-            if let Some(held) = remedy::too_heavy(before, limits, &excess, *from, *to)? {
-                let begin =
-                    before.steps.iter().flat_map(Step::motions).map(|m| m.duration()).sum::<f64>()
-                        + 0.0;
-                let excess = Excess { peak: Peak { value: held, at: begin }, ..excess };
-                return Err(self.refusal(excess, Way::Remedy(Remedy::Weight(held))));
-            }
-        }
-        Ok(())
-    }
-
     /// Returns the request of the move from rest to rest.
     fn request(&self) -> Request<f32, 2> {
         Request::from_rest(self.asked.from, self.asked.to)
-    }
-
-    fn refusal(&self, excess: Excess, way: Way) -> Error {
-        Refusal { excess, count: self.asked.count, way }.into()
     }
 
     /// Plans the move of a given duration, or returns the refusal that names a sufficient one.
@@ -222,7 +91,7 @@ impl Search<'_> {
         let way = fits.map_or(Way::Remedy(Remedy::Longer), |fits| {
             Way::Remedy(Remedy::Duration((fits * 1e9).round() / 1e9))
         });
-        Err(self.refusal(excess, way))
+        Err(self.check.refusal(excess, way))
     }
 
     /// Plans a move of that duration, s, within the limits on the reference rod.
@@ -268,7 +137,7 @@ impl Search<'_> {
                 return Ok(found);
             }
         }
-        Err(self.refusal(excess, Way::None(ticks * self.asked.before.tick)))
+        Err(self.check.refusal(excess, Way::None(ticks * self.asked.before.tick)))
     }
 
     /// Halves a duration back that tightened load limits made too long. They take the weight's
@@ -314,12 +183,7 @@ impl Search<'_> {
             let over = self.over(&found, goal)?;
             let Some(&excess) = over.first() else { return Ok(Ok(found)) };
             last = Some((excess, found.ticks));
-            for excess in over {
-                if let Some(limit) = excess.quantity.of_mut(&mut limits) {
-                    // A little more, so that rounding does not take another round.
-                    *limit *= (1.0 - 1e-5) / excess.ratio();
-                }
-            }
+            tighten(&mut limits, &over);
         }
         let failure = last.map(|(excess, ticks)| (Failure::Exceeds(excess), ticks));
         Ok(Err(failure.unwrap_or((Failure::Core(CoreError::NotAtRest { rate: 0.0 }), 0))))
@@ -327,43 +191,6 @@ impl Search<'_> {
 
     /// Returns every limit that a plan exceeds on the reference rod.
     fn over(&self, plan: &StillMove, limits: &Limits) -> Result<Vec<Excess>, Error> {
-        self.over_along(plan.motion().into(), limits)
-    }
-
-    /// Returns every limit that a motion exceeds on the reference rod.
-    fn over_along(&self, motion: Motion, limits: &Limits) -> Result<Vec<Excess>, Error> {
-        let Asked { before, settle, .. } = self.asked;
-        let mut steps = before.steps.to_vec();
-        steps.push(Step { motion, settle: *settle });
-        let case = before.with(&steps);
-        let trajectory = case.trajectory()?;
-        let windows = case.windows(&trajectory);
-        let Some((window, earlier)) = windows.split_last() else { return Ok(Vec::new()) };
-        let kinematic = kinematic::peaks(&trajectory, window.begin, window.end);
-        let mut peaks = Vec::new();
-        for quantity in Quantity::KINEMATIC {
-            peaks.extend(kinematic.of(quantity, limits).map(|peak| (quantity, peak)));
-        }
-        if load::limited(limits) {
-            let state = match self.state.get() {
-                Some(state) => state,
-                None => {
-                    let mut state = None;
-                    for window in earlier {
-                        let at = state.as_ref();
-                        state = load::fly(&case, &trajectory, window, &load::FINE, at, &|_| ())?.1;
-                    }
-                    self.state.get_or_init(|| state)
-                }
-            };
-            let state = state.as_ref();
-            let (loads, _) = load::fly(&case, &trajectory, window, &load::FINE, state, &|_| ())?;
-            peaks.push((Quantity::Torque, loads.torque));
-            peaks.push((Quantity::Moment, loads.moment));
-        }
-        let over = peaks.into_iter().filter_map(|(quantity, peak)| {
-            Excess::of(quantity, peak, quantity.limit(limits, before.tick)?, window.index)
-        });
-        Ok(over.collect())
+        self.check.over(plan.motion().into(), limits)
     }
 }

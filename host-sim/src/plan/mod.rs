@@ -1,6 +1,8 @@
 //! Still moves on the desktop: planned, judged by the reference rod, drawn, and compared with other
 //! motions.
 
+pub mod asked;
+mod check;
 pub mod comparison;
 pub mod judge;
 pub mod kept;
@@ -8,6 +10,7 @@ pub mod moving;
 pub mod options;
 pub mod page;
 pub mod picture;
+mod piecewise;
 pub mod request;
 pub mod shortest;
 

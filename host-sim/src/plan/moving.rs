@@ -37,16 +37,9 @@ pub fn side_by_side<'a>(
         }
     };
     let names: Vec<&str> = motions.iter().map(|(name, _, _)| *name).collect();
-    Some(Animation {
-        label: format!("The arm as it bends: {}", names.join(", ")),
-        radius: arm.hub.radius,
-        length: arm.link.length,
-        goal: Some(to),
-        quantity: "deflection, mm".to_owned(),
-        factor: 1e3,
-        seconds,
-        panels: motions.iter().map(panel).collect(),
-    })
+    let label = format!("The arm as it bends: {}", names.join(", "));
+    let panels = motions.iter().map(panel).collect();
+    Some(Animation { panels, ..Animation::of_link(arm, label, Some(to), seconds) })
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What a plan may leave, and what it keeps least.
+//! Conditions on a plan: the residual that it may leave, the quantity that it keeps least.
 
 use stillbeam::planner::Objective;
 

@@ -5,8 +5,9 @@ use stillbeam::planner::{Prediction, ShortestMove};
 use stillbeam::{Limits, Scene};
 
 use super::Options;
+use super::asked::Asked;
 use super::judge::{Judgement, Motion};
-use super::kept::{Asked, Kept};
+use super::kept::Kept;
 use super::shortest::{self, INTERVALS};
 use crate::error::Error;
 use crate::limits::{Case, Window, load};
@@ -33,7 +34,7 @@ pub struct Request {
     pub limits: Limits,
     /// Fraction to which the arm's frequencies are known, for a robust move.
     pub robust: Option<f64>,
-    /// What the move may leave and what it keeps least.
+    /// Residual that the move may leave, and quantity that it keeps least.
     pub options: Options,
     /// h, s.
     pub tick: f64,
@@ -73,8 +74,7 @@ impl Request {
     /// Returns the rod's peak loads along a motion.
     fn loads(&self, motion: Step) -> Result<load::Peaks, Error> {
         let steps = [motion];
-        let (arm, from, tick) = (&self.arm, self.from, self.tick);
-        let case = Case { arm, from, steps: &steps, shaper: None, tick };
+        let case = self.asked().before.with(&steps);
         let trajectory = case.trajectory()?;
         let window = Window { index: 0, begin: 0.0, end: trajectory.duration() };
         Ok(load::fly(&case, &trajectory, &window, &load::FINE, None, &|_| ())?.0)

@@ -52,7 +52,6 @@ pub(super) fn section(study: &Study) -> Result<Section, Error> {
 
 /// Draws the flexible link over the rigid one.
 fn moving(rigid: &Run, flexible: &Run) -> Animation {
-    let link = flexible.scene.arm.link;
     let seconds = flexible.rows.last().map_or(0.0, |row| row.t_s);
     let arm = |label: &str, ink, run: &Run| {
         let samples = run.rows.iter().map(|row| (row.t_s, row.hub_angle_rad, row.deflection_m));
@@ -60,18 +59,12 @@ fn moving(rigid: &Run, flexible: &Run) -> Animation {
     };
     let arms =
         vec![arm("rigid link", Ink::Grey, rigid), arm("flexible link", Ink::Vermilion, flexible)];
+    let remark = format!("up to {} of L off", percent(flexible.peak(), 0));
+    let label = "A rigid and a flexible link along the same move".to_owned();
+    let goal = flexible.rows.last().map(|row| row.hub_angle_rad);
     Animation {
-        label: "A rigid and a flexible link along the same move".to_owned(),
-        radius: flexible.scene.arm.hub.radius,
-        length: link.length,
-        goal: flexible.rows.last().map(|row| row.hub_angle_rad),
-        quantity: "deflection, mm".to_owned(),
-        factor: 1e3,
-        seconds,
-        panels: vec![Panel {
-            arms,
-            remark: format!("up to {} of L off", percent(flexible.peak(), 0)),
-        }],
+        panels: vec![Panel { arms, remark }],
+        ..Animation::of_link(&flexible.scene.arm, label, goal, seconds)
     }
 }
 

@@ -7,7 +7,8 @@ use super::Step;
 use super::waypoints::Rows;
 use crate::error::Error;
 use crate::limits::{self, Case};
-use crate::plan::kept::{Asked, GOAL};
+use crate::plan::asked::Asked;
+use crate::plan::kept::GOAL;
 use crate::plan::{Options, options, shortest};
 use crate::step::Motion;
 
@@ -24,7 +25,7 @@ pub(super) struct MoveTable {
     pub(super) waypoints: Option<Vec<Vec<f64>>>,
     pub(super) repeat: Option<u32>,
     pub(super) robust: Option<f64>,
-    /// What a still move keeps least: `time`, `acceleration` or `effort`.
+    /// Quantity that a still move keeps least: `time`, `acceleration` or `effort`.
     least: Option<String>,
     /// Residual that a still move may leave, of L.
     within: Option<f64>,

@@ -18,16 +18,9 @@ pub fn animation(report: &Report) -> Animation {
     let ends = made.iter().filter_map(|(outcome, _)| outcome.trace.shown.last());
     let seconds = ends.map(|shown| shown.t).fold(0.0, f64::max);
     let goal = report.commanded.angles(0.0).last().map(|(_, angle)| angle);
-    Animation {
-        label: "The arm behind the drive".to_owned(),
-        radius: report.arm.hub.radius,
-        length: report.arm.link.length,
-        goal,
-        quantity: "deflection, mm".to_owned(),
-        factor: 1e3,
-        seconds,
-        panels: made.iter().map(|(outcome, ink)| panel(outcome, *ink, seconds)).collect(),
-    }
+    let panels = made.iter().map(|(outcome, ink)| panel(outcome, *ink, seconds)).collect();
+    let label = "The arm behind the drive".to_owned();
+    Animation { panels, ..Animation::of_link(&report.arm, label, goal, seconds) }
 }
 
 fn panel(outcome: &Outcome, ink: Ink, seconds: f64) -> Panel {
