@@ -12,6 +12,7 @@ mod new;
 mod plan;
 mod playground;
 mod reference;
+mod rows;
 mod run;
 mod study;
 #[cfg(feature = "talk")]

@@ -4,16 +4,16 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use serde::Serialize;
-use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::mechanism::{self, MechanismScene};
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::table::Row;
 use stillbeam_sim::truth::{self, Reference};
-use stillbeam_sim::{axis_units, println, progress, run, table};
+use stillbeam_sim::{println, progress, run, table};
 
 use super::mechanism::Outputs;
 use super::motion::MotionArgs;
+use super::rows::{self, Figures};
 use super::tick::TickArgs;
 
 #[derive(clap::Args)]
@@ -84,7 +84,7 @@ impl ReferenceArgs {
             println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
         } else {
             self.print(&scene, &report);
-            super::run::draw(&scene, &rows);
+            rows::draw(&scene, &rows);
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -92,38 +92,19 @@ impl ReferenceArgs {
     fn mechanism(&self, scene: MechanismScene) -> Result<ExitCode, Error> {
         super::mechanism::refuse("--motion", self.motion.is_given())?;
         super::mechanism::refuse("--json", self.json)?;
-        let csv = self
-            .csv
-            .as_deref()
-            .ok_or_else(|| Error::new("--csv: must be a file where a mechanism is solved"))?;
-        let outputs = Outputs { csv, page: self.page.as_deref(), open: self.open };
-        outputs.check()?;
+        let outputs = Outputs::new(&self.csv, &self.page, self.open, "solved")?;
         let scene = self.tick.applied_to_mechanism(scene);
         super::mechanism::reference(&scene, self.solver, self.every, &outputs)
     }
 
     fn print(&self, scene: &SceneFile, solved: &ReferenceReport) {
-        let units = axis_units::of(scene.arm.mount.axis);
-        let length = scene.arm.link.length;
         println!("{}: {}", solved.scene, solved.solver);
         match &self.csv {
             Some(csv) => println!("  {} rows to {}", solved.rows, csv.display()),
             None => println!("  {} rows; --csv OUT.csv writes them", solved.rows),
         }
-        println!("  peak {:<10}  {:.4} {}", units.effort, solved.peak_effort, units.effort_unit);
-        println!(
-            "  peak deflection  {:.2} mm ({:.1} % of L)",
-            1e3 * solved.peak_deflection_m,
-            100.0 * solved.peak_deflection_m / length
-        );
-        // Rows far apart cannot tell how much a vibration leaves.
-        if let Some(residual) = solved.residual {
-            println!(
-                "  residual         {:.2} mm ({:.2} % of L) in a first period after arrival",
-                1e3 * residual * length,
-                100.0 * residual
-            );
-        }
+        solved.figures.print_peaks(scene);
+        solved.figures.print_residual(scene);
     }
 }
 
@@ -139,11 +120,8 @@ struct ReferenceReport {
     tick_s: f64,
     /// Interval of the rows.
     every_s: f64,
-    /// Largest torque, N m; on a linear axis the largest force, N.
-    peak_effort: f64,
-    peak_deflection_m: f64,
-    /// Residual vibration, fraction of L. Absent if the hub does not end at rest.
-    residual: Option<f64>,
+    #[serde(flatten)]
+    figures: Figures,
 }
 
 impl ReferenceReport {
@@ -153,16 +131,13 @@ impl ReferenceReport {
         [tick_s, every_s]: [f64; 2],
         rows: &[Row],
     ) -> Result<Self, Error> {
-        let peak = |of: fn(&Row) -> f64| rows.iter().map(of).map(f64::abs).fold(0.0, f64::max);
         Ok(Self {
             scene: scene.name.clone(),
             solver: solver.describe(),
             rows: rows.len(),
             tick_s,
             every_s,
-            peak_effort: peak(|row| row.torque_nm),
-            peak_deflection_m: peak(|row| row.deflection_m),
-            residual: residual(rows, scene, tick_s)?.value(),
+            figures: Figures::of(scene, tick_s, rows)?,
         })
     }
 }

@@ -5,16 +5,16 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 use stillbeam::select::Choice;
-use stillbeam_sim::compare::residual;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::mechanism;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
-use stillbeam_sim::{advice, axis_units, println, run, table};
+use stillbeam_sim::{advice, println, run, table};
 
 use super::mechanism::Outputs;
 use super::motion::MotionArgs;
+use super::rows::{self, Figures};
 
 #[derive(clap::Args)]
 pub struct RunArgs {
@@ -52,12 +52,7 @@ impl RunArgs {
             let keys = SolverKeys { spin, ..self.solver };
             let keys = super::mechanism::typed(&keys, self.coordinates)?;
             super::mechanism::refuse("--json", self.json)?;
-            let csv = self
-                .csv
-                .as_deref()
-                .ok_or_else(|| Error::new("--csv: must be a file where a mechanism is run"))?;
-            let outputs = Outputs { csv, page: self.page.as_deref(), open: self.open };
-            outputs.check()?;
+            let outputs = Outputs::new(&self.csv, &self.page, self.open, "run")?;
             return super::mechanism::run(&scene, keys, &outputs);
         }
         super::mechanism::refuse_for_arm("--page", self.page.is_some())?;
@@ -100,13 +95,12 @@ impl RunArgs {
             println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
         } else {
             self.print(&scene, &solver, choice.as_ref(), &report);
-            draw(&scene, &rows);
+            rows::draw(&scene, &rows);
         }
         Ok(ExitCode::SUCCESS)
     }
 
     fn print(&self, scene: &SceneFile, solver: &Solver, choice: Option<&Choice>, run: &RunReport) {
-        let units = axis_units::of(scene.arm.mount.axis);
         println!("{}: {}", scene.name, solver.describe());
         if let Some(Choice { rung, expected, .. }) = choice {
             println!(
@@ -118,38 +112,13 @@ impl RunArgs {
             Some(csv) => println!("  {} setpoints to {}", run.setpoints, csv.display()),
             None => println!("  {} setpoints; --csv OUT.csv writes them", run.setpoints),
         }
-        println!("  peak {:<10}  {:.4} {}", units.effort, run.peak_effort, units.effort_unit);
-        let bent = run.peak_deflection_m / scene.arm.link.length;
-        println!(
-            "  peak deflection  {:.2} mm ({:.1} % of L)",
-            1e3 * run.peak_deflection_m,
-            100.0 * bent
-        );
+        run.figures.print_peaks(scene);
+        let bent = run.figures.peak_deflection_m / scene.arm.link.length;
         if bent > 0.3 && matches!(solver.method, Method::Newmark | Method::Modal) {
             println!("  note: small-deflection kinematics; beyond 30 % of L they are a guess");
         }
-        if let Some(residual) = run.residual {
-            println!(
-                "  residual         {:.2} mm ({:.2} % of L) in a first period after arrival",
-                1e3 * residual * scene.arm.link.length,
-                100.0 * residual
-            );
-        }
+        run.figures.print_residual(scene);
     }
-}
-
-/// Draws deflection and effort over time, if standard output is a terminal.
-pub fn draw(scene: &SceneFile, rows: &[Row]) {
-    let units = axis_units::of(scene.arm.mount.axis);
-    let effort = format!("{}, {}", units.effort, units.effort_unit);
-    let end = rows.last().map_or(0.0, |row| row.t_s);
-    super::draw(
-        [
-            ("deflection, mm", rows.iter().map(|row| 1e3 * row.deflection_m).collect()),
-            (effort.as_str(), rows.iter().map(|row| row.torque_nm).collect()),
-        ],
-        end,
-    );
 }
 
 /// Figures of a run, for programs.
@@ -163,11 +132,8 @@ struct RunReport {
     chosen: Option<String>,
     setpoints: usize,
     tick_s: f64,
-    /// Largest torque, N m; on a linear axis the largest force, N.
-    peak_effort: f64,
-    peak_deflection_m: f64,
-    /// Residual vibration, fraction of L. Absent if the hub does not end at rest.
-    residual: Option<f64>,
+    #[serde(flatten)]
+    figures: Figures,
 }
 
 impl RunReport {
@@ -177,16 +143,13 @@ impl RunReport {
         choice: Option<&Choice>,
         rows: &[Row],
     ) -> Result<Self, Error> {
-        let peak = |of: fn(&Row) -> f64| rows.iter().map(of).map(f64::abs).fold(0.0, f64::max);
         Ok(Self {
             scene: scene.name.clone(),
             solver: solver.describe(),
             chosen: choice.map(|choice| choice.rung.to_string()),
             setpoints: rows.len(),
             tick_s: solver.tick,
-            peak_effort: peak(|row| row.torque_nm),
-            peak_deflection_m: peak(|row| row.deflection_m),
-            residual: residual(rows, scene, solver.tick)?.value(),
+            figures: Figures::of(scene, solver.tick, rows)?,
         })
     }
 }

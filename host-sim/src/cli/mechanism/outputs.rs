@@ -1,6 +1,6 @@
 //! Files and lines that a run of a mechanism leaves.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use stillbeam_sim::error::Error;
 use stillbeam_sim::mechanism::table::{self, Row};
@@ -10,15 +10,28 @@ use stillbeam_sim::println;
 
 /// Where a run goes: its table, and a page if one is asked for, which may be shown.
 pub struct Outputs<'a> {
-    pub csv: &'a Path,
-    pub page: Option<&'a Path>,
-    pub open: bool,
+    csv: &'a Path,
+    page: Option<&'a Path>,
+    open: bool,
 }
 
-impl Outputs<'_> {
-    /// Refuses a page that is to be shown and is not written.
-    pub fn check(&self) -> Result<(), Error> {
-        crate::cli::refuse_to_open(self.open, self.page, "--page OUT.html")
+impl<'a> Outputs<'a> {
+    /// Takes them as they are typed, for a mechanism that is to be `done`.
+    ///
+    /// # Errors
+    /// No file for the table, a page that is to be shown and is not written.
+    pub fn new(
+        csv: &'a Option<PathBuf>,
+        page: &'a Option<PathBuf>,
+        open: bool,
+        done: &str,
+    ) -> Result<Self, Error> {
+        let csv = csv.as_deref().ok_or_else(|| {
+            Error::new(format_args!("--csv: must be a file where a mechanism is {done}"))
+        })?;
+        let page = page.as_deref();
+        crate::cli::refuse_to_open(open, page, "--page OUT.html")?;
+        Ok(Self { csv, page, open })
     }
 
     /// Writes table and page, both or none. `solver` says what made the rows.
