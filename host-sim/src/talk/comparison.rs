@@ -229,11 +229,11 @@ impl Comparison {
         number: usize,
         tick: &Tick<f32>,
     ) -> Result<(), Error> {
-        let told = self.axes[number].replica.told(tick);
-        let microseconds = (1e6 * self.axes[number].replica.tick()).round() as u32;
-        let stamp = slcan::stamp(tick.sequence(), microseconds);
-        let period = self.axes[number].replica.tick();
-        self.axes[number].drive.await_setpoint(period);
+        let axis = &mut self.axes[number];
+        let told = axis.replica.told(tick);
+        let period = axis.replica.tick();
+        let stamp = slcan::stamp(tick.sequence(), (1e6 * period).round() as u32);
+        axis.drive.await_setpoint(period);
         for ours in told {
             let theirs = self.next_frame(machine)?;
             if theirs != (ours, stamp) {

@@ -2,9 +2,10 @@
 //!
 //! A [`Machine`] carries bytes, a [`Session`] requests and setpoints. The host runs every axis
 //! beside it ([`Replica`]) and compares each setpoint and drive frame, bit for bit, as it comes.
-//! [`Step`]s are the user's requests, [`page()`] draws the result, and [`record()`] brings a log home
-//! that `identify` takes.
+//! [`Step`]s are the user's requests, [`page()`] draws the result, and [`record()`] brings a log
+//! home that `identify` takes.
 
+mod answer;
 mod arm;
 mod body;
 mod comparison;
@@ -18,8 +19,11 @@ mod page;
 mod recording;
 mod replica;
 mod script;
+mod scripts;
 mod session;
+mod step;
 
+pub use answer::Answer;
 pub use emulator::Emulator;
 pub use excitation::Excitation;
 pub use image::default_image;
@@ -27,5 +31,7 @@ pub use machine::Machine;
 pub use page::page;
 pub use recording::{Recording, record};
 pub use replica::Replica;
-pub use script::{DEMONSTRATION, FAULTS, FIRST, MACHINE, STILL, Step, converse, endure};
-pub use session::{Answer, Posted, Session};
+pub use script::{converse, endure};
+pub use scripts::{DEMONSTRATION, FAULTS, FIRST, MACHINE, STILL};
+pub use session::{Posted, Session};
+pub use step::Step;

@@ -83,7 +83,7 @@ fn moves(
     })?;
     let [frequency, ..] = natural::frequencies(&Scene::from(*replica.scene()))?;
     let moves = excitation.moves(frequency, replica.limits(), turn)?;
-    let length: f64 = moves.iter().map(duration).sum();
+    let length: f64 = moves.iter().map(PlainMove::duration).sum();
     if length > LONGEST {
         return Err(Error::new(format_args!(
             "--record: the motion of an arm of {frequency} Hz takes {length} s; must be at most \
@@ -131,7 +131,7 @@ fn make(session: &mut Session, axis: u8, moves: &[PlainMove], begin: f64) -> Res
             session.wait(first.saturating_sub(session.now()))?;
         }
         demand(session, axis, "move", Command::Move(from(begin, *motion)))?;
-        end = end.max(session.now()) + (duration(motion) / h).ceil() as u32;
+        end = end.max(session.now()) + (motion.duration() / h).ceil() as u32;
         ends.push_back(end);
     }
     session.wait(end.saturating_sub(session.now()) + 1)
@@ -144,15 +144,6 @@ fn from(begin: f64, motion: PlainMove) -> PlainMove {
             PlainMove::To { profile, duration, to: begin + to }
         }
         other => other,
-    }
-}
-
-fn duration(motion: &PlainMove) -> f64 {
-    match *motion {
-        PlainMove::To { duration, .. }
-        | PlainMove::SpinUp { duration, .. }
-        | PlainMove::Still { duration, .. }
-        | PlainMove::Dwell { duration } => duration,
     }
 }
 

@@ -1,15 +1,18 @@
 //! Requests and answers, tick by tick. Everything that comes back is compared.
 
+mod intake;
+mod shown;
+mod tamper;
+
 use std::collections::VecDeque;
 
-use stillbeam::axis::Tick;
 use stillbeam::motion::Waypoint;
-use stillbeam_protocol::frame::{self, Splitter, decode};
-use stillbeam_protocol::{Command, Refusal, Report, Request, Sample, Status};
+use stillbeam_protocol::frame::{self, Splitter};
+use stillbeam_protocol::{Command, Request, Sample};
 
 use super::comparison::Comparison;
 use super::drive::line;
-use super::{Machine, Replica};
+use super::{Answer, Machine};
 use crate::error::Error;
 
 /// Time between two heartbeats, s.
@@ -20,28 +23,6 @@ const LONGEST: f64 = 1_000.0;
 
 /// Time within which axes that are not told to turn on come to rest, s.
 const REST: f64 = 60.0;
-
-/// The firmware's answer to a request.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Answer {
-    /// The request was carried out before the tick of that number.
-    Accepted(u32),
-    /// The request was refused, for that reason.
-    Refused(String),
-    /// The request was refused for want of room in the move queue, in those words.
-    Full(String),
-    /// The status of the axis.
-    Status(Status),
-    /// A recording has begun, of a sensor's column of that name.
-    Recording(String),
-    /// A recording has ended.
-    Recorded {
-        /// Samples that were sent.
-        samples: u32,
-        /// Samples that the line was too slow for, or that found no hub angle.
-        lost: u32,
-    },
-}
 
 /// A request that was sent.
 #[derive(Clone, Copy, Debug)]
@@ -214,28 +195,6 @@ impl Session {
         outcome
     }
 
-    /// Keeps the firmware from its tick for a time, s, as a fault of it would. Only QEMU can do
-    /// this.
-    ///
-    /// # Errors
-    /// Errors are those of [`Session::ask`]. A board, or a time beyond 0 to 65 ms, is refused too.
-    pub fn stall(&mut self, seconds: f64) -> Result<(), Error> {
-        let refused = |why| {
-            Error::new(format_args!("stall = {seconds} s: must be 0 to 0.065 s in QEMU{why}"))
-        };
-        if !self.machine.is_emulated() {
-            return Err(refused(", not on a board"));
-        }
-        if !(0.0..=0.065).contains(&seconds) {
-            return Err(refused(""));
-        }
-        self.machine.stall((1e6 * seconds) as u16);
-        // It counts from the last tick, with the next one due a tick later.
-        let missed = (seconds / self.tick()) as u32;
-        self.comparison.miss(self.upcoming, missed.saturating_sub(1));
-        self.wait(1)
-    }
-
     /// Goes on until every axis rests.
     ///
     /// # Errors
@@ -253,14 +212,6 @@ impl Session {
         )))
     }
 
-    /// Sends arbitrary bytes to the firmware, as a bad line would.
-    ///
-    /// # Errors
-    /// An error is returned if the line is broken.
-    pub fn disturb(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        self.machine.send(bytes)
-    }
-
     /// Keeps the samples of an axis from now on.
     pub(super) fn keep_samples(&mut self, axis: u8) {
         self.samples = Some((axis, Vec::new()));
@@ -269,103 +220,6 @@ impl Session {
     /// Returns the samples that were kept, and keeps no more.
     pub(super) fn take_samples(&mut self) -> Vec<Sample> {
         self.samples.take().map(|(_, samples)| samples).unwrap_or_default()
-    }
-
-    /// Number of axes.
-    pub fn axes(&self) -> u8 {
-        self.comparison.axes().len() as u8
-    }
-
-    /// The host's side of an axis.
-    pub fn replica(&self, axis: u8) -> Option<&Replica> {
-        self.comparison.axes().get(usize::from(axis)).map(|axis| &axis.replica)
-    }
-
-    /// True if the emulated drive of an axis is on.
-    pub fn drive_is_on(&self, axis: u8) -> Option<bool> {
-        self.comparison.axes().get(usize::from(axis)).map(|axis| axis.drive.is_on())
-    }
-
-    /// Lets the encoder of an axis jump by `turns` of its motor.
-    ///
-    /// # Errors
-    /// An axis that does not exist, or drives without machines.
-    pub fn jump(&mut self, axis: u8, turns: f64) -> Result<(), Error> {
-        let drive = self.drive(axis)?;
-        match drive.body_mut() {
-            Some(body) if turns.is_finite() => body.jump(turns),
-            _ => {
-                return Err(Error::new(format_args!(
-                    "jump = {turns}: must be a number of turns, with --plant"
-                )));
-            }
-        }
-        Ok(())
-    }
-
-    /// Lets the drive of an axis switch itself off with an error.
-    ///
-    /// # Errors
-    /// An axis that does not exist.
-    pub fn fail(&mut self, axis: u8) -> Result<(), Error> {
-        self.drive(axis)?.fail();
-        Ok(())
-    }
-
-    /// Cuts the line between the bus and the drive of an axis, or mends it.
-    ///
-    /// # Errors
-    /// An axis that does not exist.
-    pub fn cut(&mut self, axis: u8, cut: bool) -> Result<(), Error> {
-        self.drive(axis)?.cut(cut);
-        Ok(())
-    }
-
-    fn drive(&mut self, axis: u8) -> Result<&mut super::drive::Drive, Error> {
-        let count = self.comparison.axes().len();
-        let found = self.comparison.axes_mut().get_mut(usize::from(axis));
-        found.map(|axis| &mut axis.drive).ok_or_else(|| {
-            Error::new(format_args!("axis = {axis}: must be 0 to {}", count.saturating_sub(1)))
-        })
-    }
-
-    /// Of an axis with a machine: the greatest angle of its hub behind the latest setpoint, rad,
-    /// and the error of its energy balance over work and losses.
-    pub fn followed(&self, axis: u8) -> Option<[f64; 2]> {
-        let body = self.comparison.axes().get(usize::from(axis))?.drive.body()?;
-        Some([body.behind(), body.energy_error()])
-    }
-
-    /// Every tick of an axis so far.
-    pub fn history(&self, axis: u8) -> &[Tick<f32>] {
-        self.comparison.axes().get(usize::from(axis)).map_or(&[], |axis| &axis.history)
-    }
-
-    /// Setpoints and drive frames that were compared, all of them equal.
-    pub fn compared(&self) -> [usize; 2] {
-        self.comparison.equal()
-    }
-
-    /// Number of the next tick.
-    pub fn now(&self) -> u32 {
-        self.comparison.next()
-    }
-
-    /// h, s.
-    pub fn tick(&self) -> f64 {
-        self.comparison.axes().first().map_or(0.0, |axis| axis.replica.tick())
-    }
-
-    /// Converts a time to ticks, to the nearest, at least one.
-    fn ticks(&self, seconds: f64) -> u32 {
-        (seconds / self.tick()).round().max(1.0) as u32
-    }
-
-    /// Returns the lines that the firmware logged before the latest tick and since the last call,
-    /// each with the number of ticks made until then. A line that it logs after a tick's setpoints
-    /// shows with the next tick.
-    pub fn log(&mut self) -> Vec<(u32, String)> {
-        self.machine.log(self.comparison.next())
     }
 
     fn send(&mut self, axis: u8, command: Command) -> Result<u16, Error> {
@@ -422,67 +276,5 @@ impl Session {
             self.take_in()?;
         }
         Ok(self.comparison.expected() as u8)
-    }
-
-    /// Takes in the bytes that have come over the link.
-    fn take_in(&mut self) -> Result<(), Error> {
-        for byte in self.machine.receive()? {
-            let Some(frame) = self.link.push(byte) else { continue };
-            let mut bytes = frame.map(|frame| frame.to_vec()).unwrap_or_default();
-            match decode::<Report<'_>>(&mut bytes) {
-                Ok(report) => self.sort(&report)?,
-                // A board's line may begin in the middle of a frame.
-                Err(_) if self.comparison.axes().is_empty() => {}
-                Err(error) => {
-                    return Err(Error::new(format_args!(
-                        "link: a frame came in garbled, {error:?}"
-                    )));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn sort(&mut self, report: &Report<'_>) -> Result<(), Error> {
-        let (sequence, answer) = match *report {
-            Report::Tick { axis, tick, cause } => {
-                self.comparison.push(axis, tick, cause);
-                return Ok(());
-            }
-            Report::Description { sequence, description } => {
-                self.comparison.expect(description.axes.into());
-                let patient = !self.machine.is_emulated();
-                let replica = Replica::new(&description, patient)?;
-                self.comparison.add(replica, &description, self.loaded)?;
-                self.open.retain(|open| *open != sequence);
-                return Ok(());
-            }
-            Report::Accepted { sequence, tick } => (sequence, Answer::Accepted(tick)),
-            Report::Refused { sequence, refusal } => {
-                let why = refusal.to_string();
-                let is_full = matches!(refusal, Refusal::Queue { .. });
-                (sequence, if is_full { Answer::Full(why) } else { Answer::Refused(why) })
-            }
-            Report::Status { sequence, status } => (sequence, Answer::Status(status)),
-            Report::Recording { sequence, column, .. } => {
-                (sequence, Answer::Recording(column.to_owned()))
-            }
-            Report::Sample { axis, sample } => {
-                // Those of a recording that another host has begun are not kept.
-                if let Some((_, samples)) = self.samples.as_mut().filter(|(of, _)| *of == axis) {
-                    samples.push(sample);
-                }
-                return Ok(());
-            }
-            Report::Recorded { sequence, samples, lost } => {
-                (sequence, Answer::Recorded { samples, lost })
-            }
-        };
-        let known = self.open.contains(&sequence);
-        self.open.retain(|open| *open != sequence);
-        if known {
-            self.answers.push_back((sequence, answer));
-        }
-        Ok(())
     }
 }
