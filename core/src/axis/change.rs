@@ -2,7 +2,6 @@
 
 use super::{Accepted, Axis, before};
 use crate::Error;
-use crate::error::Mode;
 use crate::generator::{Arrival, Replaced};
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
@@ -55,9 +54,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     // shortest way alone takes 40 kB.
     #[inline(always)]
     pub fn change(&mut self, change: &Change<S::Scalar>) -> Result<(), Error> {
-        if self.mode != Mode::Enabled {
-            return Err(Error::WrongMode { mode: self.mode });
-        }
+        self.supervisor.check_enabled()?;
         match *change {
             Change::Target { angle, rate, duration } => self.meet(angle, rate, duration),
             Change::Reach { angle, rate } => {
@@ -94,7 +91,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
 
     /// Takes note of the one move that is left: it began with the latest setpoint.
     fn under_way_to(&mut self, end: HubState<f64>, ticks: u32) {
-        let begin = self.clock.wrapping_sub(1);
+        let begin = self.clock().wrapping_sub(1);
         let arrival = begin.wrapping_add(ticks);
         self.moves.clear();
         // There is room: none is left.
@@ -136,7 +133,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// Returns the end of the move under way, if there is one.
     pub(super) fn under_way(&self) -> Option<Arrival> {
         let current = self.moves.front()?;
-        let latest = self.clock.wrapping_sub(1);
+        let latest = self.clock().wrapping_sub(1);
         let ticks = current.arrival.wrapping_sub(latest);
         (!before(latest, current.begin)).then_some(Arrival { ticks, end: current.end })
     }

@@ -83,7 +83,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     #[inline(always)]
     pub fn follow(&mut self, hub: Option<&HubState<S::Scalar>>) -> Tick<S::Scalar> {
         self.listen();
-        if self.mode != Mode::Enabled {
+        if self.mode() != Mode::Enabled {
             return self.tick_without_state();
         }
         let from = *self.generator.hub();

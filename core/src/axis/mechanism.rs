@@ -1,11 +1,11 @@
 //! The axes of one mechanism under one policy: its joints are switched on and off together, and a
 //! stop brakes all of them along their common path.
 //!
-//! What happens is what the table of [the module above](super) says of one axis. A joint's setpoint
+//! The table of [the module above](super) holds, each line for all joints. A joint's setpoint
 //! is of the same type as that of a single hub: [`Drivetrain`](crate::motor::Drivetrain) and the
 //! drives take it as it is.
 
-use super::{Cause, Mode, Policy, Sequence, Timing, ticks};
+use super::{Cause, Mode, Policy, Sequence, Supervisor, Timing, ticks};
 use crate::Error;
 use crate::chain::{Chain, ChainGenerator, ChainSetpoint};
 use crate::hub::Angle;
@@ -41,18 +41,9 @@ pub struct MechanismAxes<
     const QUEUE: usize = 8,
 > {
     generator: ChainGenerator<T, LINKS, W, C, Q, QUEUE>,
-    /// The patience in ticks; 0 waits for ever.
-    patience: u32,
+    supervisor: Supervisor,
     /// Ticks in a row that may be missed.
     allowed: u32,
-    mode: Mode,
-    cause: Option<Cause>,
-    /// A stop that ends with the drives off.
-    then_off: bool,
-    /// Ticks made: the number of the next.
-    clock: u32,
-    /// Ticks since the host was heard, missed ones included.
-    silence: u32,
 }
 
 impl<
@@ -92,34 +83,19 @@ impl<
             allowed = allowed.min(policy.missed);
         }
         generator.can_stop()?;
-        Ok(Self {
-            generator,
-            patience,
-            allowed,
-            mode: Mode::Disabled,
-            cause: None,
-            then_off: false,
-            clock: 0,
-            silence: 0,
-        })
+        Ok(Self { generator, supervisor: Supervisor::new(patience), allowed })
     }
 
     /// The next setpoints of all joints. The tick path: no allocation, no panic, no `Result`.
     #[inline(always)]
     pub fn tick(&mut self) -> MechanismTick<T, LINKS> {
-        if self.mode == Mode::Enabled && self.patience > 0 {
-            self.silence = self.silence.saturating_add(1);
-            if self.silence > self.patience {
-                self.stop(Cause::LinkLost);
-            }
+        if self.supervisor.listen() {
+            self.stop(Cause::LinkLost);
         }
         let setpoint = self.generator.tick();
-        let number = self.clock;
-        self.clock = self.clock.wrapping_add(1);
-        if self.mode == Mode::Stopping && !self.generator.is_stopping() {
-            self.mode = if self.then_off { Mode::Disabled } else { Mode::Stopped };
-        }
-        MechanismTick { number, mode: self.mode, setpoint }
+        let number = self.supervisor.number();
+        self.supervisor.end_stop(|| !self.generator.is_stopping());
+        MechanismTick { number, mode: self.mode(), setpoint }
     }
 
     /// The next setpoints if the tick that came is due. `None` for one that is not due: nothing has
@@ -137,7 +113,7 @@ impl<
     /// message from the host includes them.
     #[inline(always)]
     pub fn missed(&mut self, ticks: u32) {
-        self.silence = self.silence.saturating_add(ticks);
+        self.supervisor.missed(ticks);
         if ticks > self.allowed {
             self.stop(Cause::MissedTicks);
         }
@@ -145,7 +121,7 @@ impl<
 
     /// Notes a valid message from the host.
     pub fn heard(&mut self) {
-        self.silence = 0;
+        self.supervisor.heard();
     }
 
     /// Switches all joints on. Disabled axes begin at the measured angles, in static equilibrium;
@@ -155,28 +131,22 @@ impl<
     /// # Errors
     /// [`Error::WrongMode`] during a stop, those of [`Chain::at_rest`]. Nothing has changed then.
     pub fn enable(&mut self, measured: &[Angle<T>; LINKS]) -> Result<(), Error> {
-        match self.mode {
+        match self.mode() {
             Mode::Disabled => {
                 self.generator.restart(&measured.map(|angle| angle.precise().radians()))?;
             }
             Mode::Stopped | Mode::Enabled => {}
-            Mode::Stopping => return Err(Error::WrongMode { mode: self.mode }),
+            mode @ Mode::Stopping => return Err(Error::WrongMode { mode }),
         }
-        self.mode = Mode::Enabled;
-        self.cause = None;
-        self.silence = 0;
+        self.supervisor.enable();
         Ok(())
     }
 
     /// Switches all joints off, after a stop if one of them turns.
     pub fn disable(&mut self) {
-        if self.mode == Mode::Disabled {
-            return;
-        }
-        self.stop(Cause::Requested);
-        self.then_off = true;
-        if self.mode == Mode::Stopped {
-            self.mode = Mode::Disabled;
+        if self.mode() != Mode::Disabled {
+            self.stop(Cause::Requested);
+            self.supervisor.disable();
         }
     }
 
@@ -184,14 +154,12 @@ impl<
     #[cold]
     #[inline(never)]
     pub fn stop(&mut self, cause: Cause) {
-        if self.mode != Mode::Enabled {
+        if self.mode() != Mode::Enabled {
             return;
         }
-        self.then_off = false;
-        self.cause = Some(cause);
         // Every driven joint has the limit that a stop needs: `new` has asked.
-        let stops = !self.generator.rests() && self.generator.stop().is_ok();
-        self.mode = if stops { Mode::Stopping } else { Mode::Stopped };
+        let moves = !self.generator.rests() && self.generator.stop().is_ok();
+        self.supervisor.stop(cause, moves);
     }
 
     /// Plans a move of `joint`, counted from 0, behind its others. Runs in f64 and is not for the
@@ -200,25 +168,23 @@ impl<
     /// # Errors
     /// [`Error::WrongMode`] unless the axes are enabled, those of [`ChainGenerator::push`].
     pub fn push(&mut self, joint: usize, motion: &impl Plannable) -> Result<MoveSummary, Error> {
-        match self.mode {
-            Mode::Enabled => self.generator.push(joint, motion),
-            mode => Err(Error::WrongMode { mode }),
-        }
+        self.supervisor.check_enabled()?;
+        self.generator.push(joint, motion)
     }
 
     /// The mode of all joints.
     pub fn mode(&self) -> Mode {
-        self.mode
+        self.supervisor.mode
     }
 
     /// Returns why the axes stopped, if they did.
     pub fn cause(&self) -> Option<Cause> {
-        self.cause
+        self.supervisor.cause
     }
 
     /// Number of the next tick.
     pub fn clock(&self) -> u32 {
-        self.clock
+        self.supervisor.clock
     }
 
     /// The generator.

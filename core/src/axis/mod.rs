@@ -27,6 +27,7 @@ mod path;
 mod policy;
 mod sequence;
 mod still;
+mod supervisor;
 
 use core::fmt;
 
@@ -37,6 +38,7 @@ pub use mechanism::{MechanismAxes, MechanismTick};
 pub use pace::{Pace, Timing};
 pub use policy::{Policy, StopLimits};
 pub use sequence::{Freshness, Sequence};
+use supervisor::Supervisor;
 
 pub use crate::error::Mode;
 
@@ -104,20 +106,11 @@ impl<T> Tick<T> {
 pub struct Axis<S: Stepper, const QUEUE: usize = 8> {
     generator: Generator<S, QUEUE>,
     policy: Policy,
-    /// The policy's patience in ticks; 0 waits for ever.
-    patience: u32,
+    supervisor: Supervisor,
     /// Brakes as a move does, for a change of mind.
     braking: Braking<S::Scalar>,
     /// Brakes as a stop does.
     stopping: Braking<S::Scalar>,
-    mode: Mode,
-    cause: Option<Cause>,
-    /// A stop that ends with the drive off.
-    then_off: bool,
-    /// Ticks made: the number of the next.
-    clock: u32,
-    /// Ticks since the host was heard, missed ones included.
-    silence: u32,
     /// Ticks in a row without a state to follow.
     unfollowed: u32,
     reach: Reach<S::Scalar>,
@@ -131,9 +124,7 @@ where
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Axis")
-            .field("mode", &self.mode)
-            .field("cause", &self.cause)
-            .field("clock", &self.clock)
+            .field("supervisor", &self.supervisor)
             .field("policy", &self.policy)
             .field("generator", &self.generator)
             .finish_non_exhaustive()
@@ -167,14 +158,9 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
         Ok(Self {
             generator,
             policy,
-            patience,
+            supervisor: Supervisor::new(patience),
             braking,
             stopping,
-            mode: Mode::Disabled,
-            cause: None,
-            then_off: false,
-            clock: 0,
-            silence: 0,
             unfollowed: 0,
             reach,
             moves: Deque::new(),
@@ -192,26 +178,20 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// Stops if the host has been silent for too long.
     #[inline(always)]
     fn listen(&mut self) {
-        if self.mode == Mode::Enabled && self.patience > 0 {
-            self.silence = self.silence.saturating_add(1);
-            if self.silence > self.patience {
-                self.stop(Cause::LinkLost);
-            }
+        if self.supervisor.listen() {
+            self.stop(Cause::LinkLost);
         }
     }
 
     /// Numbers a tick and notes what ends with it.
     #[inline(always)]
     fn done(&mut self, setpoint: Setpoint<S::Scalar>) -> Tick<S::Scalar> {
-        let number = self.clock;
-        self.clock = self.clock.wrapping_add(1);
+        let number = self.supervisor.number();
         while self.moves.front().is_some_and(|first| !before(number, first.arrival)) {
             self.moves.pop_front();
         }
-        if self.mode == Mode::Stopping && self.generator.is_holding() {
-            self.mode = if self.then_off { Mode::Disabled } else { Mode::Stopped };
-        }
-        Tick { number, mode: self.mode, setpoint }
+        self.supervisor.end_stop(|| self.generator.is_holding());
+        Tick { number, mode: self.mode(), setpoint }
     }
 
     /// The next setpoint if the tick that came is due: the same path as [`Axis::tick`], with the
@@ -230,7 +210,7 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// message from the host includes them.
     #[inline(always)]
     pub fn missed(&mut self, ticks: u32) {
-        self.silence = self.silence.saturating_add(ticks);
+        self.supervisor.missed(ticks);
         if ticks > self.policy.missed {
             self.stop(Cause::MissedTicks);
         }
@@ -238,69 +218,56 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
 
     /// Notes a valid message from the host.
     pub fn heard(&mut self) {
-        self.silence = 0;
+        self.supervisor.heard();
     }
 
     /// Switches on. A disabled axis begins at the measured angle, a stopped one goes on where it
     /// holds.
     pub fn enable(&mut self, measured: Angle<S::Scalar>) -> Result<(), Error> {
-        match self.mode {
+        match self.mode() {
             Mode::Disabled => self.generator.restart(measured),
             Mode::Stopped | Mode::Enabled => {}
-            Mode::Stopping => return Err(Error::WrongMode { mode: self.mode }),
+            mode @ Mode::Stopping => return Err(Error::WrongMode { mode }),
         }
-        self.mode = Mode::Enabled;
-        self.cause = None;
-        self.silence = 0;
+        self.supervisor.enable();
         self.unfollowed = 0;
         Ok(())
     }
 
     /// Switches off, after a stop if the hub turns.
     pub fn disable(&mut self) {
-        if self.mode == Mode::Disabled {
-            return;
-        }
-        self.stop(Cause::Requested);
-        self.then_off = true;
-        if self.mode == Mode::Stopped {
-            self.mode = Mode::Disabled;
+        if self.mode() != Mode::Disabled {
+            self.stop(Cause::Requested);
+            self.supervisor.disable();
         }
     }
 
     /// Brakes and holds.
     #[cold]
     pub fn stop(&mut self, cause: Cause) {
-        if self.mode != Mode::Enabled {
+        if self.mode() != Mode::Enabled {
             return;
         }
-        self.then_off = false;
-        self.cause = Some(cause);
         self.generator.brake(&self.stopping, self.arrival());
         self.moves.clear();
-        let rests = self.generator.is_holding();
-        self.mode = if rests { Mode::Stopped } else { Mode::Stopping };
+        self.supervisor.stop(cause, !self.generator.is_holding());
     }
 
     /// Returns the start and the limits of a move that is planned now, for [`PlanContext::plan`]
     /// and [`PlanContext::plan_still`]. Those run outside of the tick.
     pub fn plan_context(&self) -> Result<PlanContext, Error> {
-        match self.mode {
-            Mode::Enabled => Ok(self.generator.plan_context()),
-            mode => Err(Error::WrongMode { mode }),
-        }
+        self.supervisor.check_enabled()?;
+        Ok(self.generator.plan_context())
     }
 
     /// Takes a planned move and returns the number of its first tick.
     pub fn take(&mut self, planned: &PlannedMove<S::Scalar>) -> Result<u32, Error> {
-        if self.mode != Mode::Enabled {
-            return Err(Error::WrongMode { mode: self.mode });
-        }
+        self.supervisor.check_enabled()?;
         if self.moves.is_full() {
             return Err(Error::QueueFull { needed: 1, free: 0 });
         }
         self.generator.take(planned)?;
-        let begin = self.moves.back().map_or(self.clock, |last| last.arrival);
+        let begin = self.moves.back().map_or(self.clock(), |last| last.arrival);
         let arrival = begin.wrapping_add(planned.summary().ticks);
         // There is room: just asked.
         let end = self.generator.end();
@@ -324,17 +291,17 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
 
     /// The mode.
     pub fn mode(&self) -> Mode {
-        self.mode
+        self.supervisor.mode
     }
 
     /// Returns why the axis stopped, if it did.
     pub fn cause(&self) -> Option<Cause> {
-        self.cause
+        self.supervisor.cause
     }
 
     /// Number of the next tick.
     pub fn clock(&self) -> u32 {
-        self.clock
+        self.supervisor.clock
     }
 
     /// The generator.

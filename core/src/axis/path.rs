@@ -2,7 +2,6 @@
 
 use super::Axis;
 use crate::Error;
-use crate::error::Mode;
 use crate::motion::{Path, PathPiece, RowError, Spline};
 use crate::stepper::Stepper;
 
@@ -13,10 +12,8 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// # Errors
     /// [`Error::WrongMode`] if the axis is not enabled.
     pub fn path(&self, spline: Spline) -> Result<Path, Error> {
-        match self.mode {
-            Mode::Enabled => self.generator.path(spline),
-            mode => Err(Error::WrongMode { mode }),
-        }
+        self.supervisor.check_enabled()?;
+        self.generator.path(spline)
     }
 
     /// Takes the rows of a path that were offered, as many as there is room for; true if that was
@@ -27,21 +24,18 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// # Errors
     /// As there; and of the axis' mode, as a row's error, if it is not enabled.
     pub fn advance(&mut self, path: &mut Path) -> Result<bool, RowError> {
-        if self.mode != Mode::Enabled {
-            return Err(path.row_error(Error::WrongMode { mode: self.mode }));
-        }
+        self.supervisor.check_enabled().map_err(|error| path.row_error(error))?;
         self.generator.advance(path)
     }
+
     /// Takes a piece of a path that [`Path::next_piece`] has planned; false if there is no room for
-    /// it yet. See [`Generator::take_piece`](crate::Generator::take_piece): [`Self::advance`] in two,
-    /// so that nothing is planned while the tick waits.
+    /// it yet. See [`Generator::take_piece`](crate::Generator::take_piece): [`Self::advance`] in
+    /// two, so that nothing is planned while the tick waits.
     ///
     /// # Errors
     /// As there; and of the axis' mode, as a row's error, if it is not enabled.
     pub fn take_piece(&mut self, path: &mut Path, piece: &PathPiece) -> Result<bool, RowError> {
-        if self.mode != Mode::Enabled {
-            return Err(path.row_error(Error::WrongMode { mode: self.mode }));
-        }
+        self.supervisor.check_enabled().map_err(|error| path.row_error(error))?;
         self.generator.take_piece(path, piece)
     }
 }
