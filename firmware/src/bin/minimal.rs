@@ -45,15 +45,32 @@ impl Visitor for Chosen {
     }
 }
 
-/// Set-up, and the paper's move of member B. A board would write each setpoint to its drive.
-#[inline(never)]
-fn one_move<M: Method>() -> Option<()> {
+/// The paper's member B with 30 g, of which the compiler knows nothing.
+#[inline(always)]
+fn scene() -> UniformScene {
     let mut scene = black_box(UniformScene::uniform(Link {
         length: 0.4,
         mass: 0.01904,
         bending_stiffness: 0.042656,
     }));
     scene.payload.mass = 0.030;
+    scene
+}
+
+/// The arm in elastica, for the moves that a planner makes.
+#[inline(always)]
+fn arm<const QUEUE: usize>(
+    scene: &UniformScene,
+) -> Result<Generator<Elastica<f32, 2>, QUEUE>, Error> {
+    let rod = Rod::<2>::new(scene)?;
+    let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fast, rod.bend(10.0))?;
+    Generator::new(stepper, 0.0)
+}
+
+/// Set-up, and the paper's move of member B. A board would write each setpoint to its drive.
+#[inline(never)]
+fn one_move<M: Method>() -> Option<()> {
+    let scene = scene();
     let mut arm = Generator::<_, 2>::new(M::stepper(&scene, 0.010).ok()?, 0.0).ok()?;
     // The profile is known, so that only it is planned; duration and angle are not.
     let (duration, to) = black_box((2.0, core::f64::consts::PI));
@@ -68,15 +85,8 @@ fn one_move<M: Method>() -> Option<()> {
 /// The same with a still move, planned here.
 #[inline(never)]
 fn one_still_move() -> Result<(), Error> {
-    let mut scene = black_box(UniformScene::uniform(Link {
-        length: 0.4,
-        mass: 0.01904,
-        bending_stiffness: 0.042656,
-    }));
-    scene.payload.mass = 0.030;
-    let rod = Rod::<2>::new(&scene)?;
-    let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fast, rod.bend(10.0))?;
-    let mut arm = Generator::<_, 2>::new(stepper, 0.0)?;
+    let scene = scene();
+    let mut arm = arm::<2>(&scene)?;
     let planner = Planner::<f32, 2>::new(&scene, 0.010)?;
     let request = Request::from_rest(0.0, black_box(core::f64::consts::PI)).duration(2.0);
     arm.push(&planner.plan(&request.any_deflection())?.plain())?;
@@ -89,15 +99,8 @@ fn one_still_move() -> Result<(), Error> {
 /// The same with the fastest move within an S-curve's limits, followed as a path.
 #[inline(never)]
 fn one_fastest_move() -> Result<(), Error> {
-    let mut scene = black_box(UniformScene::uniform(Link {
-        length: 0.4,
-        mass: 0.01904,
-        bending_stiffness: 0.042656,
-    }));
-    scene.payload.mass = 0.030;
-    let rod = Rod::<2>::new(&scene)?;
-    let stepper = Elastica::<f32, 2>::new(&rod, 0.010, Quality::Fast, rod.bend(10.0))?;
-    let mut arm = Generator::<_, 4>::new(stepper, 0.0)?;
+    let scene = scene();
+    let mut arm = arm::<4>(&scene)?;
     let planner = Planner::<f32, 2>::new(&scene, 0.010)?;
     let (to, acceleration, torque) = black_box((core::f64::consts::PI, 5.0, 0.06));
     let limits = Limits {
