@@ -45,7 +45,7 @@ pub(super) struct Case<'a, T, const K: usize> {
     pub length: f64,
     /// Residual that may be left; `None`: none.
     pub windows: Option<Windows>,
-    /// What is to be least where the duration is given.
+    /// Quantity to be least where the duration is given.
     pub least: Option<Least>,
     /// Torque by an acceleration of 1 rad/s² on the arm at rest, `J − Σb²`, kg m².
     bare: T,
@@ -53,7 +53,7 @@ pub(super) struct Case<'a, T, const K: usize> {
     inertia: f64,
 }
 
-/// What a move of a given duration keeps least.
+/// Quantity that a move of a given duration keeps least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Least {
     /// Peak of the acceleration.

@@ -51,7 +51,7 @@ impl Windows {
     }
 }
 
-/// What the simulated arms do in their windows.
+/// Vibration of the simulated arms in their windows.
 pub(super) struct Seen<T, const N: usize> {
     /// Amplitudes over what may be left, in the order of the rows.
     pub amplitudes: [T; N],

@@ -20,16 +20,18 @@ mod mode;
 mod nonlinear;
 mod numerical_damping;
 mod polynomial;
+mod quality;
 mod reach;
 mod stability_check;
+mod state;
 mod steps;
 
 pub use arm_state::ArmState;
-
-use core::fmt;
+pub use quality::Quality;
+pub use state::ElasticaState;
 
 use mode::Mode;
-use nonlinear::{Nonlinear, Value};
+use nonlinear::Nonlinear;
 use numerical_damping::NumericalDamping;
 
 use super::kicks::Kicks;
@@ -37,27 +39,9 @@ use super::oscillator::{check_turns, kick};
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Scalar, Words, dot, named, words};
+use crate::math::{Scalar, dot, words};
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
-
-/// Amount of work in a tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quality {
-    /// One evaluation of the remainder a tick.
-    Fast,
-    /// Two half-steps.
-    Fine,
-}
-
-impl fmt::Display for Quality {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Fast => "fast",
-            Self::Fine => "fine",
-        })
-    }
-}
 
 /// Geometrically exact inextensible rod in `K` modes, 1 to 3.
 ///
@@ -95,47 +79,6 @@ pub struct Elastica<T, const K: usize> {
     gravity: GravityDirection<T>,
     /// `φ(L)` per unit of `ωa`, rad.
     tip_slope: [T; K],
-}
-
-/// The arm's state; [`Elastica::arm_state`] says what it means.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ElasticaState<T, const K: usize> {
-    /// `(ωₖaₖ, p̃ₖ)` of each mode, m √kg/s.
-    y: [[T; 2]; K],
-    /// The offset from what each mode turns about, and how far that moved in the last step.
-    offset: [[T; 2]; K],
-    drift: [[T; 2]; K],
-    /// The hub torque but for what is proportional to θ̈, and the inertia that is, the hub's
-    /// included.
-    torque: T,
-    inertia: T,
-}
-
-impl<T: Scalar, const K: usize> ElasticaState<T, K> {
-    /// With offsets that do not drift.
-    fn at(y: [[T; 2]; K], value: Value<T, K>) -> Self {
-        let Value { offset, torque, inertia } = value;
-        Self { y, offset, drift: [[T::ZERO; 2]; K], torque, inertia }
-    }
-
-    /// From the prediction `guess` to the corrected state: `correct` is given the mode, its guess
-    /// and how much further than expected its offset drifted.
-    #[inline(always)]
-    fn follow(
-        &mut self,
-        guess: [[T; 2]; K],
-        value: Value<T, K>,
-        correct: impl Fn(usize, [T; 2], [T; 2]) -> [T; 2],
-    ) {
-        for k in 0..K {
-            let moved = [0, 1].map(|r| value.offset[k][r] - self.offset[k][r]);
-            self.y[k] = correct(k, guess[k], [0, 1].map(|r| moved[r] - self.drift[k][r]));
-            self.drift[k] = moved;
-        }
-        self.offset = value.offset;
-        self.torque = value.torque;
-        self.inertia = value.inertia;
-    }
 }
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
@@ -345,18 +288,6 @@ const HALVINGS: u32 = 16;
 
 /// Halvings of the distance to the equilibrium: f32's precision is reached after 24.
 const EQUILIBRIUM_STEPS: usize = 60;
-
-impl Words for Quality {
-    const LAYOUT: u32 = named("Quality");
-
-    fn put(&self, sink: &mut dyn FnMut(u32)) {
-        (*self == Self::Fine).put(sink);
-    }
-
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        if bool::get(source) { Self::Fine } else { Self::Fast }
-    }
-}
 
 words! {
     [T: Scalar, const K: usize] Elastica<T, K>: modes, nonlinear, per_tick, quarter,

@@ -95,8 +95,8 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         state.follow(guess, value, |k, y, excess| self.modes[k].correct(y, excess));
     }
 
-    /// Advances by a step without damping and gravity in which the hub's acceleration gains `gained`
-    /// in a straight line. The hub's rate at its end is `rate`.
+    /// Advances by a step without damping and gravity in which the hub's acceleration gains
+    /// `gained` in a straight line. The hub's rate at its end is `rate`.
     #[inline(always)]
     fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gained: T, rate: T) {
         let ElasticaState { y, offset, drift, .. } = state;

@@ -1,0 +1,35 @@
+//! How finely a tick is made.
+
+use core::fmt;
+
+use crate::math::{Words, named};
+
+/// Amount of work in a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quality {
+    /// One evaluation of the remainder a tick.
+    Fast,
+    /// Two half-steps.
+    Fine,
+}
+
+impl fmt::Display for Quality {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fast => "fast",
+            Self::Fine => "fine",
+        })
+    }
+}
+
+impl Words for Quality {
+    const LAYOUT: u32 = named("Quality");
+
+    fn put(&self, sink: &mut dyn FnMut(u32)) {
+        (*self == Self::Fine).put(sink);
+    }
+
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        if bool::get(source) { Self::Fine } else { Self::Fast }
+    }
+}
