@@ -25,7 +25,7 @@ pub struct Page {
     source: Source,
 }
 
-/// What is computed for a page.
+/// Results that are computed for a page.
 struct Computed {
     blocks: Vec<Block>,
     /// Pictures that cost nothing beside the blocks: the name beside the page, and the SVG.

@@ -11,8 +11,8 @@ use stillbeam_sim::println;
 
 #[derive(clap::Args)]
 pub struct GentleArgs {
-    /// A page with <!-- lab:fastest-robust -->, <!-- lab:fastest-within --> and <!-- lab:gentlest -->
-    /// to be filled
+    /// A page with <!-- lab:fastest-robust -->, <!-- lab:fastest-within --> and <!-- lab:gentlest
+    /// --> to be filled
     #[arg(value_name = "still.md")]
     page: Option<PathBuf>,
 }

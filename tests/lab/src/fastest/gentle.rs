@@ -1,5 +1,5 @@
-//! What moves with a piecewise-linear acceleration do beside being short: for arms known to a range,
-//! with a residual that may be left, and in a given duration.
+//! Moves with a piecewise-linear acceleration for arms known to a range, with a residual that may
+//! be left, and in a given duration.
 
 use std::f64::consts::PI;
 

@@ -4,14 +4,15 @@ use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::model::Rod;
 use stillbeam::motion::{Segment, Spline};
-use stillbeam::planner::{FastestMove, Planner, Request, StillMove, Target};
-use stillbeam::stepper::{ArmState, Elastica, Quality};
-use stillbeam::{Damping, Generator, HubState, Limits, Profile, Scene};
+use stillbeam::planner::{FastestMove, Planner, Request, Target};
+use stillbeam::stepper::{Elastica, Quality};
+use stillbeam::{Damping, Generator, Limits, Profile, Scene};
 use stillbeam_sim::error::Error;
 
 use crate::campaign;
 use crate::random;
-use crate::still::campaign::{Refusals, arm, kind, tick};
+use crate::still::campaign::{arm, tick};
+use crate::still::interruption::{ahead, finer, kind, refusals, residual};
 
 /// Knots of the acceleration in half of a move, as on a target.
 const KNOTS: usize = 12;
@@ -19,7 +20,7 @@ const KNOTS: usize = 12;
 /// Instants within a tick at which the limits are looked at.
 const LOOKS: u32 = 8;
 
-/// What the drive may do beyond what the first move may: a curve that leaves it while it holds a
+/// Factor of the drive's limits over the first move's: a curve that leaves it while it holds a
 /// limit has to go on with the same acceleration for a moment.
 const ROOM: f64 = 1.25;
 
@@ -111,26 +112,18 @@ impl Case {
             }
             generator.tick();
         }
-        // The plan begins three ticks from now.
-        let mut ahead = generator.clone();
-        for _ in 0..3 {
-            ahead.tick();
-        }
-        let hub = *ahead.hub();
-        let flex = ahead.stepper().arm_state(ahead.state(), &hub);
-        self.change(&mut generator, hub, flex, target, &limits, before)
+        self.change(&mut generator, target, &limits, before)
     }
 
     /// Breaks the motion off three ticks from now and judges what follows.
     fn change(
         &self,
         generator: &mut Generator<Elastica<f32, 2>, 8>,
-        hub: HubState<f32>,
-        flex: ArmState<f32, 2>,
         target: Option<f64>,
         limits: &Limits,
         before: f64,
     ) -> Result<Result<Outcome, &'static str>, Error> {
+        let (hub, flex) = ahead(generator);
         let rate = limits.rate.map(|rate| ROOM * rate);
         let acceleration = limits.acceleration.map(|acceleration| ROOM * acceleration);
         let drive = Limits { rate, acceleration, ..Limits::default() };
@@ -145,23 +138,19 @@ impl Case {
         }
         let curves = [Some(course.first), course.then].into_iter().flatten();
         let curves: Vec<_> = curves.map(|plan| finer(&plan, LOOKS).segment()).collect();
-        let wide =
-            ArmState { coordinate: flex.coordinate.map(f64::from), rate: flex.rate.map(f64::from) };
         let length = self.arm.link.length;
-        let left = |plan: &StillMove, flex| self.fine.predict(&finer(plan, 3), flex).residual;
-        let after = course.then.map_or(0.0, |then| left(&then, None));
         Ok(Ok(Outcome {
             before,
             behind: excess(&drive, curves.iter()),
             stated: course.predict(&self.planner, Some(&flex)).residual / length,
-            residual: (left(&course.first, Some(&wide)) + after) / length,
+            residual: residual(&self.fine, &course, &flex) / length,
             by_way_of_rest: course.then.is_some(),
         }))
     }
 }
 
-/// Largest part of a limit of rate or acceleration by which a fastest move exceeds it anywhere, from
-/// its rows alone: between two of them the acceleration is a straight line.
+/// Largest part of a limit of rate or acceleration by which a fastest move exceeds it anywhere,
+/// from its rows alone: between two of them the acceleration is a straight line.
 fn excess_of_rows(limits: &Limits, fastest: &FastestMove<KNOTS>) -> f64 {
     let mut most = f64::NEG_INFINITY;
     let mut see = |value: f64, limit: Option<f64>| {
@@ -186,11 +175,6 @@ fn excess_of_rows(limits: &Limits, fastest: &FastestMove<KNOTS>) -> f64 {
     most
 }
 
-/// The same curve with `parts` times as many ticks.
-fn finer(plan: &StillMove, parts: u32) -> StillMove {
-    StillMove { ticks: parts * plan.ticks, tick: plan.tick / f64::from(parts), ..*plan }
-}
-
 /// Largest part of a limit of rate or acceleration by which curves exceed it at their ticks.
 fn excess<'a>(limits: &Limits, curves: impl Iterator<Item = &'a Segment<f64>>) -> f64 {
     let mut most = f64::NEG_INFINITY;
@@ -210,11 +194,6 @@ fn excess<'a>(limits: &Limits, curves: impl Iterator<Item = &'a Segment<f64>>) -
 
 /// Writes the results of interruptions of fastest moves, drawn with that seed.
 pub fn page(seed: u64, all: &Interruptions) -> String {
-    let mut refusals = Refusals::new();
-    for reason in all.iter().filter_map(|one| one.as_ref().err()) {
-        *refusals.entry(reason).or_default() += 1;
-    }
-    let refused: Vec<String> = refusals.iter().map(|(kind, n)| format!("{kind} {n}")).collect();
     let outcomes: Vec<_> = all.iter().filter_map(|one| one.ok()).collect();
     let most = |of: fn(&Outcome) -> f64| outcomes.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
     let mut left: Vec<f64> = outcomes.iter().map(|one| 100.0 * one.residual).collect();
@@ -232,7 +211,7 @@ pub fn page(seed: u64, all: &Interruptions) -> String {
         all.len(),
         outcomes.len(),
         outcomes.iter().filter(|one| one.by_way_of_rest).count(),
-        if refused.is_empty() { "none".into() } else { refused.join(", ") },
+        refusals(all.iter().filter_map(|one| one.as_ref().err())),
         most(|one| one.before),
         most(|one| one.behind),
         quantile(0.5),

@@ -247,7 +247,6 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Sends a command over a line without faults.
     /// Lets the drive say that it is well, where an altered frame may have said otherwise.
     fn well(&mut self, on: bool) {
         let heartbeat = self.drive.heartbeat(self.board.node(), on);
@@ -256,6 +255,7 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Sends a command over a line without faults.
     fn send(&mut self, command: Command) {
         let mut frame = [0; MAX];
         // Every request fits.

@@ -1,24 +1,18 @@
 //! Still moves by the thousand: random arms from rest to rest, and random interruptions.
 
-use std::collections::BTreeMap;
-
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::model::Rod;
-use stillbeam::planner::{Kinematics, Planner, Request, StillMove, Target};
+use stillbeam::planner::{Kinematics, Planner, Request, Target};
 use stillbeam::scene::Varied;
-use stillbeam::stepper::{ArmState, Elastica, Quality};
-use stillbeam::{
-    Damping, Error as CoreError, Generator, Hub, Limits, Link, Mount, Move, Payload, Profile, Scene,
-};
+use stillbeam::stepper::{Elastica, Quality};
+use stillbeam::{Damping, Generator, Hub, Limits, Link, Mount, Move, Payload, Profile, Scene};
 
+use super::interruption::{self, kind};
 use crate::campaign;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::plan::judge::Motion;
 use stillbeam_sim::reference::rod;
-
-/// Number of refusals by their kind.
-pub type Refusals = BTreeMap<&'static str, usize>;
 
 /// Draws a random arm: first period 0.1 to 2 s, payload to four link masses, hub radius to 0.3 L.
 /// Half of the arms are damped, a third are under gravity that bends them by at most 5 % of L.
@@ -54,16 +48,6 @@ pub(crate) fn arm(rng: &mut StdRng) -> Scene {
 /// Returns the setpoint interval: 10 ms, or a twentieth of a first period if that is less.
 pub(crate) fn tick(arm: &Scene) -> Result<f64, Error> {
     Ok(f64::min(0.01, rod::first_period(arm)? / 20.0))
-}
-
-pub(crate) fn kind(error: &CoreError) -> &'static str {
-    match error {
-        CoreError::TooShort { .. } => "too short",
-        CoreError::NotStill { .. } => "rings on",
-        CoreError::DeflectsTooFar { .. } | CoreError::BendsTooFar { .. } => "bends too far",
-        CoreError::LimitExceeded { parameter, .. } => parameter,
-        _ => "other",
-    }
 }
 
 /// One move from rest to rest.
@@ -203,13 +187,7 @@ impl Case {
         for _ in 0..=when {
             generator.tick();
         }
-        // The plan begins three ticks from now.
-        let mut ahead = generator.clone();
-        for _ in 0..3 {
-            ahead.tick();
-        }
-        let hub = *ahead.hub();
-        let flex = ahead.stepper().arm_state(ahead.state(), &hub);
+        let (hub, flex) = interruption::ahead(&generator);
         let (planner, target) = match rng.random_range(0..3) {
             0 => (0, Some(rng.random_range(-3.0..3.0))),
             // A stop, wherever that is.
@@ -243,15 +221,8 @@ impl Case {
             let over = |value: f32, limit: f64| f64::from(value).abs() / limit - 1.0;
             excess = excess.max(over(hub.rate, rate)).max(over(hub.acceleration, acceleration));
         }
-        let wide =
-            ArmState { coordinate: flex.coordinate.map(f64::from), rate: flex.rate.map(f64::from) };
         let length = self.arm.link.length;
-        // What the first of two moves leaves goes on through the second.
-        let left = |plan: StillMove, flex| {
-            let finer = StillMove { ticks: 3 * plan.ticks, tick: self.tick / 3.0, ..plan };
-            self.fine[planner].predict(&finer, flex).residual / length
-        };
-        let residual = left(course.first, Some(&wide)) + course.then.map_or(0.0, |t| left(t, None));
+        let residual = interruption::residual(&self.fine[planner], &course, &flex) / length;
         let stated = course.predict(plans, Some(&flex)).residual / length;
         let by_way_of_rest = course.then.is_some();
         Ok(Interruption { outcome: Ok(Outcome { excess, stated, residual, by_way_of_rest }) })

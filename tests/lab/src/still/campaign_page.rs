@@ -1,6 +1,7 @@
 //! The blocks of `docs/still.md` that the campaign writes.
 
-use super::campaign::{Interruption, Outcome, Refusals, Rest};
+use super::campaign::{Interruption, Outcome, Rest};
+use super::interruption::refusals;
 use crate::markers::Block;
 use crate::table::quantile;
 
@@ -25,15 +26,6 @@ pub fn blocks(seed: u64, rests: &[Rest], interruptions: &[Interruption]) -> [Blo
 /// Returns a quantile for a table; not a number if there is none.
 fn figure(sorted: &[f64], share: f64) -> f64 {
     quantile(sorted, share).unwrap_or(f64::NAN)
-}
-
-fn refusals<'a>(kinds: impl Iterator<Item = &'a &'static str>) -> String {
-    let mut counts = Refusals::new();
-    for kind in kinds {
-        *counts.entry(kind).or_default() += 1;
-    }
-    let words: Vec<String> = counts.iter().map(|(kind, n)| format!("{kind} {n}")).collect();
-    if words.is_empty() { "none".into() } else { words.join(", ") }
 }
 
 fn of_rests(seed: u64, all: &[Rest]) -> String {

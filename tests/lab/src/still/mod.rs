@@ -4,3 +4,4 @@ pub mod campaign;
 pub mod campaign_page;
 pub mod document;
 pub mod duration;
+pub mod interruption;
