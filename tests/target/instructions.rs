@@ -1,4 +1,4 @@
-//! What ticks cost on the target: against the table, within a path, from path to path.
+//! Costs of ticks on the target: against the table, within a path, from path to path.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;

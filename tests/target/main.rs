@@ -1,4 +1,4 @@
-//! What is built for the target, and run in QEMU where there is a board for it. One program, so
+//! Images for the target, run in QEMU where there is a board for them. One program, so
 //! that an image that several tests need is built once.
 
 mod application;
@@ -14,3 +14,4 @@ mod no_panic;
 mod paths;
 mod portability;
 mod record;
+mod session;

@@ -7,17 +7,14 @@ use stillbeam::Scene;
 use stillbeam::axis::Mode;
 use stillbeam_protocol::Command;
 use stillbeam_sim::identify::{Identified, Request};
-use stillbeam_sim::talk::{self, Answer, Excitation, Machine, Recording, Session};
-use stillbeam_tests::{assert_near, firmware, root};
+use stillbeam_sim::talk::{self, Answer, Excitation, Recording, Session};
+use stillbeam_tests::{assert_near, root};
 
-/// What the stand-in's sensor of axis 1 shows: natural frequency, Hz, and damping ratio.
+use crate::session::begin;
+
+/// Arm behind the stand-in's sensor of axis 1: natural frequency, Hz, and damping ratio.
 const FREQUENCY: f64 = 2.84;
 const DAMPING_RATIO: f64 = 0.011;
-
-fn begin() -> Session {
-    let image = firmware::application("mps2").unwrap_or_else(|error| panic!("{error}"));
-    Machine::emulate(&image).and_then(Session::begin).unwrap_or_else(|error| panic!("{error}"))
-}
 
 fn record(session: &mut Session, excitation: Excitation) -> Recording {
     talk::record(session, 1, excitation, None).unwrap_or_else(|error| panic!("{error}"))
@@ -40,7 +37,7 @@ fn identify(session: &Session, recording: &Recording, name: &str) -> Identified 
 #[test]
 fn a_log_of_the_board_tells_the_arm_that_its_sensor_shows() {
     for (excitation, name) in [(Excitation::Cubic, "cubic.csv"), (Excitation::Sweep, "sweep.csv")] {
-        let mut session = begin();
+        let mut session = begin("mps2");
         let recording = record(&mut session, excitation);
         let Identified { report, .. } = identify(&session, &recording, name);
         println!("{name}: {} samples, {report:#?}", recording.samples.len());
@@ -62,7 +59,7 @@ fn a_log_of_the_board_tells_the_arm_that_its_sensor_shows() {
 /// drive's, which follows the setpoints, and times are those of the ticks.
 #[test]
 fn every_tick_of_the_motion_is_in_the_log() {
-    let mut session = begin();
+    let mut session = begin("mps2");
     let recording = record(&mut session, Excitation::Cubic);
     assert_eq!((recording.column.as_str(), recording.lost), ("tip_deflection_m", 0));
     for (k, sample) in recording.samples.iter().enumerate() {
@@ -83,10 +80,10 @@ fn every_tick_of_the_motion_is_in_the_log() {
     assert_eq!(session.drive_is_on(1), Some(false), "it is switched off again");
 }
 
-/// What is refused is refused before the arm moves, and names what it must be.
+/// A refusal comes before the arm moves, and names what it must be.
 #[test]
 fn a_recording_that_cannot_be_made_is_refused_before_the_arm_moves() {
-    let mut session = begin();
+    let mut session = begin("mps2");
     let mut refuse = |axis, turn| {
         let refused = talk::record(&mut session, axis, Excitation::Cubic, Some(turn));
         refused.expect_err("it cannot be made").to_string()
@@ -100,7 +97,7 @@ fn a_recording_that_cannot_be_made_is_refused_before_the_arm_moves() {
 /// A host that is gone ends its recording: the board sends no rows to nobody.
 #[test]
 fn a_lost_link_ends_the_recording() {
-    let mut session = begin();
+    let mut session = begin("mps2");
     let ask = |session: &mut Session, command| session.ask(0, command).expect("an answer");
     assert!(matches!(ask(&mut session, Command::Enable), Answer::Accepted(_)));
     let begun = ask(&mut session, Command::Record(true));
