@@ -1,4 +1,4 @@
-//! What crosses crates and runs on this machine. One program: seven would each be linked, and their
+//! Tests across crates that run on this machine. One program: seven would each be linked, and their
 //! long tests would run one after the other.
 
 mod drive;

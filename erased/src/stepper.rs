@@ -27,7 +27,7 @@ impl<S> Erasable for S where
 pub struct Shaped<'a> {
     /// The segments of rest-to-rest moves, at least one.
     pub segments: &'a [Segment<f64>],
-    /// What they pass through.
+    /// The shaper in front of the arm.
     pub shaper: &'a Shaper,
 }
 

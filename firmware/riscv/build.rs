@@ -1,4 +1,5 @@
-//! Link arguments and the memory of QEMU's machine `virt`, which the workspace's `memory.x` takes in.
+//! Link arguments and the memory of QEMU's machine `virt`, which the workspace's `memory.x` takes
+//! in.
 
 use std::path::Path;
 use std::{env, fs};

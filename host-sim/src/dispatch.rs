@@ -16,7 +16,7 @@ pub use auto::{assess, assess_rung, choose, choose_with};
 /// Sets up the stepper that `solver` asks for. `auto` chooses first, see [`choose`].
 ///
 /// # Errors
-/// What there is no stepper for, and what a set-up refuses.
+/// A method for which there is no stepper, and errors of a set-up.
 pub fn stepper(scene: &SceneFile, solver: &Solver) -> Result<Box<dyn AnyStepper>, Error> {
     set_up(scene, solver, &spec(scene, solver, None, None)?)
 }

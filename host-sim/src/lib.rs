@@ -8,7 +8,8 @@
 //!
 //! Reference solutions ([`mod@reference`], as tables [`truth`]) judge the core. The paper's figures
 //! are computed in [`study`], moves that arrive still in [`mod@plan`]. [`report`] and [`plot`] show
-//! both, [`animation`] shows an arm as it moves. Campaigns and the pages of `docs/` are the lab's (`tests/lab`).
+//! both, [`animation`] shows an arm as it moves. Campaigns and the pages of `docs/` are the lab's
+//! (`tests/lab`).
 //!
 //! `talk` runs beside the firmware, in QEMU or on a board, and compares what it sends.
 

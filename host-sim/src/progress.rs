@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 pub use indicatif::ProgressBar;
 use indicatif::ProgressStyle;
 
-/// Creates a bar over `steps` steps. It shows at once, with the time that has passed: the first step
-/// may be a long one.
+/// Creates a bar over `steps` steps. It shows at once, with the time that has passed: the first
+/// step may be a long one.
 pub fn bar(what: &str, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(what.to_owned());
     if let Ok(style) =

@@ -8,9 +8,9 @@
 //!
 //! The firmware answers every request with one report that carries the request's sequence number.
 //! Moves, rows of paths and payloads are answered once they are planned, in the order in which they
-//! came; every other request is at once, even while a move is being planned. In between the firmware sends, for
-//! every tick and axis, the setpoint ([`Report::Tick`]), and of an axis that is recorded a
-//! [`Report::Sample`].
+//! came; every other request is at once, even while a move is being planned. In between the
+//! firmware sends, for every tick and axis, the setpoint ([`Report::Tick`]), and of an axis that is
+//! recorded a [`Report::Sample`].
 //!
 //! [`slcan`] is the text form of CAN frames, for a bus that is captured.
 

@@ -117,7 +117,8 @@ pub enum Report<'a> {
         sequence: u16,
         /// Number of the tick after it, which is the first that is recorded.
         tick: u32,
-        /// What the sensor measures, its unit at the end: a column of a log, `tip_deflection_m`.
+        /// Quantity of the sensor with its unit at the end, the column of a log:
+        /// `tip_deflection_m`.
         column: &'a str,
     },
     /// A tick of a recording.

@@ -1,4 +1,4 @@
-//! What a user may ask of the firmware in words.
+//! Requests to the firmware in words.
 
 use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::{Payload, PlainMove, Profile};

@@ -109,9 +109,10 @@ fn ticks_follow_every_feature_as_they_do_the_plain_arm() {
             plain.payload = Payload { offset: 0.0, ..arm.payload };
             let (plain, error) = (error(&with(&file, plain)), error(&with(&file, arm)));
             println!("{name}, {feature}: {error:.1e}, plain {plain:.1e}");
-            // An offset of 0.1 L makes up to 2.9 times the error, which a third mode takes away (2.2e-5
-            // in place of 8.4e-5 in a-tip30); sections up to 2.3 times, which half-steps take away
-            // (2.0e-5 in place of 5.9e-5). Several features at once half the stiffness and less.
+            // An offset of 0.1 L makes up to 2.9 times the error, which a third mode takes away
+            // (2.2e-5 in place of 8.4e-5 in a-tip30); sections up to 2.3 times, which half-steps
+            // take away (2.0e-5 in place of 5.9e-5). Several features at once half the stiffness
+            // and less.
             let bound = match feature {
                 _ if arm.damping.joint > 0.0 => 1.4e-3,
                 "all" => 1.2e-3,

@@ -185,8 +185,8 @@ fn a_limit_may_make_blended_moves_stop() {
     }
 }
 
-/// What a path's first and last rows say of the acceleration is commanded, and goes over into the
-/// path behind it.
+/// Accelerations in a path's first and last rows are commanded, and go over into the path behind
+/// it.
 #[test]
 fn a_path_begins_and_ends_with_its_accelerations() {
     let moves = "[[moves]]\nwaypoints = [[0.0, 0.0, 0.0, 5.0], [0.2, 0.3, 2.0, 7.0]]\n\

@@ -43,8 +43,8 @@ fn as_samples() -> Options {
     Options { taking: Some(Taking::Samples), ..Options::default() }
 }
 
-/// A cubic's acceleration jumps where the move begins and ends: the part between two rests is fitted
-/// by itself, with any acceleration at its ends.
+/// A cubic's acceleration jumps where the move begins and ends: the part between two rests is
+/// fitted by itself, with any acceleration at its ends.
 #[test]
 fn samples_of_a_scene_command_it_again() {
     for name in TRUTH_SCENES {

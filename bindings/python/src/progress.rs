@@ -27,7 +27,7 @@ pub struct Progress {
     stopped: AtomicBool,
 }
 
-/// What work that is stopped unwinds with.
+/// Payload of the unwinding of work that is stopped.
 struct Stopped;
 
 impl Progress {

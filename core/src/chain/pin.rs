@@ -16,7 +16,7 @@ pub(super) struct Pinned<T, const LINKS: usize, const W: usize> {
     answers: [Values<T, LINKS, W>; 3],
     /// `G(LDLᵀ)⁻¹Gᵀ`, entries xx, xy and yy.
     pub end: [Complex<T>; 3],
-    /// What the right side moves the end by.
+    /// Way of the end by the right side.
     moved: [Complex<T>; 2],
 }
 
@@ -80,7 +80,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize> Pinned<T, LINKS, W> {
         velocity
     }
 
-    /// What a force at the end takes of the torque of joint `j`.
+    /// Torque of joint `j` against a force at the end.
     #[inline(always)]
     pub fn torque(&self, j: usize, force: &Vector<T>) -> T {
         let [x, y] = self.moves[j][0];

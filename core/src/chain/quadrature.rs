@@ -1,7 +1,7 @@
 //! The Gauss-Legendre points of a link, and the integrals along it that do not change.
 
-/// Distance of the points of the rule of `Q` points from the middle of −1..1, and their weights, from
-/// the middle outwards.
+/// Distance of the points of the rule of `Q` points from the middle of −1..1, and their weights,
+/// from the middle outwards.
 const THREE: [(f64, f64); 2] = [(0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 const FIVE: [(f64, f64); 3] = [
     (0.0, 128.0 / 225.0),

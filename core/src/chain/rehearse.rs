@@ -48,8 +48,8 @@ impl<
     /// # Errors
     /// [`Error::TickTooLong`] if the tick does not resolve what the chain does,
     /// [`Error::DeflectsTooFar`] if two curvature coordinates do not follow a link's shape,
-    /// [`Error::LeavesPin`] if a loop is to go beyond its reach, [`Error::StraightLoop`] if it comes
-    /// to lie in one line, [`Error::Moving`] during a stop.
+    /// [`Error::LeavesPin`] if a loop is to go beyond its reach, [`Error::StraightLoop`] if it
+    /// comes to lie in one line, [`Error::Moving`] during a stop.
     pub fn rehearse(&self, ticks: u32) -> Result<Rehearsal<LINKS>, Error> {
         if self.stop.is_some() {
             return Err(Error::Moving);

@@ -138,8 +138,8 @@ where
         }
     }
 
-    /// Keeps a state finite, and returns true if it was. One comparison of a sum, as no state that a
-    /// move makes is near.
+    /// Keeps a state finite, and returns true if it was. One comparison of a sum, as no state that
+    /// a move makes is near.
     #[inline(always)]
     fn bound<const FROM: usize>(&self, state: &mut ChainState<T, LINKS, W>) -> bool {
         let (mut rates, mut kicks, mut bends) = (T::ZERO, T::ZERO, T::ZERO);

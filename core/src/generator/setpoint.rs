@@ -1,4 +1,4 @@
-//! What a tick returns.
+//! Result of a tick.
 
 use crate::hub::Angle;
 use crate::math::Scalar;

@@ -64,12 +64,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Takes a piece that [`Path::next_piece`] has planned. False if there is no room for it yet:
     /// it stays as it is, to be taken later.
     ///
-    /// What [`Self::advance`] does in one, in two: the plan runs beside the ticks, and only its
-    /// result is handed over between two of them. The bits are the same.
+    /// [`Self::advance`] in two parts: the plan runs beside the ticks, and only its result is
+    /// handed over between two of them. The bits are the same.
     ///
     /// # Errors
-    /// [`Error::Starved`] and [`Error::Stale`] as of [`Self::feed`], the latter also of a piece that
-    /// is not the path's next, and what the stepper refuses.
+    /// [`Error::Starved`] and [`Error::Stale`] as of [`Self::feed`], the latter also of a piece
+    /// that is not the path's next, and what the stepper refuses.
     pub fn take_piece(&mut self, path: &mut Path, next: &PathPiece) -> Result<bool, RowError> {
         let joins = if path.is_next(next) { self.joins(path) } else { Err(Error::Stale) };
         joins.map_err(|error| path.row_error(error))?;

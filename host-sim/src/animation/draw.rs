@@ -44,7 +44,7 @@ const STYLE: &str = "<style>.moving-paper{fill:#fff}.moving-ink{stroke:#222;fill
     @media(prefers-reduced-motion:reduce){.moving-live{display:none}.moving-pose{opacity:.6}\
     .steered .moving-live{display:inline}.steered .moving-pose{opacity:.25}}</style>";
 
-/// What all panels of a picture share.
+/// Data that all panels of a picture share.
 struct Stage<'a> {
     animation: &'a Animation,
     view: View,

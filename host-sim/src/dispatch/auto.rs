@@ -1,4 +1,4 @@
-//! What `auto` chooses for a scene, and the errors to expect of a method.
+//! The choice of `auto` for a scene, and the errors to expect of a method.
 
 use stillbeam::motion::{Commanded, Moves, Pulse, Shaper};
 use stillbeam::select::{self, Assessment, Choice, NoChoice, Rung, Tolerance};

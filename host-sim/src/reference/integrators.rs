@@ -4,8 +4,8 @@ use differential_equations::methods::{DiagonallyImplicitRungeKutta, ExplicitRung
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::traits::State;
 
-/// Dormand and Prince's method of order 8 with that tolerance, relative and absolute. Its first step
-/// is `first` s; 0 leaves it to the method.
+/// Dormand and Prince's method of order 8 with that tolerance, relative and absolute. Its first
+/// step is `first` s; 0 leaves it to the method.
 pub(crate) fn explicit<Y: State<f64>>(
     tolerance: f64,
     first: f64,

@@ -1,8 +1,8 @@
 //! Rests among samples, and the parts in between, in which the hub moves.
 //!
-//! A spline whose acceleration is continuous rounds off one that jumps, over a few knots. Most jumps
-//! are where a motion begins or ends. Between two rests the motion is a spline of its own, whose
-//! ends are at rest and whose acceleration is free there.
+//! A spline whose acceleration is continuous rounds off one that jumps, over a few knots. Most
+//! jumps are where a motion begins or ends. Between two rests the motion is a spline of its own,
+//! whose ends are at rest and whose acceleration is free there.
 
 use super::Part;
 use super::spline::Knots;

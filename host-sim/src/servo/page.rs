@@ -42,9 +42,8 @@ pub fn cells(outcome: &Outcome) -> Vec<String> {
     ]
 }
 
-/// Writes `index.html`, its pictures, the one that moves (`moving.svg`) among them, and `drive.csv`,
-/// the hub's errors over time, into a folder.
-/// Returns the page's path.
+/// Writes `index.html`, its pictures, the one that moves (`moving.svg`) among them, and
+/// `drive.csv`, the hub's errors over time, into a folder. Returns the page's path.
 ///
 /// # Errors
 /// A path that cannot be written.

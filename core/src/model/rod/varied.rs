@@ -2,7 +2,7 @@
 //!
 //! Unknowns are the coefficients of the bending moment, polynomials in `x`: the angles
 //! `φⱼ = ∫P_j/e dξ`, `e` being `EI` over the link's, have the kinks that the sections give them.
-//! What is integrated over the link goes by its values at eight points, as on a uniform one. They
+//! Integrals over the link go by values at eight points, as on a uniform one. They
 //! lie at Gauss's places in `s = ∫dξ/e`, in which the angle changes evenly. Between them values are
 //! interpolated in the space of a constant, the angles, and higher polynomials in `s`: in it the
 //! linear arm is exact.

@@ -40,8 +40,8 @@ pub(crate) struct Rest {
 
 impl Path {
     /// Plans the piece up to the first row that waits, if that and its rate are known: with the
-    /// window full, the path closed, or a rate given. [`Axis::take_piece`](crate::axis::Axis::take_piece)
-    /// takes it.
+    /// window full, the path closed, or a rate given.
+    /// [`Axis::take_piece`](crate::axis::Axis::take_piece) takes it.
     ///
     /// It plans in f64, some ten thousand instructions without a unit for that, and needs nothing
     /// but the path: fit for a low priority, with the ticks going on.

@@ -54,10 +54,10 @@ impl<T: Scalar> Braking<T> {
     /// `θ̇(s) = (1 − s)²[v + s(2v + aT)]`, `s = t/T`: from rate `v` and acceleration `a` to rest
     /// with no acceleration, never turning back. With `β = 6v/T` its peak is `(2a + β)²/4(3a + β)`,
     /// so `T = 1.5 v/A` while slowing down and at most 2.12 v/A while speeding up by `A` stays
-    /// within the limit `A` of deceleration; the jerk limit stretches it. Where a hub that speeds up
-    /// would pass the limit of rate on its way, or speeds up by more than `2A`, its acceleration
-    /// drops to zero at once, as it jumps at the ends of a cubic.
-    /// Order of precedence: angle and rate without a step, acceleration, rate, jerk.
+    /// within the limit `A` of deceleration; the jerk limit stretches it. Where a hub that speeds
+    /// up would pass the limit of rate on its way, or speeds up by more than `2A`, its acceleration
+    /// drops to zero at once, as it jumps at the ends of a cubic. Order of precedence: angle and
+    /// rate without a step, acceleration, rate, jerk.
     pub(crate) fn stop(&self, hub: &HubState<T>) -> (Segment<T>, Angle<T>, T) {
         let (a, ticks) = self.begin(hub.rate, hub.acceleration);
         let (segment, end) = self.segment(hub, a, ticks);

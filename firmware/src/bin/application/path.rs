@@ -1,5 +1,5 @@
-//! Paths that come row by row, one an axis, planned at the lowest priority. With the feature `path`;
-//! what it takes stands in docs/firmware.md.
+//! Paths that come row by row, one an axis, planned at the lowest priority. With the feature
+//! `path`; what it takes stands in docs/firmware.md.
 
 #[cfg(feature = "path")]
 mod paths {
