@@ -223,7 +223,8 @@ fn a_loop_is_run_solved_compared_and_drawn() {
         assert_eq!(text.lines().count(), 42);
     }
     let page = fs::read_to_string(folder.path().join("run.html")).expect("page");
-    assert_eq!(page.matches("<svg").count(), 4);
+    assert_eq!(page.matches("<svg").count(), 5);
+    assert!(page.contains("unpauseAnimations"), "nothing moves");
     let compare =
         ["compare", "run.csv", "rod.csv", "--scene", "scene.toml", "--tolerance", "0.002"];
     let output = execute(folder.path(), LOOP, &compare);
@@ -232,6 +233,38 @@ fn a_loop_is_run_solved_compared_and_drawn() {
     assert!(text.contains("41 common times"), "{text}");
     let strict = ["compare", "run.csv", "rod.csv", "--scene", "scene.toml", "--tolerance", "0"];
     assert_eq!(execute(folder.path(), LOOP, &strict).status.code(), Some(1));
+}
+
+/// Without a file nothing is written, and a program reads the same figures.
+#[test]
+fn figures_are_for_people_and_for_programs() {
+    let folder = tempfile::tempdir().expect("folder");
+    for command in ["run", "reference"] {
+        let said = |args: &[&str]| {
+            let output = execute(folder.path(), LOOP, args);
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+            String::from_utf8(output.stdout).expect("text")
+        };
+        let plain = said(&[command, "scene.toml"]);
+        let json = said(&[command, "scene.toml", "--json"]);
+        let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        assert_eq!(json["rows"], 41);
+        let joints = json["joints"].as_array().expect("joints");
+        assert_eq!(joints.len(), 3);
+        let torque = joints[0]["peak_torque_nm"].as_f64().expect("a torque");
+        assert!(torque > 0.0 && plain.contains(&format!("peak torque {torque:.4} N m")), "{plain}");
+    }
+    let args = ["plan", "two-links", "--to", "1.0,1.3", "--out", "plan", "--json"];
+    let output = sim().current_dir(folder.path()).args(args).output().expect("program");
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert!(json["residual"].as_f64().expect("a residual") <= 2e-4, "{json}");
+    assert_eq!(json["peak_torque_nm"].as_array().expect("torques").len(), 2);
+    let output = execute(folder.path(), LOOP, &["run", "scene.toml", "--page", "out.html"]);
+    let text = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(text.contains("must be beside --csv"), "{text}");
+    let names = fs::read_dir(folder.path()).expect("folder").count();
+    assert_eq!(names, 2, "the scene and the plan");
 }
 
 /// Requests that the core's tick does not serve are refused before anything is written.

@@ -58,8 +58,9 @@ fn a_stiff_drive_leaves_what_the_planner_says() {
     // Its page shows the same: the arm that is still stays, the others swing on.
     let animation = moving::animation(&report);
     let swings = animation.panels.iter().map(|panel| {
-        let rest = panel.arms[0].poses.iter().rev().take(20).map(|pose| pose.deflection.abs());
-        rest.fold(0.0, f64::max) / animation.length
+        let rest = panel.arms[0].frames.iter().rev().take(20);
+        let swung = rest.map(|frame| frame.deflections[0].abs());
+        swung.fold(0.0, f64::max) / report.arm.link.length
     });
     let swings: Vec<f64> = swings.collect();
     assert!(swings[0] > 0.1 && swings[1] > 0.1 && swings[2] < 1e-3, "{swings:?}");

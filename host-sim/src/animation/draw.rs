@@ -4,9 +4,8 @@ use std::fmt::Write;
 
 use maud::html;
 
-use super::shape::centreline;
 use super::view::{View, WIDTH};
-use super::{Animation, Arm, Panel, Pose};
+use super::{Animation, Arm, Panel};
 use crate::number::Digits;
 
 /// Room for the words above the arms, px.
@@ -21,6 +20,9 @@ const MARGIN: f64 = 20.0;
 
 /// Poses that stay in the picture, beside the last one.
 const POSES: usize = 6;
+
+/// Lines of the deflections of the first link, the second and the third.
+const DASHES: [&str; 3] = ["", " stroke-dasharray=\"7 5\"", " stroke-dasharray=\"1 4\""];
 
 /// Colours in light and in dark, and what is shown to those who prefer reduced motion.
 const STYLE: &str = "<style>.moving-paper{fill:#fff}.moving-ink{stroke:#222;fill:#222}\
@@ -86,9 +88,8 @@ pub(super) fn parts(animation: &Animation) -> Vec<String> {
 
 impl<'a> Stage<'a> {
     fn of(animation: &'a Animation) -> Self {
-        let arms = animation.panels.iter().flat_map(|panel| &panel.arms);
-        let deflections = arms.flat_map(|arm| &arm.poses).map(|pose| pose.deflection.abs());
-        let most = deflections.fold(0.0, f64::max);
+        let deflections = animation.frames().flat_map(|frame| &frame.deflections);
+        let most = deflections.fold(0.0, |most: f64, deflection| most.max(deflection.abs()));
         let duration = animation.seconds * animation.slowness();
         Self { animation, view: View::of(animation), most, duration }
     }
@@ -112,7 +113,7 @@ impl<'a> Stage<'a> {
         self.words(text, panel);
         let _ = write!(text, "<g transform=\"translate(0 {HEAD})\">");
         let [x, y] = self.view.place([0.0, 0.0]);
-        if let Some([to_x, to_y]) = self.animation.goal_tip().map(|tip| self.view.place(tip)) {
+        if let Some([to_x, to_y]) = self.animation.goal.map(|tip| self.view.place(tip)) {
             let _ = write!(
                 text,
                 "<path class=\"moving-quiet\" stroke-dasharray=\"4 4\" \
@@ -146,16 +147,10 @@ impl<'a> Stage<'a> {
     /// are drawn over is wider, so that it is seen.
     fn arm(&self, text: &mut String, arm: &Arm, is_below: bool) {
         let (width, radius_of_dot) = if is_below { (8.0, 8.0) } else { (4.0, 6.0) };
-        let Animation { radius, length, .. } = *self.animation;
-        let Arm { poses, ink, .. } = arm;
-        let frames: Vec<Vec<[f64; 2]>> = poses
-            .iter()
-            .map(|pose| {
-                let points = centreline(pose, radius, length);
-                points.into_iter().map(|point| self.view.place(point)).collect()
-            })
-            .collect();
-        let class = ink.class();
+        let placed = |points: &[[f64; 2]]| points.iter().map(|&p| self.view.place(p)).collect();
+        let frames: Vec<Vec<[f64; 2]>> =
+            arm.frames.iter().map(|frame| placed(&frame.line)).collect();
+        let class = arm.ink.class();
         let last = frames.len().saturating_sub(1);
         for k in 0..=POSES {
             let Some(frame) = frames.get(last * k / POSES) else { continue };
@@ -170,10 +165,22 @@ impl<'a> Stage<'a> {
             text,
             "<path class=\"moving-line moving-trail {class}\" d=\"{trail}\"/>\
              <g class=\"moving-live\"><path class=\"moving-line {class}\" stroke-width=\"{width}\" \
-             d=\"{first}\">{}</path>{}</g>",
+             d=\"{first}\">{}</path>{}{}</g>",
             self.moves("d", &shapes.join(";")),
+            self.joints(arm),
             self.dot(radius_of_dot, class, &tips)
         );
+    }
+
+    /// Returns the joints behind the first, which move with their links.
+    fn joints(&self, arm: &Arm) -> String {
+        let count = arm.frames.first().map_or(0, |frame| frame.joints.len());
+        let joint = |j: usize| {
+            let places: Vec<[f64; 2]> =
+                arm.frames.iter().map(|frame| self.view.place(frame.joints[j])).collect();
+            self.dot(5.0, "moving-ink", &places)
+        };
+        (0..count).map(joint).collect()
     }
 
     /// Writes the deflections over time, all panels on one scale.
@@ -191,23 +198,32 @@ impl<'a> Stage<'a> {
             Digits::Three.show(animation.seconds),
             WIDTH - MARGIN
         );
-        for (index, Arm { poses, ink, .. }) in panel.arms.iter().enumerate() {
+        for (index, arm) in panel.arms.iter().enumerate() {
             let width = if panel.is_below(index) { 4.0 } else { 1.5 };
-            let last = poses.len().saturating_sub(1).max(1) as f64;
-            let scale = 0.5 * CURVES / self.most.max(f64::MIN_POSITIVE);
-            let place = |(k, pose): (usize, &Pose)| {
-                let x = MARGIN + (WIDTH - 2.0 * MARGIN) * k as f64 / last;
-                [x, middle - scale * pose.deflection]
-            };
-            let points: Vec<[f64; 2]> = poses.iter().enumerate().map(place).collect();
-            let (class, curve) = (ink.class(), path(&points));
-            let _ = write!(
-                text,
-                "<path class=\"moving-line {class}\" stroke-width=\"{width}\" d=\"{curve}\"/>\
-                 <g class=\"moving-live\">{}</g>",
-                self.dot(4.0, class, &points)
-            );
+            for link in 0..arm.frames.first().map_or(0, |frame| frame.deflections.len()) {
+                self.curve(text, arm, link, [middle, width]);
+            }
         }
+    }
+
+    /// Writes the deflection of one link over time: the first link's line is solid, the second's
+    /// dashed, the third's dotted.
+    fn curve(&self, text: &mut String, arm: &Arm, link: usize, [middle, width]: [f64; 2]) {
+        let last = arm.frames.len().saturating_sub(1).max(1) as f64;
+        let scale = 0.5 * CURVES / self.most.max(f64::MIN_POSITIVE);
+        let place = |(k, deflection): (usize, f64)| {
+            let x = MARGIN + (WIDTH - 2.0 * MARGIN) * k as f64 / last;
+            [x, middle - scale * deflection]
+        };
+        let deflections = arm.frames.iter().map(|frame| frame.deflections[link]);
+        let points: Vec<[f64; 2]> = deflections.enumerate().map(place).collect();
+        let (class, curve, dashes) = (arm.ink.class(), path(&points), DASHES[link % DASHES.len()]);
+        let _ = write!(
+            text,
+            "<path class=\"moving-line {class}\" stroke-width=\"{width}\"{dashes} d=\"{curve}\"/>\
+             <g class=\"moving-live\">{}</g>",
+            self.dot(4.0, class, &points)
+        );
     }
 
     /// Returns a dot that moves along points.

@@ -12,7 +12,8 @@ mod view;
 use maud::{Markup, PreEscaped, html};
 use stillbeam::Scene;
 
-pub use pose::{INTERVALS, Pose};
+pub use pose::INTERVALS;
+pub use shape::Link;
 
 /// The script of every page with an animation.
 pub const CONTROL: &str = include_str!("control.js");
@@ -44,7 +45,18 @@ pub struct Arm {
     /// Its colour.
     pub ink: Ink,
     /// The arm at even times, from 0 to the end of the run.
-    pub poses: Vec<Pose>,
+    pub frames: Vec<Frame>,
+}
+
+/// An arm at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Points of the centreline from the first joint or the hub's rim to the tip, m.
+    pub line: Vec<[f64; 2]>,
+    /// Joints behind the first, m.
+    pub joints: Vec<[f64; 2]>,
+    /// Deflection of each link, m.
+    pub deflections: Vec<f64>,
 }
 
 /// A part of the picture: arms on one hub, and their deflections over time.
@@ -61,12 +73,8 @@ pub struct Panel {
 pub struct Animation {
     /// Description for those who do not see it.
     pub label: String,
-    /// Radius of the hub, m.
-    pub radius: f64,
-    /// Length of the link, m.
-    pub length: f64,
-    /// Hub angle at which the arm shall rest, rad.
-    pub goal: Option<f64>,
+    /// Place at which the tip shall rest, m.
+    pub goal: Option<[f64; 2]>,
     /// Title of the curves below the arms, with the unit of their scale.
     pub quantity: String,
     /// Units of [`Self::quantity`] per metre of deflection.
@@ -90,18 +98,22 @@ impl Ink {
 }
 
 impl Animation {
-    /// The arm of a link on a hub that turns, its deflection in mm.
+    /// The arm of a link on a hub that turns, its deflection in mm. It shall rest at the hub angle
+    /// `goal`, rad.
     pub fn of_link(arm: &Scene, label: String, goal: Option<f64>, seconds: f64) -> Self {
         Self {
             label,
-            radius: arm.hub.radius,
-            length: arm.link.length,
-            goal,
+            goal: goal.map(|angle| Link::of(arm).tip(angle)),
             quantity: "deflection, mm".to_owned(),
             factor: 1e3,
             seconds,
             panels: Vec::new(),
         }
+    }
+
+    /// Every frame of every arm.
+    fn frames(&self) -> impl Iterator<Item = &Frame> {
+        self.panels.iter().flat_map(|panel| &panel.arms).flat_map(|arm| &arm.frames)
     }
 
     /// Factor by which the run is shown slower than it is: 1, 2, 5, 10, 20, …, the smallest with
@@ -153,13 +165,12 @@ mod tests {
             let t = seconds * f64::from(k) / 50.0;
             (t, 1.5 * t / seconds, 0.04 * (20.0 * t / seconds).sin())
         });
-        let poses = Pose::evenly(samples, seconds, INTERVALS);
-        let arm = Arm { label: "a < b".to_owned(), ink: Ink::Blue, poses };
+        let link = Link { radius: 0.05, length: 0.4 };
+        let frames = link.frames(samples, seconds, INTERVALS);
+        let arm = Arm { label: "a < b".to_owned(), ink: Ink::Blue, frames };
         Animation {
             label: "An arm & its tip".to_owned(),
-            radius: 0.05,
-            length: 0.4,
-            goal: Some(1.5),
+            goal: Some(link.tip(1.5)),
             quantity: "deflection, mm".to_owned(),
             factor: 1e3,
             seconds,

@@ -13,9 +13,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Takes samples `(t, angle, deflection)` in s, rad and m, whose times ascend, at the ends of
-    /// `intervals` even ones from 0 to `end` s, straight between two samples. Before the first and
-    /// after the last the arm stays as it is. Returns nothing if there is no sample.
+    /// Takes samples `(t, angle, deflection)` at even times, as [`super::Link::frames`] says.
     pub fn evenly(
         samples: impl IntoIterator<Item = (f64, f64, f64)>,
         end: f64,

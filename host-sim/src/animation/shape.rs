@@ -1,6 +1,9 @@
 //! The link's curve between its clamp and its tip, from what a table holds of it.
 
-use super::Pose;
+use stillbeam::Scene;
+
+use super::Frame;
+use super::pose::Pose;
 
 /// Straight pieces by which a link is drawn.
 const PIECES: usize = 16;
@@ -8,12 +11,51 @@ const PIECES: usize = 16;
 /// Tip angle, rad, up to which a link is drawn. The deflection of the curve grows up to 2.2 rad.
 const MOST: f64 = 2.0;
 
+/// One link on a hub.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// Radius of the hub, m.
+    pub radius: f64,
+    /// Length of the link, m.
+    pub length: f64,
+}
+
+impl Link {
+    /// The link of a scene.
+    pub fn of(arm: &Scene) -> Self {
+        Self { radius: arm.hub.radius, length: arm.link.length }
+    }
+
+    /// Draws samples `(t, angle, deflection)` in s, rad and m, whose times ascend, at the ends of
+    /// `intervals` even ones from 0 to `end` s, straight between two samples. Before the first and
+    /// after the last the arm stays as it is. Returns nothing if there is no sample.
+    pub fn frames(
+        self,
+        samples: impl IntoIterator<Item = (f64, f64, f64)>,
+        end: f64,
+        intervals: usize,
+    ) -> Vec<Frame> {
+        Pose::evenly(samples, end, intervals).iter().map(|pose| self.frame(pose)).collect()
+    }
+
+    fn frame(self, pose: &Pose) -> Frame {
+        let line = centreline(pose, self.radius, self.length);
+        Frame { line, joints: Vec::new(), deflections: vec![pose.deflection] }
+    }
+
+    /// Returns the tip of the straight link at a hub angle, rad, in m.
+    pub(super) fn tip(self, angle: f64) -> [f64; 2] {
+        let reach = self.radius + self.length;
+        [reach * angle.cos(), reach * angle.sin()]
+    }
+}
+
 /// Returns the points of the centreline in the global frame, m, from the hub's rim on.
 ///
 /// The link does not stretch. Its tangent turns as that of a cantilever with a load at its tip,
 /// `φ(s) = φ_L (2s − s²)`, and `φ_L` is the one with which the tip's deflection is that of the
 /// pose. Midpoint rule.
-pub(super) fn centreline(pose: &Pose, radius: f64, length: f64) -> Vec<[f64; 2]> {
+fn centreline(pose: &Pose, radius: f64, length: f64) -> Vec<[f64; 2]> {
     let tip_angle = tip_angle(pose.deflection / length);
     let (sin, cos) = pose.angle.sin_cos();
     let mut point = [radius * cos, radius * sin];

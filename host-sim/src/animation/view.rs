@@ -1,7 +1,6 @@
 //! The part of the plane that a picture shows.
 
 use super::Animation;
-use super::shape::centreline;
 
 /// Width of a panel, and the margin around its arms, px.
 pub(super) const WIDTH: f64 = 320.0;
@@ -22,14 +21,11 @@ pub(super) struct View {
 impl View {
     /// Holds the hub, the goal and every point of every frame.
     pub fn of(animation: &Animation) -> Self {
-        let Animation { radius, length, .. } = *animation;
         let mut view = Self { low: [0.0; 2], high: [0.0; 2], scale: 1.0 };
-        let poses =
-            animation.panels.iter().flat_map(|panel| &panel.arms).flat_map(|arm| &arm.poses);
-        for pose in poses {
-            centreline(pose, radius, length).into_iter().for_each(|point| view.widen(point));
+        for frame in animation.frames() {
+            frame.line.iter().for_each(|&point| view.widen(point));
         }
-        if let Some(goal) = animation.goal_tip() {
+        if let Some(goal) = animation.goal {
             view.widen(goal);
         }
         let size = |i: usize| view.high[i] - view.low[i];
@@ -53,13 +49,5 @@ impl View {
     pub fn place(&self, point: [f64; 2]) -> [f64; 2] {
         let from_middle = |i: usize| (point[i] - 0.5 * (self.low[i] + self.high[i])) * self.scale;
         [0.5 * WIDTH + from_middle(0), 0.5 * self.height() - from_middle(1)]
-    }
-}
-
-impl Animation {
-    /// Returns the tip of the straight arm at the goal, m.
-    pub(super) fn goal_tip(&self) -> Option<[f64; 2]> {
-        let reach = self.radius + self.length;
-        self.goal.map(|angle| [reach * angle.cos(), reach * angle.sin()])
     }
 }

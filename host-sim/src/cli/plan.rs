@@ -84,11 +84,10 @@ impl PlanArgs {
             super::mechanism::refuse("--max-moment", self.max_moment.is_some())?;
             super::mechanism::refuse("--within", self.within.is_some())?;
             super::mechanism::refuse("--least", self.least.is_some())?;
-            super::mechanism::refuse("--json", self.json)?;
             let scene = self.tick.applied_to_mechanism(scene);
             let limits = self.limits_of_joints(&scene)?;
-            let Self { from, to, duration, out, open, .. } = self;
-            let page = super::mechanism::plan(&scene, from, to, duration, limits, &out)?;
+            let Self { from, to, duration, out, json, open, .. } = self;
+            let page = super::mechanism::plan(&scene, from, to, duration, limits, &out, json)?;
             if open {
                 super::show(&page);
             }

@@ -91,8 +91,7 @@ impl ReferenceArgs {
 
     fn mechanism(&self, scene: MechanismScene) -> Result<ExitCode, Error> {
         super::mechanism::refuse("--motion", self.motion.is_given())?;
-        super::mechanism::refuse("--json", self.json)?;
-        let outputs = Outputs::new(&self.csv, &self.page, self.open, "solved")?;
+        let outputs = Outputs::new(&self.csv, &self.page, self.open, self.json)?;
         let scene = self.tick.applied_to_mechanism(scene);
         super::mechanism::reference(&scene, self.solver, self.every, &outputs)
     }

@@ -51,8 +51,7 @@ impl RunArgs {
             let spin = self.no_spin.then_some(false);
             let keys = SolverKeys { spin, ..self.solver };
             let keys = super::mechanism::typed(&keys, self.coordinates)?;
-            super::mechanism::refuse("--json", self.json)?;
-            let outputs = Outputs::new(&self.csv, &self.page, self.open, "run")?;
+            let outputs = Outputs::new(&self.csv, &self.page, self.open, self.json)?;
             return super::mechanism::run(&scene, keys, &outputs);
         }
         super::mechanism::refuse_for_arm("--page", self.page.is_some())?;

@@ -2,7 +2,7 @@
 
 use super::Panel;
 use super::report::Report;
-use crate::animation::{self, Animation, Arm, Ink, Pose};
+use crate::animation::{self, Animation, Arm, Ink, Link};
 
 /// First periods that are shown.
 const PERIODS: f64 = 5.0;
@@ -16,6 +16,9 @@ const MOST: f64 = 0.2;
 
 /// Fraction of the hub's range that counts as its first motion.
 const FIRST: f64 = 0.01;
+
+/// Link that is drawn, for any: a log does not say how long its arm is.
+const LINK: Link = Link { radius: 0.0, length: 1.0 };
 
 /// Draws the first log's sensor, and the fit over it, as the deflection of an arm. Where the log
 /// has the hub's angle, the arm turns by it.
@@ -34,14 +37,12 @@ pub fn animation(panel: &Panel, report: &Report) -> Animation {
             let angle = panel.hub.get(k).copied().unwrap_or(0.0);
             (panel.time[k] - begin, angle, scale * swing(values[k]))
         };
-        let poses = Pose::evenly(rows.iter().map(sample), end - begin, INTERVALS);
-        Arm { label: label.to_owned(), ink, poses }
+        let frames = LINK.frames(rows.iter().map(sample), end - begin, INTERVALS);
+        Arm { label: label.to_owned(), ink, frames }
     };
     let fit = format!("{:.1} % of the log explained", report.fit_percent);
     Animation {
         label: "The arm as the sensor and the fit have it".to_owned(),
-        radius: 0.0,
-        length: 1.0,
         goal: None,
         quantity: format!("sensor, {}", report.unit),
         factor: peak / MOST,

@@ -7,6 +7,7 @@ pub mod compare;
 mod drives;
 pub mod limits;
 mod moves;
+mod moving;
 pub mod page;
 pub(crate) mod picture;
 pub mod plan;

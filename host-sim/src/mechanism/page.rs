@@ -2,9 +2,8 @@
 
 use maud::html;
 
-use super::MechanismScene;
-use super::picture;
 use super::table::Row;
+use super::{MechanismScene, moving, picture};
 use crate::error::Error;
 use crate::report::parts::{figure, page};
 
@@ -25,6 +24,13 @@ pub fn render(
     };
     let body = html! {
         header { h1 { (scene.name) } p.lead { (solver) } }
+        @if let Some(moving) = moving::animation(scene, rows) {
+            (moving.figure(&html! {
+                "The run " (moving.speed()) ", over and over. Thin: the path of the tip. Below: the \
+                 first link\u{2019}s deflection solid, the second\u{2019}s dashed, the third\u{2019}s \
+                 dotted."
+            }))
+        }
         (figure(&[picture::poses(scene, rows)], &drawn, data)?)
         (figure(&picture::curves(scene, rows), &curves, data)?)
     };

@@ -59,7 +59,7 @@ pub fn curves(scene: &MechanismScene, rows: &[Row]) -> Vec<Chart> {
 }
 
 /// Returns the places of the joints and of the tip.
-fn joints(row: &Row) -> Vec<[f64; 2]> {
+pub(super) fn joints(row: &Row) -> Vec<[f64; 2]> {
     std::iter::once([0.0; 2]).chain(row.ends.iter().copied()).collect()
 }
 

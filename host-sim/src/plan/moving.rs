@@ -3,7 +3,7 @@
 use stillbeam::Scene;
 
 use super::Request;
-use crate::animation::{Animation, Arm, INTERVALS, Ink, Panel, Pose};
+use crate::animation::{Animation, Arm, INTERVALS, Ink, Link, Panel};
 use crate::number::{Digits, percent};
 use crate::plan::judge::Judgement;
 
@@ -29,10 +29,10 @@ pub fn side_by_side<'a>(
     let seconds = ends.fold(0.0, f64::max);
     let panel = |(name, ink, run): &(&str, Ink, &Judgement)| {
         let samples = run.samples.iter().map(|s| (s.t, s.angle, s.deflection));
-        let poses = Pose::evenly(samples, seconds, INTERVALS);
+        let frames = Link::of(arm).frames(samples, seconds, INTERVALS);
         let left = percent(run.residual, 1.0, Digits::Three);
         Panel {
-            arms: vec![Arm { label: (*name).to_owned(), ink: *ink, poses }],
+            arms: vec![Arm { label: (*name).to_owned(), ink: *ink, frames }],
             remark: format!("{left} of L left"),
         }
     };
@@ -62,16 +62,19 @@ mod tests {
             .map(|motion| Motion::of(0.0, motion, tick).judge(&arm, 0.0).expect("a judgement"));
         let animation = animation(&request, &quintic, &still).expect("a picture");
         let swing = |panel: &Panel| {
-            let rest = panel.arms[0].poses.iter().rev().take(40);
-            rest.fold(0.0, |most: f64, pose| most.max(pose.deflection.abs()))
+            let rest = panel.arms[0].frames.iter().rev().take(40);
+            rest.fold(0.0, |most: f64, frame| most.max(frame.deflections[0].abs()))
         };
         let [quintic, still] = [0, 1].map(|k| &animation.panels[k]);
         assert!(swing(still) < 1e-3 * arm.link.length, "{}", swing(still));
         assert!(swing(quintic) > 20.0 * swing(still), "{}", swing(quintic));
         assert!(quintic.remark.contains(" % of L left"), "{}", quintic.remark);
         for panel in [quintic, still] {
-            let last = panel.arms[0].poses.last().expect("a pose");
-            assert!((last.angle - 1.2).abs() < 1e-9, "{last:?}");
+            let last = panel.arms[0].frames.last().expect("a frame");
+            let reach = arm.hub.radius + arm.link.length;
+            let [x, y] = last.line[last.line.len() - 1];
+            let off = (x - reach * f64::cos(1.2)).hypot(y - reach * f64::sin(1.2));
+            assert!(off < 1.1 * last.deflections[0].abs() + 1e-9, "{off} {:?}", last.deflections);
         }
     }
 }

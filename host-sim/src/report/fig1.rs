@@ -4,7 +4,7 @@ use maud::html;
 
 use super::Section;
 use super::parts::{figure, percent};
-use crate::animation::{Animation, Arm, INTERVALS, Ink, Panel, Pose};
+use crate::animation::{Animation, Arm, INTERVALS, Ink, Link, Panel};
 use crate::error::Error;
 use crate::plot::{Axis, Chart, Colour, Dash, Marker, Series};
 use crate::study::{Run, Study};
@@ -55,7 +55,8 @@ fn moving(rigid: &Run, flexible: &Run) -> Animation {
     let seconds = flexible.rows.last().map_or(0.0, |row| row.t_s);
     let arm = |label: &str, ink, run: &Run| {
         let samples = run.rows.iter().map(|row| (row.t_s, row.hub_angle_rad, row.deflection_m));
-        Arm { label: label.to_owned(), ink, poses: Pose::evenly(samples, seconds, INTERVALS) }
+        let frames = Link::of(&run.scene.arm).frames(samples, seconds, INTERVALS);
+        Arm { label: label.to_owned(), ink, frames }
     };
     let arms =
         vec![arm("rigid link", Ink::Grey, rigid), arm("flexible link", Ink::Vermilion, flexible)];

@@ -4,6 +4,7 @@ mod compare;
 mod outputs;
 mod plan;
 mod reference;
+mod report;
 mod run;
 
 pub use compare::compare;

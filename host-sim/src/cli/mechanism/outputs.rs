@@ -1,4 +1,4 @@
-//! Files and lines that a run of a mechanism leaves.
+//! Files, lines and pictures that the rows of a mechanism leave.
 
 use std::path::{Path, PathBuf};
 
@@ -8,62 +8,96 @@ use stillbeam_sim::mechanism::{MechanismScene, page};
 use stillbeam_sim::output::Files;
 use stillbeam_sim::println;
 
-/// Where a run goes: its table, and a page if one is asked for, which may be shown.
+use super::report::RowsReport;
+
+/// Where rows go: a table and a page, each if asked for, and standard output.
 pub struct Outputs<'a> {
-    csv: &'a Path,
+    csv: Option<&'a Path>,
     page: Option<&'a Path>,
     open: bool,
+    json: bool,
 }
 
 impl<'a> Outputs<'a> {
-    /// Takes them as they are typed, for a mechanism that is to be `done`.
+    /// Takes them as they are typed.
     ///
     /// # Errors
-    /// No file for the table, a page that is to be shown and is not written.
+    /// A page that is to be shown and is not written, or whose table is not.
     pub fn new(
         csv: &'a Option<PathBuf>,
         page: &'a Option<PathBuf>,
         open: bool,
-        done: &str,
+        json: bool,
     ) -> Result<Self, Error> {
-        let csv = csv.as_deref().ok_or_else(|| {
-            Error::new(format_args!("--csv: must be a file where a mechanism is {done}"))
-        })?;
-        let page = page.as_deref();
+        let (csv, page) = (csv.as_deref(), page.as_deref());
         crate::cli::refuse_to_open(open, page, "--page OUT.html")?;
-        Ok(Self { csv, page, open })
+        if page.is_some() && csv.is_none() {
+            return Err(Error::new(
+                "--page: no table is written, which the page names; must be beside --csv OUT.csv",
+            ));
+        }
+        Ok(Self { csv, page, open, json })
     }
 
-    /// Writes table and page, both or none. `solver` says what made the rows.
-    pub fn write(&self, scene: &MechanismScene, solver: &str, rows: &[Row]) -> Result<(), Error> {
+    /// Writes table and page, both or none, then prints figures and pictures. `solver` says what
+    /// made the rows.
+    pub fn put(&self, scene: &MechanismScene, solver: &str, rows: &[Row]) -> Result<(), Error> {
+        self.write(scene, solver, rows)?;
+        let report = RowsReport::of(scene, solver, rows);
+        if self.json {
+            println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+        } else {
+            self.print(&report);
+            draw(rows);
+        }
+        if let Some(page) = self.page.filter(|_| self.open) {
+            crate::cli::show(page);
+        }
+        Ok(())
+    }
+
+    fn write(&self, scene: &MechanismScene, solver: &str, rows: &[Row]) -> Result<(), Error> {
+        let Some(csv) = self.csv else { return Ok(()) };
         let mut files = Files::default();
-        table::add(&mut files, self.csv, rows)?;
+        table::add(&mut files, csv, rows)?;
         if let Some(path) = self.page {
-            let text = page::render(scene, solver, rows, &self.csv.display().to_string())?;
+            let text = page::render(scene, solver, rows, &csv.display().to_string())?;
             files.add(path, |file| file.write_all(text.as_bytes()))?;
         }
         files.finish().map(drop)
     }
 
-    /// Prints the files' names and the peaks of the run, and shows the page.
-    pub fn print(&self, scene: &MechanismScene, rows: &[Row]) {
-        println!("  {} rows to {}", rows.len(), self.csv.display());
+    fn print(&self, report: &RowsReport) {
+        println!("{}: {}", report.scene, report.solver);
+        match self.csv {
+            Some(csv) => println!("  {} rows to {}", report.rows, csv.display()),
+            None => println!("  {} rows; --csv OUT.csv writes them", report.rows),
+        }
         if let Some(path) = self.page {
             println!("  drawn in {}", path.display());
         }
-        let peak = |of: &dyn Fn(&Row) -> f64| rows.iter().map(of).fold(0.0, f64::max);
-        for (j, link) in scene.mechanism.links.iter().enumerate() {
-            let torque = peak(&|row| row.torques[j].abs());
-            let bent = peak(&|row| row.deflections[j].abs());
-            println!(
-                "  joint {}  peak torque {torque:.4} N m, link deflects by {:.2} mm ({:.1} % of L)",
-                j + 1,
-                1e3 * bent,
-                100.0 * bent / link.length
-            );
-        }
-        if let Some(page) = self.page.filter(|_| self.open) {
-            crate::cli::show(page);
-        }
+        report.print();
     }
+}
+
+/// Draws angles and torques of all joints over time, if standard output is a terminal. A joint
+/// without a drive has no torque.
+pub fn draw(rows: &[Row]) {
+    let end = rows.last().map_or(0.0, |row| row.t);
+    let count = rows.first().map_or(0, |row| row.joints.len());
+    let curve = |name: &str, j: usize, unit: &str, of: fn(&Row) -> &[f64]| {
+        let values: Vec<f64> = rows.iter().map(|row| of(row)[j]).collect();
+        (format!("{name} {}, {unit}", j + 1), values)
+    };
+    let curves: Vec<(String, Vec<f64>)> = (0..count)
+        .flat_map(|j| {
+            [
+                curve("joint", j, "rad", |row| &row.joints),
+                curve("torque", j, "N m", |row| &row.torques),
+            ]
+        })
+        .filter(|(_, values)| values.iter().any(|value| *value != 0.0))
+        .collect();
+    let titled = curves.iter().map(|(title, values)| (title.as_str(), values.clone()));
+    crate::cli::draw(titled, end);
 }

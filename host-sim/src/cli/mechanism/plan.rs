@@ -4,10 +4,13 @@ use std::path::{Path, PathBuf};
 
 use stillbeam::Limits;
 use stillbeam_sim::error::Error;
-use stillbeam_sim::mechanism::plan::{Planned, Request};
+use stillbeam_sim::mechanism::plan::Request;
 use stillbeam_sim::mechanism::{MechanismScene, page, table};
 use stillbeam_sim::output::Files;
 use stillbeam_sim::println;
+
+use super::outputs::draw;
+use super::report::PlanReport;
 
 /// Plans a move of all joints that arrives still. Writes its page and the reference rod's rows.
 pub fn plan(
@@ -17,6 +20,7 @@ pub fn plan(
     duration: Option<f64>,
     limits: Vec<Limits>,
     out: &Path,
+    json: bool,
 ) -> Result<PathBuf, Error> {
     let joints = &scene.mechanism.joints;
     let from = from.unwrap_or_else(|| joints.iter().map(|joint| joint.angle).collect());
@@ -29,23 +33,12 @@ pub fn plan(
     let text = page::render(scene, "A move that arrives still: reference rod", rows, "plan.csv")?;
     files.add(&path, |file| file.write_all(text.as_bytes()))?;
     files.finish()?;
-    print(&request, &planned);
-    println!("  {}", path.display());
-    Ok(path)
-}
-
-fn print(request: &Request<'_>, planned: &Planned) {
-    let Planned { duration, first_period, flights, still, quintic, .. } = planned;
-    println!("{}: {:?} to {:?} rad, still", request.scene.name, request.from, request.to);
-    println!("  duration           {duration:.4} s ({:.2} first periods)", duration / first_period);
-    for j in 0..request.to.len() {
-        let peak = still.rows.iter().map(|row| row.torques[j].abs()).fold(0.0, f64::max);
-        println!("  peak torque {}      {peak:.4} N m in the reference rod", j + 1);
+    let report = PlanReport::of(&request, &planned, &path);
+    if json {
+        println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+    } else {
+        report.print();
+        draw(rows);
     }
-    println!(
-        "  residual           {:.4} % of the total length in the reference rod",
-        100.0 * still.residual
-    );
-    println!("  quintics           {:.4} % in the same time", 100.0 * quintic.residual);
-    println!("  planned in         {flights} simulations of the move");
+    Ok(path)
 }

@@ -4,13 +4,13 @@ use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
 use stillbeam_sim::mechanism::MechanismScene;
+use stillbeam_sim::progress;
 use stillbeam_sim::reference::mechanism;
 use stillbeam_sim::truth::{self, Reference};
-use stillbeam_sim::{println, progress};
 
 use super::Outputs;
 
-/// Solves a mechanism and writes its rows, `every` s apart.
+/// Solves a mechanism, and puts out its rows, `every` s apart.
 pub fn reference(
     scene: &MechanismScene,
     solver: Reference,
@@ -33,8 +33,6 @@ pub fn reference(
     });
     bar.finish_and_clear();
     let rows = rows?;
-    outputs.write(scene, solver.describe(), &rows)?;
-    println!("{}: {}", scene.name, solver.describe());
-    outputs.print(scene, &rows);
+    outputs.put(scene, solver.describe(), &rows)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -4,12 +4,11 @@ use std::process::ExitCode;
 
 use stillbeam_sim::error::Error;
 use stillbeam_sim::mechanism::{MechanismKeys, MechanismScene, run};
-use stillbeam_sim::println;
 use stillbeam_sim::solver::SolverKeys;
 
 use super::{Outputs, refuse};
 
-/// Runs the core on a mechanism and writes its setpoints.
+/// Runs the core on a mechanism, and puts out its setpoints.
 pub fn run(
     scene: &MechanismScene,
     keys: MechanismKeys,
@@ -17,9 +16,7 @@ pub fn run(
 ) -> Result<ExitCode, Error> {
     let solver = keys.or(scene.solver).resolve()?;
     let rows = run::run(scene, &solver)?;
-    outputs.write(scene, &solver.describe(), &rows)?;
-    println!("{}: {}", scene.name, solver.describe());
-    outputs.print(scene, &rows);
+    outputs.put(scene, &solver.describe(), &rows)?;
     Ok(ExitCode::SUCCESS)
 }
 
