@@ -21,7 +21,7 @@ pub fn stepper(scene: &SceneFile, solver: &Solver) -> Result<Box<dyn AnyStepper>
     set_up(scene, solver, &spec(scene, solver, None, None)?)
 }
 
-/// [`stepper`] with the choice that `auto` has already made, if that is the method.
+/// [`stepper()`] with the choice that `auto` has already made, if that is the method.
 pub fn stepper_chosen(
     scene: &SceneFile,
     solver: &Solver,
@@ -30,7 +30,7 @@ pub fn stepper_chosen(
     set_up(scene, solver, &spec(scene, solver, choice, None)?)
 }
 
-/// [`stepper`] with elastica fitted for hub accelerations up to `acceleration` rad/s², or if that
+/// [`stepper()`] with elastica fitted for hub accelerations up to `acceleration` rad/s², or if that
 /// is `None` for those of the scene's moves.
 pub fn stepper_for(
     scene: &SceneFile,
