@@ -30,8 +30,8 @@ pub fn stepper_chosen(
     set_up(scene, solver, &spec(scene, solver, choice, None)?)
 }
 
-/// [`stepper()`] with elastica fitted for hub accelerations up to `acceleration` rad/s², or if that
-/// is `None` for those of the scene's moves.
+/// [`stepper()`] with elastica fitted for hub accelerations up to `acceleration` rad/s², or if
+/// that is `None` for those of the scene's moves.
 pub fn stepper_for(
     scene: &SceneFile,
     solver: &Solver,
