@@ -1,5 +1,6 @@
-//! What goes wrong around an axis: a part of the campaign of `cargo lab faults`, and the cases that
-//! it has found.
+//! What goes wrong around an axis: a part of the campaigns of `cargo lab faults` and `cargo lab
+//! plant`, and the cases that they have found.
 
 mod campaign;
 mod found;
+mod plant;

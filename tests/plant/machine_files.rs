@@ -30,6 +30,7 @@ fn what_is_out_of_range_is_named() {
         ("[encoder]\ncounts = 2", "m:2:10: encoder.counts = 2: must be 4 to"),
         ("[odrive]\nrate = 10.0", "odrive.rate = 10: must be 100 to 40000"),
         ("[odrive]\nbandwidth = 9000.0", "odrive.bandwidth = 9000: must be below"),
+        ("[moteus]\nrate = 1000.0\nbandwidth = 850.0", "moteus.bandwidth = 850: must be below 0.8"),
         ("[odrive]\nbetween = \"cubic\"", "odrive.between"),
         ("[odrive]\n[moteus]", "must be one of the three tables"),
         ("[motor]\ntorques = 1.0", "torques"),

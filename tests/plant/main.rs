@@ -3,6 +3,7 @@
 
 mod energy;
 mod ideal;
+mod lost;
 mod machine_files;
 mod open_loop;
 mod trials;

@@ -183,7 +183,7 @@ impl System {
         let lost = friction.torque(now.bristle, now.rate) * now.rate
             + flow.loss * flow.mesh * now.motor_rate
             + flow.damped * (now.motor_rate - now.rate)
-            + self.arm.lost_power(&now.a, &now.v, now.rate);
+            + response.lost;
         set(Row::Work, work / self.energy);
         set(Row::Loss, lost / self.energy);
         dy

@@ -29,7 +29,13 @@ pub(crate) fn advance<Y: State<f64>, F: ODE<f64, Y>>(
             method.set_h(left);
         }
         method.step(system).map_err(|error| failure(begin, error))?;
-        if !matches!(method.status(), Status::RejectedStep) {
+        if matches!(method.status(), Status::RejectedStep) {
+            // The library halves on and on where no step is finite, until time stands still.
+            if method.t() + method.h() == method.t() {
+                let reason = lost.to_owned();
+                return Err(ReferenceError::Integration { time: method.t(), reason });
+            }
+        } else {
             each_step(method.t(), method.y());
             if cut {
                 method.set_h(proposed.max(method.h()));

@@ -13,6 +13,15 @@ pub(crate) fn explicit<Y: State<f64>>(
     ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).h0(first).max_steps(usize::MAX)
 }
 
+/// Dormand and Prince's method of order 5, as [`explicit`]: half of the evaluations a step, for a
+/// loose tolerance and steps that are cut short by what the machine is told anew.
+pub(crate) fn explicit_loose<Y: State<f64>>(
+    tolerance: f64,
+    first: f64,
+) -> impl OrdinaryNumericalMethod<f64, Y> {
+    ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerance).h0(first).max_steps(usize::MAX)
+}
+
 /// Kvaerno's method of order 5, diagonally implicit, as [`explicit`].
 pub(crate) fn implicit<Y: State<f64>>(
     tolerance: f64,

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use stillbeam::motor::Ratio;
 
+use super::tracker::MOST_BANDWIDTH;
 use super::{Machine, Protocol, cia402, moteus, odrive};
 use crate::document::Document;
 use crate::error::Error;
@@ -179,10 +180,10 @@ impl Protocol {
 fn validate_tracker(drive: &str, bandwidth: f64, rate: f64) -> Result<(), Error> {
     within(&format!("{drive}.bandwidth"), bandwidth, 1.0, 1e5)?;
     within(&format!("{drive}.rate"), rate, 100.0, 40_000.0)?;
-    // A tracking loop needs some updates in its own time constant.
-    if bandwidth > 0.9 * rate {
+    // A tracking loop needs some updates in its own time constant; from 0.828 on it swings up.
+    if bandwidth > MOST_BANDWIDTH * rate {
         return Err(Error::new(format_args!(
-            "{drive}.bandwidth = {bandwidth}: must be below 0.9 times the rate of {rate} Hz"
+            "{drive}.bandwidth = {bandwidth}: must be below {MOST_BANDWIDTH} times the rate of {rate} Hz"
         )));
     }
     Ok(())

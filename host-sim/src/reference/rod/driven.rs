@@ -29,6 +29,8 @@ pub(crate) struct Response {
     pub bias: f64,
     /// Inertia that the hub feels, kg m².
     pub inertia: f64,
+    /// Power that damping takes out of the arm, W.
+    pub lost: f64,
 }
 
 /// An arm whose hub turns as torques make it, of any order.
@@ -44,8 +46,6 @@ pub(crate) trait Driven: Send + Sync {
     fn respond(&self, a: &Unknowns, v: &Unknowns, angle: f64, rate: f64) -> Response;
     /// Returns kinetic and potential energy, the hub's own included, J.
     fn energy(&self, a: &Unknowns, v: &Unknowns, angle: f64, rate: f64) -> f64;
-    /// Returns the power that damping takes out of the arm, W.
-    fn lost_power(&self, a: &Unknowns, v: &Unknowns, rate: f64) -> f64;
     /// Returns hub-frame X and Y of the tip, m.
     fn tip(&self, a: &Unknowns) -> [f64; 2];
 }
@@ -75,13 +75,25 @@ impl<const N: usize, const P: usize, const S: usize> Driven for Rod<N, P, S> {
         let (even, pushed) = (hub(angle, rate, 0.0), hub(angle, rate, 1.0));
         let Some(factor) = Cholesky::new(self.mass_matrix(&at)) else {
             let none = Unknowns::repeat(f64::NAN);
-            return Response { free: none, per_acceleration: none, bias: f64::NAN, inertia: 1.0 };
+            return Response {
+                free: none,
+                per_acceleration: none,
+                bias: f64::NAN,
+                inertia: 1.0,
+                lost: f64::NAN,
+            };
         };
         let free = factor.solve(&self.force(&at, &a, &v, &even));
         let with = factor.solve(&self.force(&at, &a, &v, &pushed));
         let bias = self.loads(&at, &v, &free, &even)[0];
         let inertia = self.loads(&at, &v, &with, &pushed)[0] - bias;
-        Response { free: widened(&free), per_acceleration: widened(&(with - free)), bias, inertia }
+        Response {
+            free: widened(&free),
+            per_acceleration: widened(&(with - free)),
+            bias,
+            inertia,
+            lost: self.lost_power(&at, &v, rate),
+        }
     }
 
     fn energy(&self, a: &Unknowns, v: &Unknowns, angle: f64, rate: f64) -> f64 {
@@ -100,22 +112,6 @@ impl<const N: usize, const P: usize, const S: usize> Driven for Rod<N, P, S> {
             + 0.5 * a.dot(&(self.stiffness * a))
     }
 
-    fn lost_power(&self, a: &Unknowns, v: &Unknowns, rate: f64) -> f64 {
-        let (a, v) = (narrowed::<N>(a), narrowed::<N>(v));
-        let damping = self.scene.damping;
-        let mut power = damping.beta * v.dot(&(self.stiffness * v));
-        if let Some(joint) = &self.joint {
-            power += v.dot(&(joint * v));
-        }
-        if damping.alpha > 0.0 {
-            let at = self.configuration(&a, &v);
-            let moving: f64 = (0..S).map(|s| self.masses[s] * speed_squared(&at, s, rate)).sum();
-            let turning = self.tip_rate(&v) + rate;
-            power += damping.alpha * (moving + self.scene.payload.inertia * turning * turning);
-        }
-        power
-    }
-
     fn tip(&self, a: &Unknowns) -> [f64; 2] {
         let a = narrowed::<N>(a);
         Rod::tip(self, &self.configuration(&a, &a.map(|_| 0.0)))
@@ -123,6 +119,21 @@ impl<const N: usize, const P: usize, const S: usize> Driven for Rod<N, P, S> {
 }
 
 impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
+    /// Returns the power that damping takes out of the arm on a hub that turns at `rate` rad/s, W.
+    fn lost_power(&self, at: &Configuration<P, S>, v: &SVector<f64, N>, rate: f64) -> f64 {
+        let damping = self.scene.damping;
+        let mut power = damping.beta * v.dot(&(self.stiffness * v));
+        if let Some(joint) = &self.joint {
+            power += v.dot(&(joint * v));
+        }
+        if damping.alpha > 0.0 {
+            let moving: f64 = (0..S).map(|s| self.masses[s] * speed_squared(at, s, rate)).sum();
+            let turning = self.tip_rate(v) + rate;
+            power += damping.alpha * (moving + self.scene.payload.inertia * turning * turning);
+        }
+        power
+    }
+
     /// Returns the rate of the tip's angle relative to the hub, rad/s.
     fn tip_rate(&self, v: &SVector<f64, N>) -> f64 {
         (0..N).map(|k| self.tip[k] * v[k]).sum()

@@ -87,6 +87,13 @@ impl Case {
     }
 }
 
+impl Case {
+    /// Time in which the drive's position loop takes an error of the hub down to 0.1 %, s.
+    pub fn drive_settling(&self) -> f64 {
+        1e3_f64.ln() / self.drive.position_gain
+    }
+}
+
 /// Draws an arm with its damping ratio.
 fn arm(rng: &mut StdRng) -> (UniformScene, f64) {
     let length = rng.random_range(0.2..1.0);
@@ -147,13 +154,15 @@ fn parts(rng: &mut StdRng, ratio: Ratio, rotor_inertia: f64, torque: f64) -> Par
 fn gains(rng: &mut StdRng, rotor_inertia: f64) -> odrive::Config {
     let bandwidth = rng.random_range(80.0..200.0);
     let velocity_gain = std::f64::consts::TAU * rotor_inertia * bandwidth;
+    let rate = [1000.0, 2000.0][rng.random_range(0..2)];
     odrive::Config {
         position_gain: bandwidth * rng.random_range(0.05..0.1),
         velocity_gain,
         integrator_gain: velocity_gain * rng.random_range(0.0..4.0),
         velocity_limit: 1e3,
-        bandwidth: 1500.0,
-        rate: [1000.0, 2000.0][rng.random_range(0..2)],
+        // An estimate of 1 rad/s per hertz and more would swing up by itself.
+        bandwidth: 0.6 * rate,
+        rate,
         between: stillbeam_sim::servo::Between::Linear,
         filter_bandwidth: None,
         filter_inertia: 0.0,

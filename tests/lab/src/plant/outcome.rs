@@ -9,6 +9,8 @@ pub struct Outcome {
     pub injected: u64,
     /// Setpoints that were judged.
     pub setpoints: u64,
+    /// Setpoints whose torque was cut to its frame.
+    pub cut: u64,
     /// Stops on the way.
     pub stops: u64,
     /// Greatest way of the setpoints' stop over the brake's own bound.
@@ -31,6 +33,7 @@ impl Outcome {
         self.runs += other.runs;
         self.injected += other.injected;
         self.setpoints += other.setpoints;
+        self.cut += other.cut;
         self.stops += other.stops;
         self.way = self.way.max(other.way);
         self.behind = self.behind.max(other.behind);

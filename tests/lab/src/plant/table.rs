@@ -10,6 +10,7 @@ pub fn markdown(rows: &[(&str, Outcome)]) -> String {
         "runs",
         "times",
         "setpoints",
+        "torques cut",
         "stops",
         "way of a stop, of its bound",
         "hub behind, rad",
@@ -20,7 +21,8 @@ pub fn markdown(rows: &[(&str, Outcome)]) -> String {
     ];
     let mut lines = vec![header.map(str::to_owned).to_vec()];
     for (name, outcome) in rows {
-        let counts = [outcome.runs, outcome.injected, outcome.setpoints, outcome.stops];
+        let counts =
+            [outcome.runs, outcome.injected, outcome.setpoints, outcome.cut, outcome.stops];
         let mut line = vec![(*name).to_owned()];
         line.extend(counts.map(grouped));
         line.push(format!("{:.3}", outcome.way));
