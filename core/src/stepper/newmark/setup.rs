@@ -52,10 +52,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             .plus(per_half, &band(&model.joint_damping()));
         let stiffer = P::ONE + P::from_f64(Self::margin());
         let effective = damping.plus(per_half * per_half, &mass).plus(stiffer, &stiffness);
-        let inertia = mass.factored();
-        let longest = Self::check_longest(tick, &inertia, &stiffness)?;
-        let factors = effective.factored();
-        Self::check_shortest(tick, longest, &effective, &factors)?;
+        let [inertia, factors] = Self::factored(tick, &mass, &stiffness, &effective)?;
         let tension = band(model.tension()).scaled(gravity);
         let swings = if scene.mount.is_linear() { P::ZERO } else { P::ONE };
         let coupling = vector(model.coupling());
@@ -112,6 +109,19 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             return principal_axes(model.stiffness(), model.spin());
         }
         core::array::from_fn(|i| core::array::from_fn(|j| if i == j { P::ONE } else { P::ZERO }))
+    }
+
+    /// Factors of `M` and of the effective matrix, unless the tick leaves one of them no digits.
+    fn factored<P: Scalar>(
+        tick: f64,
+        mass: &Band<P, N, W>,
+        stiffness: &Band<P, N, W>,
+        effective: &Band<P, N, W>,
+    ) -> Result<[Ldl<P, N, W>; 2], Error> {
+        let (inertia, factors) = (mass.factored(), effective.factored());
+        let longest = Self::check_longest(tick, &inertia, stiffness)?;
+        Self::check_shortest(tick, longest, effective, &factors)?;
+        Ok([inertia, factors])
     }
 
     /// Refuses a tick so long that `4/h² M` is a rounding of `K`. The effective matrix would leave
