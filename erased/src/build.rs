@@ -5,16 +5,17 @@ use std::marker::PhantomData;
 
 use stillbeam::model::{Model, Rod};
 use stillbeam::select::{Auto, Rung};
-use stillbeam::stepper::{Elastica, Modal, Newmark, OnCarrier, Quality, Rigid};
+use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
 use stillbeam::{Error, Scene};
 
 use crate::model::{Mass, ModelVisitor, with_model};
+use crate::on_carrier::on_carrier;
 use crate::{Erasable, Scalar};
 
 /// Which stepper, with which numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spec {
-    /// Its type.
+    /// Its type. Of a scene with a carrier that turns, it is built on that.
     pub kind: Kind,
     /// h, s.
     pub tick: f64,
@@ -46,8 +47,6 @@ pub enum Kind {
     Elastica { modes: usize, quality: Quality, bend: f64 },
     /// A rung of `auto`'s ladder, all rungs as one type.
     Rung { rung: Rung, bend: f64 },
-    /// The same, on the scene's carrier.
-    OnCarrier { rung: Rung, bend: f64 },
 }
 
 /// A stepper that there is not.
@@ -80,7 +79,7 @@ impl From<Error> for Refused {
     }
 }
 
-/// Action on a stepper whose type is known only here. It is compiled for each of some forty types;
+/// Action on a stepper whose type is known only here. It is compiled for each of some sixty types;
 /// what an [`AnyStepper`](crate::AnyStepper) offers is compiled already.
 pub trait StepperVisitor {
     /// Result of the action.
@@ -111,6 +110,9 @@ fn in_precision<T: Scalar, V: StepperVisitor>(
     spec: &Spec,
     visitor: V,
 ) -> Result<V::Output, Refused> {
+    if scene.mount.carrier != 0.0 {
+        return on_carrier::<T, V>(scene, spec, visitor);
+    }
     let tick = spec.tick;
     match spec.kind {
         Kind::Rigid => Ok(visitor.visit(Rigid::<T>::new(scene, tick)?)),
@@ -132,10 +134,6 @@ fn in_precision<T: Scalar, V: StepperVisitor>(
             Ok(visited)
         }
         Kind::Rung { rung, bend } => Ok(visitor.visit(Auto::<T>::new(scene, tick, rung, bend)?)),
-        Kind::OnCarrier { rung, bend } => {
-            let arm = OnCarrier::new(scene, |arm| Auto::<T>::new(arm, tick, rung, bend))?;
-            Ok(visitor.visit(arm))
-        }
     }
 }
 
@@ -179,7 +177,7 @@ impl<T: Scalar, V: StepperVisitor> ModelVisitor for ModalOf<T, V> {
     }
 }
 
-fn modal<T: Scalar, const K: usize, const N: usize, const W: usize>(
+pub(crate) fn modal<T: Scalar, const K: usize, const N: usize, const W: usize>(
     model: &Model<N, W>,
     tick: f64,
     spin: bool,

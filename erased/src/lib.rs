@@ -21,6 +21,7 @@
 mod build;
 mod generator;
 mod model;
+mod on_carrier;
 mod setpoint;
 mod stepper;
 

@@ -1,7 +1,7 @@
 //! The stepper that a scene's solver asks for, and what `auto` makes of the scene.
 
 use stillbeam::model::Rod;
-use stillbeam::select::{Choice, Rung};
+use stillbeam::select::Choice;
 use stillbeam::stepper::{self, Elastica};
 use stillbeam_erased::{self as erased, AnyStepper, Kind, Precision, Refused, Spec};
 
@@ -84,14 +84,12 @@ fn kind(
 ) -> Result<Kind, Error> {
     let Solver { method, modes, elements, spin, .. } = *solver;
     let mass = solver.mass.into();
-    if scene.arm.mount.carrier != 0.0 {
-        // One type for all methods, as such scenes are rare.
-        let rung = rung(solver).ok_or_else(|| auto::not_on_carrier(scene, solver))?;
-        let bend = match rung {
-            Rung::Elastica(..) => bend(scene, solver, 1, acceleration)?,
-            Rung::Rigid | Rung::Modal(_) => 0.0,
-        };
-        return Ok(Kind::OnCarrier { rung, bend });
+    if scene.arm.mount.carrier != 0.0 && !spin {
+        return Err(Error::new(format_args!(
+            "solver.spin = false: must be true or absent with carrier.rate = {}, which is felt \
+             through the spin's terms only",
+            scene.arm.mount.carrier
+        )));
     }
     Ok(match (method, choice) {
         (Method::Rigid, _) => Kind::Rigid,
@@ -107,20 +105,6 @@ fn kind(
             Kind::Rung { rung: choice.rung, bend: choice.bend }
         }
     })
-}
-
-/// Returns the rung of `auto`'s ladder that a solver names, or `None` if there is none: for
-/// newmark, for modal with another mesh or without spin terms, and for `auto` itself.
-fn rung(solver: &Solver) -> Option<Rung> {
-    let Solver { method, modes, elements, mass, spin, .. } = *solver;
-    match method {
-        Method::Rigid => Some(Rung::Rigid),
-        Method::Modal if (elements, mass, spin) == (8, Mass::Consistent, true) => {
-            Some(Rung::Modal(modes))
-        }
-        Method::Elastica => Some(Rung::Elastica(modes, solver.quality.into())),
-        _ => None,
-    }
 }
 
 /// Returns the tip angle to expect of a hub's acceleration, rad: `acceleration` rad/s², or if that

@@ -6,6 +6,7 @@ mod bad_input;
 mod book;
 mod commands;
 mod export;
+mod features;
 mod first_hour;
 mod identify;
 mod interruption;

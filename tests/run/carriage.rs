@@ -16,7 +16,7 @@ fn scene(head: &str, motion: &str) -> SceneFile {
     SceneFile::parse("carriage", &text(head, motion)).expect("a scene")
 }
 
-fn text(head: &str, motion: &str) -> String {
+pub(super) fn text(head: &str, motion: &str) -> String {
     let motion = if motion.is_empty() {
         "profile = \"cubic\"\nduration = 0.6\nto = 0.5\nsettle = 0.2\n"
     } else {
@@ -33,7 +33,7 @@ const LIFTED: &str = "gravity.acceleration = 9.81\npayload.mass = 0.03\n";
 const HANGING: &str = "gravity = { acceleration = 9.81, direction = 1.2 }\npayload.mass = 0.03\n";
 
 /// Largest distance of the tips, of L, and difference of the forces, of the peak.
-fn against_rod(scene: &SceneFile, solver: &Solver) -> Comparison {
+pub(super) fn against_rod(scene: &SceneFile, solver: &Solver) -> Comparison {
     let rows = run(scene, solver).expect("a run");
     let trajectory = scene.trajectory(solver.tick).expect("a motion");
     let times = truth::times(&trajectory, solver.tick);
@@ -42,7 +42,7 @@ fn against_rod(scene: &SceneFile, solver: &Solver) -> Comparison {
 }
 
 /// Differences of the two references every `interval` s.
-fn references(scene: &SceneFile, interval: f64) -> Apart {
+pub(super) fn references(scene: &SceneFile, interval: f64) -> Apart {
     let trajectory = scene.trajectory(0.01).expect("a motion");
     let times = truth::times(&trajectory, interval);
     let rod = rod::solve(&scene.arm, &trajectory, &times, &rod::Options::default());
@@ -52,7 +52,7 @@ fn references(scene: &SceneFile, interval: f64) -> Apart {
 }
 
 /// Residual of a still move in two periods, of L, by the rod.
-fn left_of_a_still_move(scene: impl Fn(&str) -> SceneFile, to: f64) -> f64 {
+pub(super) fn left_of_a_still_move(scene: impl Fn(&str) -> SceneFile, to: f64) -> f64 {
     let duration = 2.0 * rod::first_period(&scene("").arm).expect("a period");
     let motion = format!("profile = \"still\"\nduration = {duration}\nto = {to}\nsettle = 0.2\n");
     let scene = scene(&motion);
@@ -64,7 +64,7 @@ fn left_of_a_still_move(scene: impl Fn(&str) -> SceneFile, to: f64) -> f64 {
 }
 
 /// Elastica with two modes, as exact as it is.
-const FINE: Solver = Solver {
+pub(super) const FINE: Solver = Solver {
     method: Method::Elastica,
     modes: 2,
     quality: Quality::Fine,
@@ -201,65 +201,6 @@ fn refusals_of_a_carriage_are_in_its_units() {
     let scene = scene("limits.torque = 0.4", moving);
     let error = run(&scene, &Solver::PAPER).expect_err("too weak a drive").to_string();
     assert!(error.contains("limits.torque = 0.4") && error.contains(" N at "), "{error}");
-}
-
-/// A carrier that turns: the link feels the sum of both turns, and is straight before the move. The
-/// rods of both references judge it, the one in the hub frame, the other from outside.
-fn on_carrier(head: &str, motion: &str) -> SceneFile {
-    let text = text(head, motion)
-        .replace("axis = \"linear\"\nhub.mass = 0.3\n", "carrier.rate = 8.0\nhub.radius = 0.05\n");
-    SceneFile::parse("carrier", &text).expect("a scene")
-}
-
-#[test]
-fn both_references_and_elastica_agree_on_a_carrier_that_turns() {
-    let motion = "profile = \"quintic\"\nduration = 0.4\nto = 1.0\nsettle = 0.1\n";
-    let scene = on_carrier("payload.mass = 0.02\n", motion);
-    let apart = references(&scene, 0.02);
-    assert!(apart.tip < 2e-4 && apart.torque < 0.01, "{apart:?}");
-    let resting = SceneFile { arm: resting(&scene), ..scene.clone() };
-    let found = against_rod(&scene, &FINE);
-    println!("{:.1e} of L, {:.1e} of the torque", found.tip_max, found.torque);
-    assert!(found.tip_max < 2e-4 && found.torque < 0.01, "{found:?}");
-    let modal = Solver { method: Method::Modal, modes: 2, elements: 8, ..FINE };
-    let found = against_rod(&scene, &modal);
-    assert!(found.tip_max < 0.02, "{found:?}");
-    // What the carrier does is far more than these errors.
-    let without = run(&resting, &FINE).expect("a run");
-    let with = run(&scene, &FINE).expect("a run");
-    let change = compare(&with, &without, &scene).expect("common times");
-    assert!(change.tip_max > 5e-3, "{change:?}");
-    let newmark = Solver { method: Method::Newmark, ..FINE };
-    let error = run(&scene, &newmark).expect_err("no such stepper").to_string();
-    assert!(error.contains("newmark") && error.contains("carrier.rate = 8"), "{error}");
-}
-
-fn resting(scene: &SceneFile) -> stillbeam::Scene {
-    let mount = stillbeam::Mount { carrier: 0.0, ..scene.arm.mount };
-    stillbeam::Scene { mount, ..scene.arm }
-}
-
-#[test]
-fn a_still_move_on_a_carrier_that_turns_arrives_still() {
-    let left = left_of_a_still_move(|motion| on_carrier("payload.mass = 0.02\n", motion), 1.0);
-    assert!(left < 2e-4, "{left} of L");
-}
-
-#[test]
-fn a_carrier_is_refused_with_what_it_has_no_equilibrium_with() {
-    let moving = "profile = \"cubic\"\nduration = 0.6\nto = 0.5\n";
-    for (head, words) in [
-        ("gravity.acceleration = 9.81", ["gravity.acceleration", "carrier"]),
-        ("damping.alpha = 0.1", ["damping.alpha = 0.1", "carrier"]),
-    ] {
-        let text = text(head, moving)
-            .replace("axis = \"linear\"\nhub.mass = 0.3\n", "carrier.rate = 8.0\n");
-        let error = SceneFile::parse("carrier", &text).expect_err(head).to_string();
-        assert!(words.iter().all(|word| error.contains(word)), "{error}");
-    }
-    let text = text("carrier.rate = 8.0", moving);
-    let error = SceneFile::parse("carrier", &text).expect_err("no turn").to_string();
-    assert!(error.contains("carrier.rate = 8") && error.contains("linear"), "{error}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod auto;
 mod auto_bits;
 mod carriage;
+mod carrier;
 mod convergence;
 mod energy;
 mod exact;

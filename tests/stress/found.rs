@@ -1,13 +1,16 @@
 //! What the campaigns have found, case by case: seed and number of the scene.
 
-use stillbeam_lab::stress::draw::draw_plain;
+use stillbeam_lab::stress::draw::{Drawn, draw, draw_plain};
 use stillbeam_lab::stress::trial::{Verdict, trial};
 use stillbeam_sim::solver::{Mass, Method, Solver};
 
 fn outcome(seed: u64, index: u64, wanted: impl Fn(&Solver) -> bool) -> Verdict {
-    let drawn = draw_plain(seed, index);
+    of(&draw_plain(seed, index), wanted)
+}
+
+fn of(drawn: &Drawn, wanted: impl Fn(&Solver) -> bool) -> Verdict {
     let solver = drawn.solvers.iter().find(|solver| wanted(solver)).expect("its solver");
-    trial(&drawn, solver)
+    trial(drawn, solver)
 }
 
 /// The effective matrix, rounded to f32, was `K` alone and less: what it held beside it was no
@@ -22,6 +25,16 @@ fn newmark_refuses_a_tick_that_leaves_its_matrix_no_inertia() {
         let Verdict::Refused(reason) = &outcome else { panic!("{index}: {outcome:?}") };
         assert!(reason.starts_with("solver.tick"), "{reason}");
     }
+}
+
+/// A hundred link masses three quarters of a length beyond the tip, on a soft joint: in f32 the
+/// effective matrix of ticks while the hub turns was no longer positive, and the setpoints no
+/// numbers.
+#[test]
+fn newmark_refuses_a_payload_that_hides_the_rest_of_its_matrix() {
+    let outcome = of(&draw(8, 45_454), |solver| solver.method == Method::Newmark);
+    let Verdict::Refused(reason) = &outcome else { panic!("{outcome:?}") };
+    assert!(reason.starts_with("solver.tick") && reason.contains("payload"), "{reason}");
 }
 
 /// Gravity feeds an undamped arm whose hub turns at twice its frequency, by physics, until f32 has

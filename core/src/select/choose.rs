@@ -8,7 +8,7 @@ use super::ladder::{Assessment, Choice, Rung, Tolerance};
 use super::trial::Trial;
 use crate::model::Rod;
 use crate::motion::Commanded;
-use crate::stepper::{Elastica, Stepper, check_tick};
+use crate::stepper::{Elastica, OnCarrier, Stepper, check_tick};
 use crate::{Error, Scene};
 
 /// Rungs that are tried at once: half of the ladder, so that the exact rod flies twice at most.
@@ -46,7 +46,14 @@ pub fn choose(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Choice, NoChoice> {
     let mut search = Search { nearest: None, steps: 0 };
-    search.run(scene, tick, motion, tolerance, progress).map_err(|error| {
+    let found = if scene.mount.carrier == 0.0 {
+        let set_up = |rung, bend| Auto::<f32>::new(scene, tick, rung, bend);
+        search.run(scene, tick, motion, tolerance, progress, &set_up)
+    } else {
+        let set_up = |rung, bend| OnCarrier::<Auto<f32>>::of_rung(scene, tick, rung, bend);
+        search.run(scene, tick, motion, tolerance, progress, &set_up)
+    };
+    found.map_err(|error| {
         let nearest = search.nearest.map(|choice| choice.costing(search.steps));
         NoChoice { error, nearest }
     })
@@ -70,25 +77,27 @@ pub fn assess<S: Stepper>(
     }
 }
 
+/// Sets up a rung, for a tip angle of so many rad.
+type SetUp<'a, S> = &'a dyn Fn(Rung, f64) -> Result<S, Error>;
+
 /// Rungs that are tried at once.
-struct Part {
+struct Part<S: Stepper> {
     names: Vec<Rung, AT_ONCE>,
-    candidates: Vec<Candidate<Auto<f32>>, AT_ONCE>,
+    candidates: Vec<Candidate<S>, AT_ONCE>,
     /// Error of the last rung that cannot be set up.
     refused: Option<Error>,
 }
 
-impl Part {
+impl<S: Stepper> Part<S> {
     /// Sets the rungs up, for a motion that bends the arm by `expected` rad.
     ///
     /// # Errors
     /// An arm that cannot stand upright, which no rung changes, nor one that seems stiff.
     fn new(
         trial: &Trial<'_>,
-        scene: &Scene,
-        tick: f64,
         rungs: &[Rung],
         expected: f64,
+        set_up: SetUp<'_, S>,
     ) -> Result<Self, Error> {
         let (_, most) = Elastica::<f32, 3>::BEND;
         let bend = Elastica::<f32, 3>::nearest_bend(expected);
@@ -97,7 +106,7 @@ impl Part {
             let candidate = if rung.is_elastica() && expected > most {
                 Err(Error::BendsTooFar { bend: expected, max: most })
             } else {
-                Auto::new(scene, tick, rung, bend).and_then(|auto| trial.candidate(auto))
+                set_up(rung, bend).and_then(|stepper| trial.candidate(stepper))
             };
             match candidate {
                 // There is room for as many as are tried at once.
@@ -120,13 +129,14 @@ struct Search {
 }
 
 impl Search {
-    fn run(
+    fn run<S: Stepper>(
         &mut self,
         scene: &Scene,
         tick: f64,
         motion: &dyn Commanded,
         tolerance: &Tolerance,
         progress: &mut dyn FnMut(f64),
+        set_up: SetUp<'_, S>,
     ) -> Result<Choice, Error> {
         let (tick, tolerance) = (check_tick(tick)?, tolerance.validate()?);
         let expected_bend = Rod::<1>::new(scene)?.bend(motion.peaks().acceleration);
@@ -141,7 +151,7 @@ impl Search {
         };
         for (part, rungs) in ladder.chunks(AT_ONCE).enumerate() {
             let Part { names, mut candidates, refused } =
-                Part::new(&trial, scene, tick, rungs, expected_bend)?;
+                Part::new(&trial, rungs, expected_bend, set_up)?;
             reason = refused.unwrap_or(reason);
             if candidates.is_empty() {
                 continue;

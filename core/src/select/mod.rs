@@ -4,6 +4,7 @@ mod candidate;
 mod choose;
 mod exact;
 mod ladder;
+mod on_carrier;
 mod peak;
 mod ringing;
 mod trial;
@@ -108,7 +109,8 @@ impl<T: Scalar> Auto<T> {
     }
 
     /// Sets up the cheapest rung whose tip and torque stay within `tolerance` of the real ones,
-    /// over these moves from rest at `from` rad and one first period after them: see [`choose`].
+    /// over these moves from rest at `from` rad and one first period after them: see [`choose`]. On
+    /// a carrier that turns, [`OnCarrier`](crate::stepper::OnCarrier) has the same.
     ///
     /// # Errors
     /// [`Error::Tolerance`] with the error of the finest rung if none is good enough, or why the
@@ -120,6 +122,7 @@ impl<T: Scalar> Auto<T> {
         moves: &[Move],
         tolerance: &Tolerance,
     ) -> Result<(Self, Choice), Error> {
+        scene.check_no_carrier()?;
         let motion = Moves::new(from, moves, check_tick(tick)?)?;
         let choice = choose(scene, tick, &motion, tolerance, &mut |_| ())?;
         Ok((Self::chosen(scene, tick, &choice)?, choice))

@@ -39,7 +39,8 @@ impl<S: Stepper> OnCarrier<S> {
         let mount = Mount { carrier: P::ZERO, ..scene.mount };
         let arm = set_up(&Scene { mount, ..scene })?;
         let rate = carrier.to_f64();
-        arm.admit(&Peaks { rate: rate.abs(), acceleration: 0.0, jerk: 0.0 }, rate)?;
+        arm.admit(&Peaks { rate: rate.abs(), acceleration: 0.0, jerk: 0.0 }, rate)
+            .map_err(|error| of_carrier(error, rate))?;
         Ok(Self { arm, carrier: round(carrier) })
     }
 
@@ -57,6 +58,34 @@ impl<S: Stepper> OnCarrier<S> {
     #[inline(always)]
     fn felt(&self, hub: &HubState<S::Scalar>) -> HubState<S::Scalar> {
         HubState { rate: hub.rate + self.carrier, ..*hub }
+    }
+}
+
+/// The refusal of a carrier's own rate, which no move is to blame for.
+fn of_carrier(error: Error, rate: f64) -> Error {
+    let max = match error {
+        Error::TooFast { max, .. } | Error::OutOfRange { parameter: "move.rate", max, .. } => max,
+        error => return error,
+    };
+    let unit = "rad/s for this arm, method and tick";
+    Error::OutOfRange { parameter: "carrier.rate", value: rate, min: -max, max, unit }
+}
+
+/// The refusal of a move, its rates relative to the carrier as they were given.
+fn relative(error: Error, carrier: f64) -> Error {
+    match error {
+        Error::TooFast { rate, max } => {
+            let carrier = carrier.abs();
+            Error::TooFast { rate: rate - carrier, max: (max - carrier).max(0.0) }
+        }
+        Error::OutOfRange { parameter: "move.rate", value, min, max, unit } => Error::OutOfRange {
+            parameter: "move.rate",
+            value: value - carrier,
+            min: min - carrier,
+            max: max - carrier,
+            unit,
+        },
+        error => error,
     }
 }
 
@@ -83,7 +112,9 @@ impl<S: Stepper> Stepper for OnCarrier<S> {
     fn admit(&self, peaks: &Peaks, held: f64) -> Result<(), Error> {
         let carrier = self.carrier.to_f64();
         let rate = peaks.rate + carrier.abs();
-        self.arm.admit(&Peaks { rate, ..*peaks }, held + carrier)
+        self.arm
+            .admit(&Peaks { rate, ..*peaks }, held + carrier)
+            .map_err(|error| relative(error, carrier))
     }
 
     /// The straight arm: without gravity and drag on absolute velocity, an even turn pulls along

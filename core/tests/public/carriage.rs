@@ -5,9 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use stillbeam::model::{EightElements, FourElements, Model, OneElement, Rod};
 use stillbeam::planner::{Planner, Request};
 use stillbeam::select::{Auto, Tolerance};
-use stillbeam::stepper::{
-    Elastica2, Modal2, Newmark, Newmark1, Newmark4, OnCarrier, Quality, Rigid,
-};
+use stillbeam::stepper::{Elastica2, Modal2, Newmark, Newmark1, Newmark4, Quality, Rigid};
 use stillbeam::{Generator, Hub, Link, Mount, Move, Payload, Profile, Scene, Setpoint, Stepper};
 
 use crate::assert_near;
@@ -228,44 +226,6 @@ fn a_method_is_chosen_for_a_carriage() {
         let exact = &fine[5 * k];
         assert_near("tip", setpoint.deflection(), exact.deflection(), 2e-3 * LENGTH);
     }
-}
-
-/// A move on a carrier that turns with Ω is the same move on top of a spin-up to Ω, long after it:
-/// same shapes, same torque, the hub's rate less by Ω. The spin-up is damped out before the move.
-#[test]
-fn a_carrier_is_a_spin_up_long_before() {
-    const OMEGA: f64 = 6.0;
-    let mut scene = member_d();
-    scene.hub.radius = 0.05;
-    scene.damping.beta = 2e-3;
-    let mount = Mount { carrier: OMEGA, ..Mount::ROTARY };
-    let on_carrier =
-        OnCarrier::new(&Scene { mount, ..scene }, |scene| Ok(elastica(scene))).unwrap();
-    // Relative to the carrier: a spin-up by 2 rad/s, and back.
-    let moves =
-        |offset: f64| [offset + 2.0, offset].map(|rate| Move::SpinUp { duration: 0.4, rate });
-    let relative = setpoints(on_carrier, &moves(0.0));
-    let mut hub = Generator::<_, 16>::new(elastica(&scene), 0.0).unwrap();
-    hub.push(&Move::SpinUp { duration: 2.0, rate: OMEGA }).unwrap();
-    hub.push(&Move::Dwell { duration: 6.0 }).unwrap();
-    for motion in moves(OMEGA) {
-        hub.push(&motion).unwrap();
-    }
-    for _ in 0..(8.0 / TICK + 0.5) as u32 {
-        hub.tick();
-    }
-    for setpoint in &relative {
-        let absolute = hub.tick();
-        assert_near("rate", absolute.rate - OMEGA, setpoint.rate, 1e-9);
-        for i in 0..2 {
-            assert_near("tip", absolute.tip[i], setpoint.tip[i], 1e-6 * LENGTH);
-        }
-        assert_near("torque", absolute.torque, setpoint.torque, 1e-6);
-    }
-    let bent = relative.iter().map(|s| s.deflection().abs()).fold(0.0, f64::max);
-    assert!(bent > 5e-3 * LENGTH, "{bent} m");
-    // A stepper that does not know of the carrier refuses it.
-    assert!(Rigid::<f64>::new(&Scene { mount, ..scene }, TICK).is_err());
 }
 
 /// A link cannot tell an even velocity from rest: what a fast run-up leaves rings on as it would on

@@ -3,6 +3,7 @@
 
 mod arms;
 mod carriage;
+mod carrier;
 mod chain;
 mod change;
 mod exact;

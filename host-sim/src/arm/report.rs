@@ -76,9 +76,7 @@ pub fn describe(scene: &SceneFile) -> Result<ArmReport, Error> {
     let frequency = natural::frequencies(arm)?;
     let ticks = frequency.map(|f| 1.0 / (f * tick));
     let mounted = arm.shape.masses().map(|mass| mass.mass).sum();
-    // `auto` does not choose for a carrier that turns.
-    let chooses = !scene.moves.is_empty() && arm.mount.carrier == 0.0;
-    let method = if chooses { Some(advise(scene)?) } else { None };
+    let method = if scene.moves.is_empty() { None } else { Some(advise(scene)?) };
     let against = || arm.rigid_inertia() + arm.hub.inertia;
     Ok(ArmReport {
         scene: scene.name.clone(),

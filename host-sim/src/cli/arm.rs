@@ -81,9 +81,7 @@ pub fn print(report: &ArmReport) {
     println!("  tick       {}", resolved(report));
     match &report.method {
         Some(method) => print_method(method),
-        None => {
-            println!("  method     none chosen: the scene has no moves, or a carrier that turns")
-        }
+        None => println!("  method     none chosen: the scene has no moves"),
     }
 }
 

@@ -10,16 +10,6 @@ use crate::progress;
 use crate::scene_file::SceneFile;
 use crate::solver::Solver;
 
-/// The error of a method that has no stepper for a carrier that turns.
-pub(super) fn not_on_carrier(scene: &SceneFile, solver: &Solver) -> Error {
-    Error::new(format_args!(
-        "solver.method = \"{}\": must be rigid, elastica, or modal with 8 elements of consistent \
-         mass and spin, with carrier.rate = {}",
-        solver.method.name(),
-        scene.arm.mount.carrier
-    ))
-}
-
 /// Chooses the cheapest stepper that is good enough for the motion that the scene commands, behind
 /// its shaper if it has one. If none is, returns the one that comes nearest. Shows its progress
 /// after a second.
@@ -36,9 +26,6 @@ pub fn choose_with(
     solver: &Solver,
     progress: &dyn Fn(f64),
 ) -> Result<Result<Choice, NoChoice>, Error> {
-    if scene.arm.mount.carrier != 0.0 {
-        return Err(not_on_carrier(scene, solver));
-    }
     let tolerance = Tolerance { tip: solver.tolerance, torque: solver.torque_tolerance };
     let late = progress::late("choosing a method");
     along(scene, solver.tick, |motion| {

@@ -1,10 +1,12 @@
 //! TOML files whose errors name file, line, column, key, and what the value must be.
 
+mod tables;
 mod words;
 
 use serde::de::DeserializeOwned;
 use toml::de::{DeTable, DeValue};
 
+use self::tables::Tables;
 use crate::error::Error;
 
 /// A TOML text with the positions of its keys.
@@ -39,7 +41,7 @@ impl<'a> Document<'a> {
     /// Reads the text as a `T`.
     pub fn read<T: DeserializeOwned>(&self) -> Result<T, Error> {
         let tokens = toml::Deserializer::parse(self.text).map_err(|error| self.unparsed(&error))?;
-        serde_path_to_error::deserialize(tokens).map_err(|error| {
+        serde_path_to_error::deserialize(Tables(tokens)).map_err(|error| {
             let path = error.path().to_string();
             let span = error.inner().span().unwrap_or(0..0);
             let given = self.text.get(span.clone()).unwrap_or("");

@@ -2,11 +2,17 @@
 
 /// Explains that a value is not of its key's type, from serde's message.
 pub(super) fn mismatch(path: &str, given: &str, message: &str) -> String {
+    let given = given.lines().next().unwrap_or("");
     let inside = |key: &str| match path {
         "" => key.to_owned(),
         path if path.rsplit('.').next() == Some(key) => path.to_owned(),
         path => format!("{path}.{key}"),
     };
+    // The TOML library hands a date over as a table of its own.
+    if message.contains("$__toml") {
+        let path = path.split(".$__toml").next().unwrap_or(path);
+        return format!("{path} = {given}: must be a table of keys and values");
+    }
     if let Some((name, known)) = quoted(message, "unknown field ") {
         return format!("{}: unknown key; must be {}", inside(name), choice(name, &known));
     }
@@ -17,10 +23,12 @@ pub(super) fn mismatch(path: &str, given: &str, message: &str) -> String {
         let table = if path.is_empty() { "the file".to_owned() } else { format!("[{path}]") };
         return format!("{}: missing; must be given in {table}", inside(name));
     }
+    if message.contains("overflowed") {
+        return format!("{path} = {given}: must be a number of at most 1.8e308");
+    }
     let Some((_, expected)) = message.split_once(", expected ") else {
         return format!("{path}: {message}");
     };
-    let given = given.lines().next().unwrap_or("");
     let last = path.rsplit(['.', ']']).next().unwrap_or(path);
     match (last, expected) {
         ("moves", "a sequence") => {

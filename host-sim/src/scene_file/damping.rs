@@ -60,6 +60,14 @@ impl DampingTable {
         if let Some(ratio) = &self.ratio {
             check("ratio", &ratio.0, &ratio.text())?;
             damping = self.of_ratio(ratio, &Undamped::of(arm)?, damping)?;
+            if damping.alpha != 0.0 && arm.mount.carrier != 0.0 {
+                return Err(Error::new(format_args!(
+                    "damping.ratio = {}: must not make alpha with carrier.rate = {}, as the drag would \
+                     bend the arm at rest; give one ratio and damping.from = \"beta\"",
+                    ratio.text(),
+                    arm.mount.carrier
+                )));
+            }
             deduced.damping(&damping, self.joint_ratio.is_none(), ratio.text());
         }
         Ok(damping)

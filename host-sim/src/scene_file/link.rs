@@ -9,7 +9,7 @@ use std::fmt::Display;
 use serde::Deserialize;
 use stillbeam::Link;
 use stillbeam::material::Material;
-use stillbeam::scene::{CrossSection, PointMass, Section, Varied};
+use stillbeam::scene::{CrossSection, MAX_MASSES, PointMass, Section, Varied};
 
 use super::matter::Matter;
 use super::section::SectionTable;
@@ -83,7 +83,7 @@ impl LinkTable {
                 // The core's names of the keys.
                 let text = error.to_string();
                 let text = match text.strip_prefix("link.masses") {
-                    Some(rest) if !rest.starts_with('.') => text,
+                    Some(rest) if !rest.starts_with('.') => self.too_many_masses(),
                     Some(rest) => {
                         format!("link.masses[{index}]{}", rest.replacen(".position", ".at", 1))
                     }
@@ -93,6 +93,14 @@ impl LinkTable {
             })?;
         }
         Ok(built)
+    }
+
+    /// The refusal of more masses than an arm takes.
+    fn too_many_masses(&self) -> String {
+        let count = self.masses.iter().flatten().filter(|mass| mass.mass > 0.0).count();
+        format!(
+            "link.masses = {count}: must be 0 to {MAX_MASSES} masses; add up those that are near"
+        )
     }
 
     /// Sizes of the cross-section in this table.

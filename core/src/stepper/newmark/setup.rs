@@ -13,6 +13,12 @@ use crate::stepper::{MOST_GRAVITY_CHANGE, SLEEP, check_tick};
 /// of the first two frequencies are apart, 80 times the ratio of the masses.
 const HEAVIEST: f64 = 0.002;
 
+/// Least pivot of the effective matrix along principal axes, of its diagonal and in roundings of the
+/// tick's precision. What a heavy payload far beyond the tip leaves of the other coordinates is a
+/// small difference of large numbers: a rounding of these would make it negative, and the step
+/// would feed the arm.
+const LEAST_PIVOT: f64 = 4.0;
+
 /// By how much more `K` counts in the effective matrix than it should, in roundings a degree of
 /// freedom. Where `4/h² M` is small against it, a `c` beyond `q*` feeds the arm: the rounding of
 /// the two must not get it there. A mode that the tick resolves does not notice.
@@ -46,8 +52,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             .plus(per_half, &band(&model.joint_damping()));
         let stiffer = P::ONE + P::from_f64(Self::margin());
         let effective = damping.plus(per_half * per_half, &mass).plus(stiffer, &stiffness);
-        let inertia = mass.factored();
-        Self::check_longest(tick, &inertia, &stiffness)?;
+        let [inertia, factors] = Self::factored(tick, &mass, &stiffness, &effective)?;
         let tension = band(model.tension()).scaled(gravity);
         let swings = if scene.mount.is_linear() { P::ZERO } else { P::ONE };
         let coupling = vector(model.coupling());
@@ -66,7 +71,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             reach: round(scene.reach()),
             shortening: band(model.shortening()).map(round).half_form(),
             tip: cast(&tip),
-            factors: effective.factored().map(round),
+            factors: factors.map(round),
             stiffness: stiffness.map(round),
             terms: Terms::of(scene),
             numerical_damping: T::EPSILON * T::from_f64(numerical_damping::<N>()),
@@ -106,6 +111,19 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         core::array::from_fn(|i| core::array::from_fn(|j| if i == j { P::ONE } else { P::ZERO }))
     }
 
+    /// Factors of `M` and of the effective matrix, unless the tick leaves one of them no digits.
+    fn factored<P: Scalar>(
+        tick: f64,
+        mass: &Band<P, N, W>,
+        stiffness: &Band<P, N, W>,
+        effective: &Band<P, N, W>,
+    ) -> Result<[Ldl<P, N, W>; 2], Error> {
+        let (inertia, factors) = (mass.factored(), effective.factored());
+        let longest = Self::check_longest(tick, &inertia, stiffness)?;
+        Self::check_shortest(tick, longest, effective, &factors)?;
+        Ok([inertia, factors])
+    }
+
     /// Refuses a tick so long that `4/h² M` is a rounding of `K`. The effective matrix would leave
     /// a mass that is not positive, and the step would feed the arm: refused from where a pivot of
     /// the one is that of the other.
@@ -113,11 +131,33 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         tick: f64,
         inertia: &Ldl<P, N, W>,
         stiffness: &Band<P, N, W>,
-    ) -> Result<(), Error> {
-        let ratio = |i: usize| inertia.pivot(i) / stiffness.get(i, i);
-        let lightest = (1..N).map(ratio).fold(ratio(0), |x, y| if y < x { y } else { x });
+    ) -> Result<f64, Error> {
+        let lightest = least::<P, N>(|i| inertia.pivot(i) / stiffness.get(i, i));
         let longest = P::TWO * root(lightest / P::from_f64(T::EPSILON.to_f64()));
-        Error::check("solver.tick", tick, 1e-6, longest.to_f64(), "s").map(drop)
+        Error::check("solver.tick", tick, 1e-6, longest.to_f64(), "s")?;
+        Ok(longest.to_f64())
+    }
+
+    /// Refuses a tick so short that `K` is a rounding of `4/h² M` where little mass moves, beside
+    /// coordinates that move a heavy payload: see [`LEAST_PIVOT`]. The pivots grow with the square
+    /// of the tick.
+    fn check_shortest<P: Scalar>(
+        tick: f64,
+        longest: f64,
+        effective: &Band<P, N, W>,
+        factors: &Ldl<P, N, W>,
+    ) -> Result<(), Error> {
+        if !Self::PRINCIPAL {
+            return Ok(());
+        }
+        let left = least::<P, N>(|i| factors.pivot(i) / effective.get(i, i));
+        let wanted = P::from_f64(LEAST_PIVOT * T::EPSILON.to_f64());
+        if left >= wanted {
+            return Ok(());
+        }
+        let shortest = tick * root(wanted / left).to_f64();
+        let unit = "s with so heavy a payload on so soft an arm; modal takes a shorter one";
+        Error::check("solver.tick", tick, shortest, shortest.max(longest), unit).map(drop)
     }
 
     /// By how much more than 1 `K` counts in the effective matrix, see [`MARGIN`].
@@ -146,6 +186,11 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         let weight = reach / (floor * floor * stiff);
         [weight / stiff, weight].map(round)
     }
+}
+
+/// The least of `N` values.
+fn least<P: Scalar, const N: usize>(of: impl Fn(usize) -> P) -> P {
+    (1..N).map(&of).fold(of(0), |x, y| if y < x { y } else { x })
 }
 
 /// `vᵢᵀf` for the axes `vᵢ`.

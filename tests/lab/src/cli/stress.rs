@@ -24,8 +24,11 @@ const TICKS: u64 = 100_000_000;
 #[derive(clap::Args)]
 pub struct StressArgs {
     /// A page to be filled with everything: the scenes, the arms that ring on, the long runs
-    #[arg(value_name = "stability.md", conflicts_with_all = ["part", "csv", "scene"])]
+    #[arg(value_name = "stability.md", conflicts_with_all = ["csv", "scene"])]
     page: Option<PathBuf>,
+    /// Of the page, fill only what is about random scenes
+    #[arg(long, requires = "page", conflicts_with_all = ["energy", "long"])]
+    only_scenes: bool,
     /// Number of scenes
     #[arg(long, value_name = "N", default_value_t = 1_000_000)]
     count: u64,
@@ -76,20 +79,29 @@ impl StressArgs {
 
     /// Runs everything and fills the page.
     fn page(&self, page: &Target) -> Result<ExitCode, Error> {
-        let summary = self.summary(None)?;
-        let (arms, ticks) = (self.energy.unwrap_or(ARMS), self.long.unwrap_or(TICKS));
-        let command = |what: String| format!("`cargo lab stress {what}`\n\n");
-        let texts = [
+        let summary = self.summary(self.part.as_deref())?;
+        let mut texts = vec![
             document::scenes(&summary),
             document::reasons(&summary),
             document::precision(&summary),
-            command(format!("--energy {arms} --seed {}", self.seed)) + &self.rings(arms),
-            command(format!("--long {ticks}")) + &long(ticks)?,
         ];
+        if !self.only_scenes {
+            texts.extend(self.long_runs()?);
+        }
         let named = document::NAMES.into_iter().zip(texts);
         let blocks: Vec<Block> = named.map(|(name, text)| Block::new(name, text)).collect();
         page.fill(&blocks)?;
         Ok(verdict(summary.faults() == 0))
+    }
+
+    /// The page's arms that ring on, and its runs of days.
+    fn long_runs(&self) -> Result<[String; 2], Error> {
+        let (arms, ticks) = (self.energy.unwrap_or(ARMS), self.long.unwrap_or(TICKS));
+        let command = |what: String| format!("`cargo lab stress {what}`\n\n");
+        Ok([
+            command(format!("--energy {arms} --seed {}", self.seed)) + &self.rings(arms),
+            command(format!("--long {ticks}")) + &long(ticks)?,
+        ])
     }
 
     fn summary(&self, part: Option<&Path>) -> Result<Summary, Error> {

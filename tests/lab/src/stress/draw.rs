@@ -11,17 +11,19 @@ use stillbeam_sim::scene_file::{Deduced, SceneFile};
 use stillbeam_sim::solver::{ELEMENTS, Mass, Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::step::Step;
 
+use super::measured::measured;
 use super::mounted::mounted;
 use crate::random::{decades, sign};
 
 /// Drawn quantities and their ranges, for a page.
-pub const RANGES: [(&str, &str); 15] = [
+pub const RANGES: [(&str, &str); 16] = [
     ("link", "length 0.03 to 10 m, mass 1 g to 100 kg"),
     ("bending stiffness", "10⁻⁶ to 10⁶ N m², or such that ω₁h is 10⁻³·⁵ to 10²"),
     ("payload over link mass", "0, 10⁻³ to 10³; with rotary inertia in half of the scenes"),
     ("payload beyond the tip", "in three of ten, up to L"),
     ("sections", "in four of ten, 1 to 4; stiffness and mass over two decades"),
     ("masses on the link", "in three of ten, 1 or 2, of 10⁻³ to 3 link masses"),
+    ("measured", "an eighth: frequencies in place of EI, of the joint or of both, ratios, tapers"),
     ("joint", "in three of ten, 0.1 to 1000 EI/L; some with damping of its own"),
     ("hub radius", "0, 10⁻² L to 10 L"),
     ("tick", "0.1 ms to 1 s"),
@@ -69,7 +71,8 @@ pub fn draw(seed: u64, index: u64) -> Drawn {
         let least = 1e-4 * arm.payload.mass * offset * offset;
         arm.payload = Payload { offset, inertia: arm.payload.inertia.max(least), ..arm.payload };
     }
-    mounted(Drawn { scene: SceneFile { arm, ..plain.scene }, omega, ..plain }, seed, index)
+    let featured = Drawn { scene: SceneFile { arm, ..plain.scene }, omega, ..plain };
+    mounted(measured(featured, seed, index), seed, index)
 }
 
 /// Draws the scene of that number under that seed, its link uniform and clamped without give, its

@@ -11,6 +11,7 @@ pub mod draw;
 pub mod energy;
 pub mod growth;
 pub mod long;
+pub mod measured;
 pub mod mounted;
 pub mod rows;
 pub mod spread;

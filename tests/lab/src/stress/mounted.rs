@@ -5,7 +5,6 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::{AxisKind, Damping, Mount, Move, Scene};
-use stillbeam_sim::solver::{Mass, Method};
 use stillbeam_sim::step::Motion;
 
 use super::draw::Drawn;
@@ -47,17 +46,11 @@ fn on_carriage(mut drawn: Drawn, plane: Mount) -> Drawn {
     with(drawn, Mount { axis: AxisKind::Linear, ..plane })
 }
 
-/// A carrier at so many first frequencies. What has no equilibrium there is left out, and the
-/// methods that have no stepper for it.
+/// A carrier at so many first frequencies. What has no equilibrium there is left out.
 fn on_carrier(mut drawn: Drawn, frequencies: f64) -> Drawn {
     let arm = drawn.scene.arm;
     let damping = Damping { alpha: 0.0, ..arm.damping };
     drawn.scene.arm = Scene { damping, gravity: 0.0, ..arm };
-    drawn.solvers.retain(|solver| match solver.method {
-        Method::Newmark | Method::Auto => false,
-        Method::Modal => solver.elements == 8 && solver.mass == Mass::Consistent,
-        Method::Rigid | Method::Elastica => true,
-    });
     let carrier = (frequencies * drawn.omega).clamp(-1e3, 1e3);
     with(drawn, Mount { carrier, ..Mount::ROTARY })
 }
