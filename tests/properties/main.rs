@@ -22,12 +22,11 @@ use proptest::test_runner::{Config, RngSeed};
 /// The seed of the everyday run, so that it is the same run every day.
 const SEED: u64 = 20_261_125;
 
-/// So many random cases; `PROPTEST_CASES` makes it another number, `PROPTEST_RNG_SEED` other cases,
-/// and Miri one.
+/// So many random cases; `PROPTEST_CASES` makes it another number, `PROPTEST_RNG_SEED` other cases.
 fn cases(cases: u32) -> Config {
     let default = Config::default();
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok());
-    let cases = if cfg!(miri) { 1 } else { asked.unwrap_or(cases) };
+    let cases = asked.unwrap_or(cases);
     let rng_seed = match default.rng_seed {
         RngSeed::Random => RngSeed::Fixed(SEED),
         asked => asked,
