@@ -85,9 +85,7 @@ impl Case {
             settling,
         }
     }
-}
 
-impl Case {
     /// Time in which the drive's position loop takes an error of the hub down to 0.1 %, s.
     pub fn drive_settling(&self) -> f64 {
         1e3_f64.ln() / self.drive.position_gain
