@@ -23,7 +23,7 @@ pub fn measured(drawn: Drawn, seed: u64, index: u64) -> Drawn {
         return drawn;
     }
     let text = text(&mut rng, &drawn);
-    let Ok(file) = SceneFile::parse("measured", &text) else { return drawn };
+    let Ok(file) = SceneFile::parse_arm("measured", &text) else { return drawn };
     let Scene { mount, gravity, .. } = drawn.scene.arm;
     let arm = Scene { mount, gravity, ..file.arm };
     let omega = natural::frequencies(&arm).map_or(drawn.omega, |hertz| TAU * hertz[0]);
