@@ -7,7 +7,7 @@ use super::candidate::Candidate;
 use super::ladder::{Assessment, Choice, Rung, Tolerance};
 use super::trial::Trial;
 use crate::model::Rod;
-use crate::motion::Commanded;
+use crate::motion::{Commanded, Move, Moves};
 use crate::stepper::{Elastica, OnCarrier, Stepper, check_tick};
 use crate::{Error, Scene};
 
@@ -57,6 +57,18 @@ pub fn choose(
         let nearest = search.nearest.map(|choice| choice.costing(search.steps));
         NoChoice { error, nearest }
     })
+}
+
+/// [`choose`] for moves from rest at `from` rad, with the error alone if there is no choice.
+pub(super) fn choose_for_moves(
+    scene: &Scene,
+    tick: f64,
+    from: f64,
+    moves: &[Move],
+    tolerance: &Tolerance,
+) -> Result<Choice, Error> {
+    let motion = Moves::new(from, moves, check_tick(tick)?)?;
+    Ok(choose(scene, tick, &motion, tolerance, &mut |_| ())?)
 }
 
 /// The errors to expect of a stepper along a motion and one first period after it. Runs the exact

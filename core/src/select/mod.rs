@@ -9,17 +9,18 @@ mod peak;
 mod ringing;
 mod trial;
 
+use choose::choose_for_moves;
 pub use choose::{NoChoice, assess, choose};
 pub use ladder::{Assessment, Choice, Rung, Tolerance};
 
 use crate::hub::{GravityDirection, HubState};
 use crate::math::Scalar;
 use crate::model::{EightElements, Rod};
-use crate::motion::{Move, Moves, Peaks};
+use crate::motion::{Move, Peaks};
 use crate::prepared::Prepare;
 use crate::stepper::{
     Elastica, ElasticaState, FastPaths, HubMotion, KinkMoments, Modal, ModalState, Response, Rigid,
-    Stepper, check_tick,
+    Stepper,
 };
 use crate::{Error, Scene};
 
@@ -123,8 +124,7 @@ impl<T: Scalar> Auto<T> {
         tolerance: &Tolerance,
     ) -> Result<(Self, Choice), Error> {
         scene.check_no_carrier()?;
-        let motion = Moves::new(from, moves, check_tick(tick)?)?;
-        let choice = choose(scene, tick, &motion, tolerance, &mut |_| ())?;
+        let choice = choose_for_moves(scene, tick, from, moves, tolerance)?;
         Ok((Self::chosen(scene, tick, &choice)?, choice))
     }
 

@@ -1,16 +1,17 @@
 //! The choice for an arm on a carrier that turns.
 
-use super::{Auto, Choice, Rung, Tolerance, choose};
+use super::choose::choose_for_moves;
+use super::{Auto, Choice, Rung, Tolerance};
 use crate::math::Scalar;
-use crate::motion::{Move, Moves};
-use crate::stepper::{OnCarrier, check_tick};
+use crate::motion::Move;
+use crate::stepper::OnCarrier;
 use crate::{Error, Scene};
 
 impl<T: Scalar> OnCarrier<Auto<T>> {
     /// Sets up one rung on the scene's carrier: see [`Auto::new`].
     ///
     /// # Errors
-    /// What the rung refuses, and a carrier that it cannot follow for ever.
+    /// Errors of the rung, and a carrier that it cannot follow for ever.
     pub fn of_rung(scene: &Scene, tick: f64, rung: Rung, bend: f64) -> Result<Self, Error> {
         Self::new(scene, |arm| Auto::new(arm, tick, rung, bend))
     }
@@ -27,8 +28,7 @@ impl<T: Scalar> OnCarrier<Auto<T>> {
         moves: &[Move],
         tolerance: &Tolerance,
     ) -> Result<(Self, Choice), Error> {
-        let motion = Moves::new(from, moves, check_tick(tick)?)?;
-        let choice = choose(scene, tick, &motion, tolerance, &mut |_| ())?;
+        let choice = choose_for_moves(scene, tick, from, moves, tolerance)?;
         Ok((Self::of_rung(scene, tick, choice.rung, choice.bend)?, choice))
     }
 }
