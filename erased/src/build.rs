@@ -137,11 +137,12 @@ fn in_precision<T: Scalar, V: StepperVisitor>(
     }
 }
 
-struct NewmarkOf<T, V> {
-    tick: f64,
-    spin: bool,
-    visitor: V,
-    scalar: PhantomData<T>,
+/// Newmark of a model, for a visitor.
+pub(crate) struct NewmarkOf<T, V> {
+    pub tick: f64,
+    pub spin: bool,
+    pub visitor: V,
+    pub scalar: PhantomData<T>,
 }
 
 impl<T: Scalar, V: StepperVisitor> ModelVisitor for NewmarkOf<T, V> {
@@ -153,12 +154,13 @@ impl<T: Scalar, V: StepperVisitor> ModelVisitor for NewmarkOf<T, V> {
     }
 }
 
-struct ModalOf<T, V> {
-    tick: f64,
-    modes: usize,
-    spin: bool,
-    visitor: V,
-    scalar: PhantomData<T>,
+/// Modal of a model, for a visitor.
+pub(crate) struct ModalOf<T, V> {
+    pub tick: f64,
+    pub modes: usize,
+    pub spin: bool,
+    pub visitor: V,
+    pub scalar: PhantomData<T>,
 }
 
 impl<T: Scalar, V: StepperVisitor> ModelVisitor for ModalOf<T, V> {
@@ -177,7 +179,7 @@ impl<T: Scalar, V: StepperVisitor> ModelVisitor for ModalOf<T, V> {
     }
 }
 
-pub(crate) fn modal<T: Scalar, const K: usize, const N: usize, const W: usize>(
+fn modal<T: Scalar, const K: usize, const N: usize, const W: usize>(
     model: &Model<N, W>,
     tick: f64,
     spin: bool,

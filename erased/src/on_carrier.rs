@@ -2,14 +2,13 @@
 
 use std::marker::PhantomData;
 
-use stillbeam::model::Model;
 use stillbeam::select::{Auto, Rung};
-use stillbeam::stepper::{Newmark, OnCarrier};
+use stillbeam::stepper::OnCarrier;
 use stillbeam::{Mount, Scene};
 
-use crate::Scalar;
-use crate::build::{Kind, Refused, Spec, StepperVisitor, modal};
-use crate::model::{ModelVisitor, with_model};
+use crate::build::{Kind, ModalOf, NewmarkOf, Refused, Spec, StepperVisitor};
+use crate::model::with_model;
+use crate::{Erasable, Scalar};
 
 /// Builds the stepper that is asked for on the scene's carrier. What `auto` has a rung for is of
 /// one type, as such scenes are rare.
@@ -29,64 +28,28 @@ pub(crate) fn on_carrier<T: Scalar, V: StepperVisitor>(
         },
         Kind::Rung { rung, bend } => visitor.visit(carried(rung, bend)?),
         Kind::Newmark { elements, mass, spin } => {
-            let newmark = NewmarkOf::<T, V> { scene, tick, spin, visitor, scalar: PhantomData };
-            with_model(&resting, elements, mass, newmark)??
+            let visitor = Carried { scene, visitor };
+            let newmark = NewmarkOf::<T, _> { tick, spin, visitor, scalar: PhantomData };
+            with_model(&resting, elements, mass, newmark)???
         }
         Kind::Modal { modes, elements, mass, spin } => {
-            let modal = ModalOf::<T, V> { scene, tick, modes, spin, visitor, scalar: PhantomData };
-            with_model(&resting, elements, mass, modal)??
+            let visitor = Carried { scene, visitor };
+            let modal = ModalOf::<T, _> { tick, modes, spin, visitor, scalar: PhantomData };
+            with_model(&resting, elements, mass, modal)???
         }
     })
 }
 
-struct NewmarkOf<'a, T, V> {
+/// Puts the stepper of an arm on the scene's carrier, for the visitor.
+struct Carried<'a, V> {
     scene: &'a Scene,
-    tick: f64,
-    spin: bool,
     visitor: V,
-    scalar: PhantomData<T>,
 }
 
-impl<T: Scalar, V: StepperVisitor> ModelVisitor for NewmarkOf<'_, T, V> {
+impl<V: StepperVisitor> StepperVisitor for Carried<'_, V> {
     type Output = Result<V::Output, Refused>;
 
-    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Self::Output {
-        let stepper = OnCarrier::new(self.scene, |_| {
-            let stepper = Newmark::<T, N, W>::new(&model, self.tick)?;
-            Ok(if self.spin { stepper } else { stepper.without_spin() })
-        })?;
-        Ok(self.visitor.visit(stepper))
-    }
-}
-
-struct ModalOf<'a, T, V> {
-    scene: &'a Scene,
-    tick: f64,
-    modes: usize,
-    spin: bool,
-    visitor: V,
-    scalar: PhantomData<T>,
-}
-
-impl<T: Scalar, V: StepperVisitor> ModelVisitor for ModalOf<'_, T, V> {
-    type Output = Result<V::Output, Refused>;
-
-    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Self::Output {
-        match self.modes {
-            1 if N >= 1 => self.in_modes::<1, N, W>(&model),
-            2 if N >= 2 => self.in_modes::<2, N, W>(&model),
-            3 if N >= 3 => self.in_modes::<3, N, W>(&model),
-            _ => Err(Refused::Modes(N.min(3))),
-        }
-    }
-}
-
-impl<T: Scalar, V: StepperVisitor> ModalOf<'_, T, V> {
-    fn in_modes<const K: usize, const N: usize, const W: usize>(
-        self,
-        model: &Model<N, W>,
-    ) -> Result<V::Output, Refused> {
-        let set_up = |_: &Scene| modal::<T, K, N, W>(model, self.tick, self.spin);
-        Ok(self.visitor.visit(OnCarrier::new(self.scene, set_up)?))
+    fn visit<S: Erasable>(self, stepper: S) -> Self::Output {
+        Ok(self.visitor.visit(OnCarrier::new(self.scene, |_| Ok(stepper))?))
     }
 }
