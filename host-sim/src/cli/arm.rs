@@ -26,8 +26,7 @@ impl ArmArgs {
         let scene = self.tick.applied(open_arm(&self.scene)?);
         let report = describe(&scene)?;
         if self.json {
-            let text = serde_json::to_string_pretty(&report).map_err(Error::new)?;
-            println!("{text}");
+            super::print_json(&report)?;
         } else {
             print(&report);
         }

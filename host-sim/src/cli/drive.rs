@@ -67,7 +67,7 @@ impl DriveArgs {
         let file = folder.map(|folder| page::write(folder, &title, &report)).transpose()?;
         if self.json {
             let figures = Figures::of(&scene.name, &machine, &report, file.as_deref());
-            println!("{}", serde_json::to_string_pretty(&figures).map_err(Error::new)?);
+            super::print_json(&figures)?;
         } else {
             println!("{title}");
             print(&report);

@@ -105,8 +105,7 @@ impl IdentifyArgs {
         let identified = request.carry_out()?;
         let written = self.write(&identified, page.as_deref())?;
         if self.json {
-            let text = serde_json::to_string_pretty(&identified.report).map_err(Error::new)?;
-            println!("{text}");
+            super::print_json(&identified.report)?;
         } else {
             print(&identified.report);
             for path in written {

@@ -24,6 +24,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use serde::Serialize;
 use stillbeam_sim::console::note;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::limits::load::Progress;
@@ -45,14 +46,33 @@ fn with_limits_shown<T>(task: impl FnOnce(&dyn Fn(Progress)) -> T) -> T {
 
 /// Draws quantities over time below a command's lines, if standard output is a terminal. Each is
 /// its title with unit, and its values at even times from 0 to `end` s.
-fn draw<'a>(quantities: impl IntoIterator<Item = (&'a str, Vec<f64>)>, end: f64) {
+fn draw(quantities: impl IntoIterator<Item = (impl AsRef<str>, Vec<f64>)>, end: f64) {
     if !stdout().is_terminal() {
         return;
     }
     for (title, values) in quantities {
-        if let Some(lines) = sketch::over_time(title, values.into_iter(), end) {
+        if let Some(lines) = sketch::over_time(title.as_ref(), values.into_iter(), end) {
             println!("\n{lines}");
         }
+    }
+}
+
+/// Returns the largest magnitude of a quantity of rows.
+fn peak<R>(rows: &[R], of: impl Fn(&R) -> f64) -> f64 {
+    rows.iter().map(of).map(f64::abs).fold(0.0, f64::max)
+}
+
+/// Prints figures as one JSON object.
+fn print_json(figures: &impl Serialize) -> Result<(), Error> {
+    println!("{}", serde_json::to_string_pretty(figures).map_err(Error::new)?);
+    Ok(())
+}
+
+/// Says where `count` rows went, `what` they are.
+fn print_written(count: usize, what: &str, csv: Option<&Path>) {
+    match csv {
+        Some(csv) => println!("  {count} {what} to {}", csv.display()),
+        None => println!("  {count} {what}; --csv OUT.csv writes them"),
     }
 }
 

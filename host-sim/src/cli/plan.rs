@@ -145,7 +145,7 @@ impl PlanArgs {
         let file = page::write(&self.out, &scene.name, &request, &planned)?;
         if self.json {
             let report = PlanReport::of(&scene.name, &request, &planned, &file);
-            println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+            super::print_json(&report)?;
         } else {
             print(&scene.name, &request, &planned);
             println!("  {}", file.display());

@@ -81,7 +81,7 @@ impl ReferenceArgs {
         }
         let report = ReferenceReport::of(&scene, self.solver, [tick, every], &rows)?;
         if self.json {
-            println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+            super::print_json(&report)?;
         } else {
             self.print(&scene, &report);
             rows::draw(&scene, &rows);
@@ -98,10 +98,7 @@ impl ReferenceArgs {
 
     fn print(&self, scene: &SceneFile, solved: &ReferenceReport) {
         println!("{}: {}", solved.scene, solved.solver);
-        match &self.csv {
-            Some(csv) => println!("  {} rows to {}", solved.rows, csv.display()),
-            None => println!("  {} rows; --csv OUT.csv writes them", solved.rows),
-        }
+        super::print_written(solved.rows, "rows", self.csv.as_deref());
         solved.figures.print_peaks(scene);
         solved.figures.print_residual(scene);
     }

@@ -21,10 +21,9 @@ pub struct Figures {
 impl Figures {
     /// Takes them from the rows of a scene whose durations are rounded to `tick` s.
     pub fn of(scene: &SceneFile, tick: f64, rows: &[Row]) -> Result<Self, Error> {
-        let peak = |of: fn(&Row) -> f64| rows.iter().map(of).map(f64::abs).fold(0.0, f64::max);
         Ok(Self {
-            peak_effort: peak(|row| row.torque_nm),
-            peak_deflection_m: peak(|row| row.deflection_m),
+            peak_effort: super::peak(rows, |row| row.torque_nm),
+            peak_deflection_m: super::peak(rows, |row| row.deflection_m),
             residual: residual(rows, scene, tick)?.value(),
         })
     }

@@ -91,7 +91,7 @@ impl RunArgs {
         }
         let report = RunReport::of(&scene, &solver, choice.as_ref(), &rows)?;
         if self.json {
-            println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+            super::print_json(&report)?;
         } else {
             self.print(&scene, &solver, choice.as_ref(), &report);
             rows::draw(&scene, &rows);
@@ -107,10 +107,7 @@ impl RunArgs {
                 advice::errors(scene, expected)
             );
         }
-        match &self.csv {
-            Some(csv) => println!("  {} setpoints to {}", run.setpoints, csv.display()),
-            None => println!("  {} setpoints; --csv OUT.csv writes them", run.setpoints),
-        }
+        super::print_written(run.setpoints, "setpoints", self.csv.as_deref());
         run.figures.print_peaks(scene);
         let bent = run.figures.peak_deflection_m / scene.arm.link.length;
         if bent > 0.3 && matches!(solver.method, Method::Newmark | Method::Modal) {

@@ -45,7 +45,7 @@ impl<'a> Outputs<'a> {
         self.write(scene, solver, rows)?;
         let report = RowsReport::of(scene, solver, rows);
         if self.json {
-            println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+            crate::cli::print_json(&report)?;
         } else {
             self.print(&report);
             draw(rows);
@@ -69,10 +69,7 @@ impl<'a> Outputs<'a> {
 
     fn print(&self, report: &RowsReport) {
         println!("{}: {}", report.scene, report.solver);
-        match self.csv {
-            Some(csv) => println!("  {} rows to {}", report.rows, csv.display()),
-            None => println!("  {} rows; --csv OUT.csv writes them", report.rows),
-        }
+        crate::cli::print_written(report.rows, "rows", self.csv);
         if let Some(path) = self.page {
             println!("  drawn in {}", path.display());
         }
@@ -89,15 +86,13 @@ pub fn draw(rows: &[Row]) {
         let values: Vec<f64> = rows.iter().map(|row| of(row)[j]).collect();
         (format!("{name} {}, {unit}", j + 1), values)
     };
-    let curves: Vec<(String, Vec<f64>)> = (0..count)
+    let curves = (0..count)
         .flat_map(|j| {
             [
                 curve("joint", j, "rad", |row| &row.joints),
                 curve("torque", j, "N m", |row| &row.torques),
             ]
         })
-        .filter(|(_, values)| values.iter().any(|value| *value != 0.0))
-        .collect();
-    let titled = curves.iter().map(|(title, values)| (title.as_str(), values.clone()));
-    crate::cli::draw(titled, end);
+        .filter(|(_, values)| values.iter().any(|value| *value != 0.0));
+    crate::cli::draw(curves, end);
 }

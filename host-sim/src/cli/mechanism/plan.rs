@@ -7,7 +7,6 @@ use stillbeam_sim::error::Error;
 use stillbeam_sim::mechanism::plan::Request;
 use stillbeam_sim::mechanism::{MechanismScene, page, table};
 use stillbeam_sim::output::Files;
-use stillbeam_sim::println;
 
 use super::outputs::draw;
 use super::report::PlanReport;
@@ -35,7 +34,7 @@ pub fn plan(
     files.finish()?;
     let report = PlanReport::of(&request, &planned, &path);
     if json {
-        println!("{}", serde_json::to_string_pretty(&report).map_err(Error::new)?);
+        crate::cli::print_json(&report)?;
     } else {
         report.print();
         draw(rows);

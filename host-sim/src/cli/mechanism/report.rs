@@ -7,6 +7,8 @@ use stillbeam_sim::mechanism::plan::{Planned, Request};
 use stillbeam_sim::mechanism::table::Row;
 use stillbeam_sim::println;
 
+use crate::cli::peak;
+
 /// Figures of rows.
 #[derive(Serialize)]
 pub struct RowsReport {
@@ -34,10 +36,9 @@ struct Joint {
 
 impl RowsReport {
     pub fn of(scene: &MechanismScene, solver: &str, rows: &[Row]) -> Self {
-        let peak = |of: &dyn Fn(&Row) -> f64| rows.iter().map(of).map(f64::abs).fold(0.0, f64::max);
         let joint = |(j, link): (usize, &Link)| Joint {
-            peak_torque_nm: peak(&|row| row.torques[j]),
-            peak_deflection_m: peak(&|row| row.deflections[j]),
+            peak_torque_nm: peak(rows, |row| row.torques[j]),
+            peak_deflection_m: peak(rows, |row| row.deflections[j]),
             length_m: link.length,
         };
         Self {
@@ -87,14 +88,15 @@ pub struct PlanReport {
 impl PlanReport {
     pub fn of(request: &Request<'_>, planned: &Planned, page: &std::path::Path) -> Self {
         let rows = &planned.still.rows;
-        let peak = |j: usize| rows.iter().map(|row| row.torques[j].abs()).fold(0.0, f64::max);
         Self {
             scene: request.scene.name.clone(),
             from: request.from.clone(),
             to: request.to.clone(),
             duration_s: planned.duration,
             first_period_s: planned.first_period,
-            peak_torque_nm: (0..request.to.len()).map(peak).collect(),
+            peak_torque_nm: (0..request.to.len())
+                .map(|j| peak(rows, |row| row.torques[j]))
+                .collect(),
             residual: planned.still.residual,
             quintics_residual: planned.quintic.residual,
             flights: planned.flights,
