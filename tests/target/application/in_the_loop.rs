@@ -39,6 +39,16 @@ fn machines_behind_the_drives_are_followed_and_repeat_to_the_bit() {
     assert!(setpoints > 1000 && frames > 1000, "{setpoints}, {frames}");
 }
 
+/// Begins a conversation with loaded drives, and leaves axis 1 `wait` s after the beginning of a
+/// move by `turn` rad.
+fn moving_session(turn: f64, wait: f64) -> Session {
+    let mut session = loaded_session();
+    take(&mut session, "enable 1");
+    take(&mut session, &format!("move 1 quintic {turn} 0.9"));
+    take(&mut session, &format!("wait {wait}"));
+    session
+}
+
 /// Causes of an axis' stops, in their order, as its ticks were reported.
 fn modes(session: &Session, axis: u8, from: usize) -> Vec<Mode> {
     let mut modes: Vec<_> = session.history(axis)[from..].iter().map(|tick| tick.mode).collect();
@@ -50,10 +60,7 @@ fn modes(session: &Session, axis: u8, from: usize) -> Vec<Mode> {
 /// to be enabled until the errors are cleared, and then begins where the shaft is.
 #[test]
 fn a_drive_that_faults_stops_its_axis_and_is_cleared() {
-    let mut session = loaded_session();
-    for step in ["enable 1", "move 1 quintic 1.0 0.9", "wait 0.5"] {
-        take(&mut session, step);
-    }
+    let mut session = moving_session(1.0, 0.5);
     let from = session.history(1).len();
     take(&mut session, "fault 1");
     take(&mut session, "wait 0.6");
@@ -84,10 +91,7 @@ fn a_drive_that_faults_stops_its_axis_and_is_cleared() {
 /// the drive comes back and says that its watchdog has switched it off.
 #[test]
 fn a_cut_bus_stops_the_axis() {
-    let mut session = loaded_session();
-    for step in ["enable 1", "move 1 quintic 2.0 0.9", "wait 0.5"] {
-        take(&mut session, step);
-    }
+    let mut session = moving_session(2.0, 0.5);
     let from = session.history(1).len();
     take(&mut session, "cut 1");
     take(&mut session, "wait 1.2");
@@ -108,10 +112,7 @@ fn a_cut_bus_stops_the_axis() {
 #[test]
 fn an_encoder_that_jumps_moves_no_setpoint() {
     let ends = [0.0, 0.004].map(|turns| {
-        let mut session = loaded_session();
-        for step in ["enable 1", "move 1 quintic 1.0 0.9", "wait 0.4"] {
-            take(&mut session, step);
-        }
+        let mut session = moving_session(1.0, 0.4);
         take(&mut session, &format!("jump 1 {turns}"));
         take(&mut session, "rest");
         take(&mut session, "wait 0.5");
