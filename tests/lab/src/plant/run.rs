@@ -1,5 +1,7 @@
 //! Runs an axis, its drive and its machine in lock-step under a fault.
 
+mod judge;
+
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use stillbeam::axis::Mode;
@@ -27,16 +29,6 @@ const OPTIONS: Options = Options { order: 5, tolerance: 1e-6 };
 /// Time from the end of the move until the vibrations that it leaves begin to settle, s: a link
 /// that is cut shows after the patience, a drive that is lost after its own.
 const LATE: f64 = 0.6;
-
-/// Turn of the hub, rad, and swing of the tip, of L, in the arm's last period that count as rest.
-const STILL: [f64; 2] = [1e-2, 1e-2];
-
-/// Way of a stop over `v²/A`, from rate `v` with the acceleration `A` of a hub that speeds up:
-/// `T(v/2 + AT/12)` with the brake's longest time, `T = 1.5√2 v/A`.
-const WAY: f64 = 1.4357;
-
-/// Error of the energy balance over work and losses that a run may have.
-const ENERGY: f64 = 1e-4;
 
 /// Time without a setpoint after which the drive's watchdog switches it off, s.
 const WATCHDOG: f64 = 0.1;
@@ -281,72 +273,6 @@ impl<'a> Run<'a> {
             self.rest.see(&self.plant);
         }
         Ok(())
-    }
-
-    /// Returns the stop's way over the greatest that the brake may take.
-    fn way(&self) -> f64 {
-        let limit = self.case.configuration.policy.limits.acceleration.unwrap_or(f64::INFINITY);
-        self.stopped_from.map_or(0.0, |(from, rate)| {
-            // A stop takes whole ticks.
-            let most = WAY * rate * rate / limit + rate.abs() * TICK;
-            (self.setpoint - from).abs() / most.max(1e-6)
-        })
-    }
-
-    /// Judges what was promised of the run.
-    fn judge(&mut self, way: f64, energy: f64) {
-        let mut fail = |broken: String| self.broken.push(broken);
-        let length = self.case.configuration.scene.link.length;
-        let [turn, swing] = [self.rest.turn(), self.rest.swing() / length];
-        if !self.rest.finite() {
-            fail("the machine is not finite".to_owned());
-        }
-        if turn > STILL[0] {
-            fail(format!("the hub turns by {turn:.2e} rad in the last period"));
-        }
-        if swing > STILL[1] {
-            fail(format!("the tip swings by {swing:.2e} of L in the last period"));
-        }
-        if way > 1.0 {
-            fail(format!("a stop took {way:.3} of its way"));
-        }
-        if energy > ENERGY {
-            fail(format!("the energy balance is off by {energy:.1e}"));
-        }
-        let (axis, wanted) = (self.board.axis(), self.fault.cause());
-        if axis.cause() != wanted || self.stopped_from.is_some() != wanted.is_some() {
-            fail(format!("stopped for {:?}, not {wanted:?}", axis.cause()));
-        }
-        let end = match self.fault {
-            Fault::DriveFault => Mode::Disabled,
-            _ if wanted.is_some() => Mode::Stopped,
-            _ => Mode::Enabled,
-        };
-        if axis.mode() != end || !axis.rests() {
-            fail(format!("ends {:?}, not {end:?}, at rest", axis.mode()));
-        }
-        self.broken.extend(self.watch.broken.clone());
-    }
-
-    fn outcome(mut self) -> Outcome {
-        let exchanged = self.plant.work().abs() + self.plant.lost().abs();
-        let energy = self.plant.energy_error().abs() / exchanged.max(1e-9);
-        let way = self.way();
-        self.judge(way, energy);
-        let length = self.case.configuration.scene.link.length;
-        Outcome {
-            runs: 1,
-            injected: self.injected,
-            setpoints: self.watch.setpoints,
-            cut: self.cut,
-            stops: u64::from(self.stopped_from.is_some()),
-            way,
-            behind: self.behind,
-            turn: self.rest.turn(),
-            swing: self.rest.swing() / length,
-            energy,
-            broken: self.broken,
-        }
     }
 }
 
