@@ -1,4 +1,4 @@
-//! What the pages say in words about figures of their tables and of the code.
+//! Sentences of the pages about figures of their tables and of the code.
 
 use stillbeam::material::MATERIALS;
 use stillbeam::{Error, Link, Scene};

@@ -1,5 +1,5 @@
-//! What a scene says of joints, sections, masses, measurements, axes and carriers, said wrongly:
-//! one line that names the key, its value and what it must be.
+//! Joints, sections, masses, measurements, axes and carriers that a scene says wrongly are refused
+//! in one line that names the key, its value and what it must be.
 
 use std::fs;
 

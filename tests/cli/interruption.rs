@@ -1,4 +1,4 @@
-//! What is left of a command that found no room or no way to write.
+//! Traces of a command that found no room or no way to write.
 
 use std::process::Command;
 

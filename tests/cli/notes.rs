@@ -67,7 +67,7 @@ fn values_in_other_units_are_remarked_on() {
     }
 }
 
-/// What a wrong unit makes impossible is refused with the remark.
+/// A refusal that a wrong unit leads to comes with the remark.
 #[test]
 fn a_refusal_takes_the_remark_along() {
     let text = format!("{LINK}{MOVE}").replace("5.0", "0.5").replace("to = 1.0", "to = 90");

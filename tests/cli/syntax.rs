@@ -1,4 +1,4 @@
-//! What cannot be parsed is refused in one line with file, line, column and key; and no text,
+//! Text that cannot be parsed is refused in one line with file, line, column and key; and no text,
 //! however mangled, ends in anything else.
 
 use std::fs;

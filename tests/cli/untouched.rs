@@ -1,5 +1,5 @@
-//! What is left where a command that writes finds no room, or no way to write: nothing, and one
-//! line. Shared by the simulation's commands and the lab's.
+//! Traces of a command that writes and finds no room, or no way to write: nothing, and one line.
+//! Shared by the simulation's commands and the lab's.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -14,7 +14,7 @@ pub fn demands(turns: i32, velocity: f32, torque: f32) -> impl Strategy<Value = 
         .prop_map(|(n, part, v, t)| demand(n, part, v, t))
 }
 
-/// What no format may send.
+/// Numbers that no format may send.
 pub const NOT_FINITE: [f32; 3] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
 
 /// Every way to put one of them into a demand.

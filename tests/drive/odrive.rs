@@ -22,7 +22,7 @@ fn set_input_pos_is_laid_out_as_documented() {
     assert!(!frame.saturated.any());
 }
 
-/// What the published driver crate makes of the same numbers, whatever they are.
+/// Frames are those of the published driver crate for the same numbers, whatever they are.
 #[test]
 fn another_encoder_agrees() {
     proptest!(|(node in 0u8..64, d in demands(1000, 32.0, 32.0))| {

@@ -1,4 +1,4 @@
-//! What the campaign has found, each as a case of its own.
+//! Faults that the campaign has found, each as a case of its own.
 
 use stillbeam::axis::Mode;
 use stillbeam::model::OneElement;

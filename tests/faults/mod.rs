@@ -1,4 +1,4 @@
-//! What goes wrong around an axis: a part of the campaigns of `cargo lab faults` and `cargo lab
+//! Faults around an axis: a part of the campaigns of `cargo lab faults` and `cargo lab
 //! plant`, and the cases that they have found.
 
 mod campaign;

@@ -1,4 +1,4 @@
-//! What the firmware does, as far as it needs no target: the policy of an axis, the command
+//! The firmware as far as it needs no target: the policy of an axis, the command
 //! protocol.
 
 mod common;

@@ -1,5 +1,5 @@
-# What `run` and `long` share; read from the folder of both. `folder`: where each builds, below target/.
-# `profile`: `--dev`, or nothing for the optimised build.
+# The common part of `run` and `long`, read from the folder of both. `folder`: where each builds,
+# below target/. `profile`: `--dev`, or nothing for the optimised build.
 
 TARGETS="scene frames axis odrive cia402 moteus"
 
@@ -20,8 +20,8 @@ build_targets() {
     done
 }
 
-# fuzz TARGET FOLDER OPTIONS…: from the kept inputs; what is new goes to the folder. An input that fails
-# is left in tests/fuzz/targets/artifacts.
+# fuzz TARGET FOLDER OPTIONS…: from the kept inputs; what is new goes to the folder. An input that
+# fails is left in tests/fuzz/targets/artifacts.
 fuzz() {
     target=$1 new=$2
     shift 2

@@ -4,7 +4,7 @@ use stillbeam_tests::assert_near;
 
 const LINK: Link = Link { length: 0.4, mass: 0.0224, bending_stiffness: 0.46 };
 
-/// What an arm at rest hangs to: the small-deflection model against the rod, for a small load.
+/// Sag of an arm at rest: the small-deflection model against the rod, for a small load.
 #[test]
 fn equilibrium_of_the_model_and_of_the_rod_agree_for_small_sag() {
     let mut scene = Scene::new(LINK);

@@ -1,4 +1,4 @@
-//! What the factors solve is the equation that was asked.
+//! The factors solve the equation that was asked.
 
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;

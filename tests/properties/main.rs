@@ -1,4 +1,4 @@
-//! What must hold for every arm, move and method, by random search. One property a file.
+//! Properties of every arm, move and method, by random search. One property a file.
 
 mod arms;
 mod energy;
@@ -22,7 +22,8 @@ use proptest::test_runner::{Config, RngSeed};
 /// The seed of the everyday run, so that it is the same run every day.
 const SEED: u64 = 20_261_125;
 
-/// So many random cases; `PROPTEST_CASES` makes it another number, `PROPTEST_RNG_SEED` other cases.
+/// Asks for a number of random cases; `PROPTEST_CASES` makes it another, `PROPTEST_RNG_SEED` other
+/// cases.
 fn cases(cases: u32) -> Config {
     let default = Config::default();
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok());

@@ -20,7 +20,7 @@ pub trait Method {
     fn stepper<T: Scalar>(scene: &Scene, tick: f64) -> Result<Self::Stepper<T>, Error>;
 }
 
-/// What shall hold for a method.
+/// A property of a method.
 pub trait Property {
     /// Fails where it does not.
     fn holds<M: Method>(&self) -> TestCaseResult;

@@ -65,8 +65,8 @@ impl Wait {
     }
 }
 
-/// What a last bit of the input may do to a setpoint: in f32 eight elements lose three digits, see
-/// `precision`.
+/// Effect that a last bit of the input may have on a setpoint: in f32 eight elements lose three
+/// digits, see `precision`.
 fn rounding<T: Scalar>() -> f64 {
     2e4 * T::EPSILON.to_f64()
 }

@@ -97,7 +97,7 @@ fn hubs<M: Method>(scene: &Scene, turn: &Turn) -> Vec<HubState<f64>> {
         .collect()
 }
 
-/// What a stepper makes of it, from rest.
+/// Steps through the motion from rest.
 fn follow<S: Stepper<Scalar = f64>>(stepper: &S, hubs: &[HubState<f64>]) -> Vec<Numbers> {
     let rest = HubState { angle: Angle::default(), rate: 0.0, acceleration: 0.0, ..hubs[0] };
     let mut state = stepper.equilibrium(&rest);

@@ -10,7 +10,7 @@ use stillbeam::{Damping, Generator, Move, Profile, Scalar, Scene, Stepper};
 use crate::arms::{BEND, TICK, Turn, arms, turns};
 use crate::cases;
 
-/// What becomes of a state when time is turned round.
+/// The state when time is turned round.
 trait Reverse: Stepper {
     fn reversed(&self, state: &Self::State, hub: &HubState<Self::Scalar>) -> Self::State;
 }

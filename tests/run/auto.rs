@@ -1,4 +1,4 @@
-//! What `auto` chooses: the bounded part of the campaign behind `docs/auto.md`, and the order of
+//! Choices of `auto`: the bounded part of the campaign behind `docs/auto.md`, and the order of
 //! the ladder.
 
 use stillbeam::motion::Moves;

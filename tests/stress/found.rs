@@ -1,4 +1,4 @@
-//! What the campaigns have found, case by case: seed and number of the scene.
+//! Cases that the campaigns have found: seed and number of the scene.
 
 use stillbeam_lab::stress::draw::{Drawn, draw, draw_plain};
 use stillbeam_lab::stress::trial::{Verdict, trial};

@@ -1,4 +1,4 @@
-//! What is tried by the million, a bounded part of it; and what it has found.
+//! A bounded part of the campaigns that try scenes by the million, and the cases that they found.
 
 mod energy;
 mod found;

@@ -1,9 +1,9 @@
 /* stillbeam: feed-forward setpoints for a flexible robot link, in real time.
  *
- * Every call returns an sb_status; 0 is success. sb_error_text says in a line why a call was refused.
- * The caller owns all memory: an sb_arm, sb_planner, sb_path or sb_drive is storage for its init
- * function. Structures are in SI units, and a field that is 0 is not there. sb_tick is the call for
- * the control interrupt; the others run beside it.
+ * Every call returns an sb_status; 0 is success. sb_error_text says in a line why a call was
+ * refused. The caller owns all memory: an sb_arm, sb_planner, sb_path or sb_drive is storage for
+ * its init function. Structures are in SI units, and a field that is 0 is not there. sb_tick is the
+ * call for the control interrupt; the others run beside it.
  *
  * docs/c.md has a program that fits on a screen, and how to link.
  *

@@ -9,7 +9,8 @@ import time
 import stillbeam as sb
 
 scene = sb.Scene.from_toml("d-tip30-quick")
-# A million ticks each: ten thousand rounds there and back in a second, and one turn by microseconds.
+# A million ticks each: ten thousand rounds there and back in a second, and one turn by
+# microseconds.
 path = scene.replace(move={"waypoints": [[0.4, 1.0], [1.0, 0.0]], "repeat": 10_000})
 turn = scene.replace(move={"profile": "quintic", "duration": 0.7, "to": 3.0, "settle": 0.3})
 

@@ -113,7 +113,7 @@ fn a_carrier_and_a_hub_are_too_fast_together() {
     assert!(spin(0.4 * max).is_ok());
 }
 
-/// What elastica may hold for ever, it may not hold on a carrier that turns the same way.
+/// A rate that elastica may hold for ever is too fast on a carrier that turns the same way.
 #[test]
 fn rates_that_are_held_are_told_relative_to_the_carrier() {
     let arm = OnCarrier::new(&carried(), |scene| Ok(elastica(scene))).expect("a stepper");

@@ -161,7 +161,7 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for Access<A> {
     }
 }
 
-/// What is read next.
+/// The seed of the value that is read next.
 struct Seed<S>(S);
 
 impl<'de, S: DeserializeSeed<'de>> DeserializeSeed<'de> for Seed<S> {

@@ -30,7 +30,7 @@ pub(crate) fn advance<Y: State<f64>, F: ODE<f64, Y>>(
         }
         method.step(system).map_err(|error| failure(begin, error))?;
         if matches!(method.status(), Status::RejectedStep) {
-            // The library shortens the step on and on where none is finite, until time stands still.
+            // Where no step is finite the library shortens it on and on, until time stands still.
             if method.t() + method.h() == method.t() {
                 let reason = lost.to_owned();
                 return Err(ReferenceError::Integration { time: method.t(), reason });

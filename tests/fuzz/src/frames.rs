@@ -33,7 +33,7 @@ fn whole(frame: Result<&mut [u8], Garbled>) {
     }
 }
 
-/// What stands in a frame, without checksum and coding.
+/// Reads the content of a frame, without checksum and coding.
 fn content(message: &[u8]) {
     if let Ok((request, _)) = postcard::take_from_bytes::<Request>(message) {
         again(&request);

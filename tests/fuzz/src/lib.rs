@@ -1,4 +1,4 @@
-//! What every input must come through, whatever it is: no panic, nothing that is not finite, no
+//! Promises to every input, whatever it is: no panic, nothing that is not finite, no
 //! reading that its own writing contradicts. A body takes bytes and panics where a promise is
 //! broken.
 //!

@@ -1,6 +1,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
-//! What host and target run alike: every scene with every method, each named in one place.
+//! The runs that host and target make alike: every scene with every method, each named in one
+//! place.
 //!
 //! A new method is an entry of `stillbeam-methods`, a new scene one of [`scenes`]; the golden
 //! comparison, the instruction table, the proof of no panic and the footprint all take it from

@@ -1,4 +1,4 @@
-//! What is left of a command that was killed, or that found no room or no way to write.
+//! Traces of a command that was killed, or that found no room or no way to write.
 
 #[path = "../../cli/untouched.rs"]
 mod untouched;

@@ -9,8 +9,8 @@ use crate::session::{begin, run, status};
 
 /// Whole application on the emulated board. Until arms had joints that give, offset payloads and
 /// mounts it was 64 and 16 KiB; 68 KiB of flash until drives were watched and moves held against
-/// their frames, until it recorded and took changes of mind; 77 KiB until newmark refused ticks that
-/// hide the stiffness.
+/// their frames, until it recorded and took changes of mind; 77 KiB until newmark refused ticks
+/// that hide the stiffness.
 const FLASH: u64 = 78 * 1024;
 const RAM: u64 = 19 * 1024;
 /// With the planner of still moves: until then 116 and 32 KiB, and 128 KiB of flash.

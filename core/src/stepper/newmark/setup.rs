@@ -13,9 +13,9 @@ use crate::stepper::{MOST_GRAVITY_CHANGE, SLEEP, check_tick};
 /// of the first two frequencies are apart, 80 times the ratio of the masses.
 const HEAVIEST: f64 = 0.002;
 
-/// Least pivot of the effective matrix along principal axes, of its diagonal and in roundings of the
-/// tick's precision. What a heavy payload far beyond the tip leaves of the other coordinates is a
-/// small difference of large numbers: a rounding of these would make it negative, and the step
+/// Least pivot of the effective matrix along principal axes, of its diagonal and in roundings of
+/// the tick's precision. What a heavy payload far beyond the tip leaves of the other coordinates is
+/// a small difference of large numbers: a rounding of these would make it negative, and the step
 /// would feed the arm.
 const LEAST_PIVOT: f64 = 4.0;
 

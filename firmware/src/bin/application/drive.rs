@@ -77,7 +77,7 @@ async fn one(bus: &mut BusWriter, axis: u8, tick: &Tick<f32>, drive: &mut Drive)
     }
 }
 
-/// What the log has been told of a drive's reports.
+/// A drive's reports as the log has been told them.
 #[derive(Clone, Copy, Default)]
 struct Warned {
     lost: bool,

@@ -1,5 +1,5 @@
-//! The common parts of the campaigns of interruptions: the state in which a plan begins, its residual
-//! in a finer simulation, and its refusals.
+//! The common parts of the campaigns of interruptions: the state in which a plan begins, its
+//! residual in a finer simulation, and its refusals.
 
 use std::collections::BTreeMap;
 

@@ -116,8 +116,8 @@ fn damping(rng: &mut StdRng) -> String {
 mod tests {
     use crate::stress::draw::draw;
 
-    /// Measured arms are drawn, of every kind: of one frequency and of more, with joint and without,
-    /// sizes that taper, damping by ratios.
+    /// Measured arms are drawn, of every kind: of one frequency and of more, with joint and
+    /// without, sizes that taper, damping by ratios.
     #[test]
     fn measured_arms_are_among_the_drawn() {
         let drawn: Vec<_> = (0..400).map(|index| draw(8, index).scene).collect();
