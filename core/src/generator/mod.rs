@@ -9,6 +9,8 @@ mod redirect;
 mod setpoint;
 mod stop;
 mod stream;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use change::Replaced;
 use current::{Current, Part};
