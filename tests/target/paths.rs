@@ -6,7 +6,7 @@ use stillbeam_protocol::Command;
 use stillbeam_sim::talk::Answer;
 use stillbeam_tests::{assert_near, firmware, image};
 
-use crate::session::{begin, last, status, take_all};
+use crate::session::{ON_TIME, begin, last, status, take_all};
 
 /// With paths: flash, and statics with the deepest stack.
 const FLASH: u64 = 96 * 1024;
@@ -39,8 +39,8 @@ fn a_path_of_many_rows_runs_through_the_queue_to_the_bit() {
         }
         let status = status(&mut session);
         assert_eq!([status.missed, status.overruns, status.dropped], [0; 3], "{status:?}");
-        // The hand-over of a piece of a quintic spline masks the tick for 158 µs here.
-        assert!(status.late < 200, "{spline}: no plan holds a tick up: {status:?}");
+        // The hand-over of a piece of a quintic spline masks the tick for 158 µs.
+        assert!(status.late < ON_TIME, "{spline}: no plan holds a tick up: {status:?}");
         let image = firmware::application("mps2,path").unwrap_or_else(|error| panic!("{error}"));
         let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
         println!("{spline}: {footprint:?}, stack {}", status.stack);

@@ -10,7 +10,7 @@ use stillbeam_sim::identify::{Identified, Request};
 use stillbeam_sim::talk::{self, Answer, Excitation, Recording, Session};
 use stillbeam_tests::{assert_near, root};
 
-use crate::session::begin;
+use crate::session::{ON_TIME, begin};
 
 /// Arm behind the stand-in's sensor of axis 1: natural frequency, Hz, and damping ratio.
 const FREQUENCY: f64 = 2.84;
@@ -64,7 +64,7 @@ fn every_tick_of_the_motion_is_in_the_log() {
     assert_eq!((recording.column.as_str(), recording.lost), ("tip_deflection_m", 0));
     for (k, sample) in recording.samples.iter().enumerate() {
         let late = sample.time - 10_000 * k as u32;
-        assert!(late < 100, "row {k}: {} us", sample.time);
+        assert!(late < ON_TIME, "row {k}: {} us", sample.time);
     }
     let hub: Vec<f64> = recording.samples.iter().map(|s| s.hub.radians()).collect();
     let history = session.history(1);

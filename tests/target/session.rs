@@ -7,6 +7,11 @@ use stillbeam_protocol::{Command, Status};
 use stillbeam_sim::talk::{Answer, Machine, Session, Step};
 use stillbeam_tests::firmware;
 
+/// Bound on the lateness of a tick that nothing in the firmware holds up, µs. QEMU's clock follows
+/// the instructions, but its timers wait for a thread of the host: on a busy one 276 µs have been
+/// seen. Planning takes tens of milliseconds, and would be found beyond it.
+pub const ON_TIME: u32 = 2_000;
+
 /// Begins a conversation with the application of those features.
 pub fn begin(features: &str) -> Session {
     begin_with(&firmware::application(features).unwrap_or_else(|error| panic!("{error}")))

@@ -15,7 +15,7 @@ use super::machine::POLL;
 use crate::error::Error;
 
 /// Time within which QEMU must connect. It takes a fraction of a second on an idle machine.
-const CONNECT: Duration = Duration::from_secs(20);
+const CONNECT: Duration = Duration::from_secs(120);
 
 /// A running QEMU; it ends with this value.
 pub struct Emulator {

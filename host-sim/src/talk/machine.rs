@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::Emulator;
 use crate::error::Error;
@@ -14,8 +14,9 @@ const CHUNK: usize = 120;
 /// Time limit of one read.
 pub(super) const POLL: Duration = Duration::from_millis(20);
 
-/// Time without a byte after which the firmware is taken for dead.
-const PATIENCE: Duration = Duration::from_secs(20);
+/// Time without a byte after which a board is taken for dead, and an emulated one, whose host may be
+/// busy with other work. That QEMU has ended is seen at once.
+const PATIENCE: [Duration; 2] = [Duration::from_secs(20), Duration::from_secs(120)];
 
 /// A running firmware.
 pub struct Machine {
@@ -25,7 +26,8 @@ pub struct Machine {
     outbox: [VecDeque<u8>; 2],
     /// Time for which the next tick is kept from running, µs.
     stall: u16,
-    heard: Instant,
+    /// For how long has been waited for a byte. Time in which this program did not run is no part.
+    silence: Duration,
 }
 
 /// A serial line with a short time limit on reads.
@@ -56,7 +58,7 @@ impl Machine {
     }
 
     fn new(link: Box<dyn Line>, emulator: Option<Emulator>) -> Self {
-        Self { link, emulator, outbox: Default::default(), stall: 0, heard: Instant::now() }
+        Self { link, emulator, outbox: Default::default(), stall: 0, silence: Duration::ZERO }
     }
 
     /// True if time passes only by [`Machine::grant`], and the bus can be read.
@@ -117,10 +119,10 @@ impl Machine {
             Err(error) if is_timeout(&error) => 0,
             Err(error) => return Err(broken("link", error)),
         };
-        if n > 0 {
-            self.heard = Instant::now();
-        } else if self.heard.elapsed() > PATIENCE {
-            return Err(self.gone(&format!("has been silent for {} s", PATIENCE.as_secs())));
+        self.silence = if n > 0 { Duration::ZERO } else { self.silence + POLL };
+        let patience = PATIENCE[usize::from(self.is_emulated())];
+        if self.silence > patience {
+            return Err(self.gone(&format!("has been silent for {} s", patience.as_secs())));
         }
         bytes.truncate(n);
         Ok(bytes)

@@ -5,7 +5,7 @@ use stillbeam_sim::talk::{DEMONSTRATION, FAULTS, Session, Step};
 use stillbeam_tests::assert_near;
 
 use super::without_counts;
-use crate::session::{begin, run, status, take};
+use crate::session::{ON_TIME, begin, run, status, take};
 
 /// Time of an instruction of the emulated board, s.
 const INSTRUCTION: f64 = 64e-9;
@@ -53,7 +53,7 @@ fn the_firmware_and_the_host_agree_to_the_bit_through_the_whole_policy() {
     assert_eq!(faults, [0; 5], "{status:?}");
     // A stop out of the tick included, and still far from the tick's time.
     assert!(f64::from(status.worst) * INSTRUCTION < session.tick() / 20.0, "{status:?}");
-    assert!(status.late < 100, "no planning holds a tick up: {status:?}");
+    assert!(status.late < ON_TIME, "no planning holds a tick up: {status:?}");
 }
 
 /// The host runs its own axes through the same late and missed ticks; setpoints are compared to the

@@ -4,7 +4,7 @@ use stillbeam_protocol::Command;
 use stillbeam_sim::talk::{Answer, STILL};
 use stillbeam_tests::assert_near;
 
-use crate::session::{begin, run, status, take};
+use crate::session::{ON_TIME, begin, run, status, take};
 
 /// Every setpoint of a still move that the target has planned is the host's own plan's, or the
 /// conversation would have ended with an error.
@@ -25,7 +25,7 @@ fn still_moves_are_planned_on_the_target_while_ticks_and_drives_go_on() {
     assert_eq!(rests.rate, 0.0);
     let status = status(&mut session);
     // Plans take many ticks, and no tick, frame or setpoint waits for them.
-    assert!(session.now() > 200 && status.late < 100, "{status:?}");
+    assert!(session.now() > 200 && status.late < ON_TIME, "{status:?}");
     assert_eq!([status.missed, status.overruns, status.dropped], [0; 3], "{status:?}");
 }
 
