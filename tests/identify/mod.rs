@@ -3,7 +3,9 @@
 mod campaign;
 #[path = "../../host-sim/examples/09_from_log_to_arm.rs"]
 mod circle;
+mod fitted;
 mod measured;
+mod spectrum;
 
 /// A log of a sensor on an arm that is 5 % softer than the handbook's, and a still move with it.
 #[test]

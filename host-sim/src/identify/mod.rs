@@ -19,7 +19,7 @@ mod request;
 pub mod ringdown;
 pub mod scene;
 mod separable;
-mod spectrum;
+pub mod spectrum;
 pub mod warning;
 
 use nalgebra::DVector;

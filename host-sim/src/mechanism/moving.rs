@@ -40,30 +40,3 @@ fn remark(scene: &MechanismScene) -> String {
         Some(time) => format!("closes at {time} s"),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mechanism::{run, scenes};
-
-    /// The joints that are drawn are the ends of the links, and a loop's tip stays on its pin.
-    #[test]
-    fn joints_and_pin_are_where_the_table_has_them() {
-        for name in ["two-links", "four-bar"] {
-            let scene = scenes::open(name).expect("a name").expect("a scene");
-            let rows = run::run(&scene, &scene.solver().expect("a solver")).expect("a run");
-            let animation = animation(&scene, &rows).expect("a picture");
-            let frames = &animation.panels[0].arms[0].frames;
-            let stride = rows.len().div_ceil(frames.len());
-            assert!(frames.len() > 50 && frames.len() <= INTERVALS + 1, "{}", frames.len());
-            for (frame, row) in frames.iter().zip(rows.iter().step_by(stride)) {
-                assert_eq!(frame.line.last(), row.ends.last());
-                assert_eq!(frame.joints, row.ends[..row.ends.len() - 1]);
-                assert_eq!(frame.deflections, row.deflections);
-            }
-            let count = scene.mechanism.links.len();
-            let dashed = animation.svg().matches("stroke-dasharray=\"7 5\"").count();
-            assert_eq!(dashed, usize::from(count > 1), "{name}");
-        }
-    }
-}

@@ -36,30 +36,3 @@ pub fn render(
     };
     Ok(page(&scene.name, &body))
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::mechanism::picture::shape;
-    use crate::mechanism::table::Row;
-    use crate::mechanism::{MechanismScene, scenes};
-
-    /// A link that is drawn passes through its ends, and a straight one through its middle.
-    #[test]
-    fn links_are_drawn_where_their_ends_are() {
-        let scene: MechanismScene = scenes::open("forearm").unwrap().unwrap();
-        let row = Row {
-            joints: vec![0.0, 0.5],
-            ends: vec![[0.3, 0.0], [0.3 + 0.32 * f64::cos(0.5), 0.32 * f64::sin(0.5)]],
-            deflections: vec![0.0; 2],
-            torques: vec![0.0; 2],
-            t: 0.0,
-        };
-        let line = shape(&scene, &row);
-        for end in &row.ends {
-            assert!(line.iter().any(|(x, y)| (x - end[0]).hypot(y - end[1]) < 1e-12));
-        }
-        // Half of the forearm's strip, which begins 20 mm from the elbow.
-        let half = [0.3 + 0.17 * f64::cos(0.5), 0.17 * f64::sin(0.5)];
-        assert!(line.iter().any(|(x, y)| (x - half[0]).hypot(y - half[1]) < 1e-12));
-    }
-}

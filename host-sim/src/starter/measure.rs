@@ -66,30 +66,3 @@ fn scatter(material: &str) -> f64 {
         0.3
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A strip without payload: `f ∝ t √E / L²`.
-    #[test]
-    fn the_shifts_are_those_of_the_formula() {
-        let starter = Starter {
-            length: 0.5,
-            material: "steel".to_owned(),
-            width: 0.02,
-            thickness: 0.001,
-            payload: 0.0,
-            frequency: None,
-            damping: None,
-            to: 1.0,
-            duration: None,
-        };
-        let doubts = doubts(&starter).expect("doubts");
-        let shift = |word: &str| doubts.iter().find(|d| d.what.contains(word)).expect(word).shift;
-        assert!((shift("thickness") - 0.05).abs() < 1e-6, "{doubts:?}");
-        assert!((shift("length") - 0.003_988).abs() < 1e-6, "{doubts:?}");
-        assert!((shift("modulus") - 0.024_695).abs() < 1e-6, "{doubts:?}");
-        assert!(doubts.is_sorted_by(|a, b| a.shift >= b.shift), "{doubts:?}");
-    }
-}
