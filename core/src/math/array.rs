@@ -38,7 +38,7 @@ impl<A: Blank, B: Blank> Blank for (A, B) {
 }
 
 /// `[f(0), f(1), …, f(N − 1)]`, computed in this order.
-#[inline(always)]
+#[inline]
 pub(crate) fn array<T: Blank, const N: usize>(mut f: impl FnMut(usize) -> T) -> [T; N] {
     let mut array = [T::BLANK; N];
     for i in 0..N {
@@ -54,7 +54,7 @@ pub(crate) trait Each<T, const N: usize> {
 }
 
 impl<T: Copy, const N: usize> Each<T, N> for [T; N] {
-    #[inline(always)]
+    #[inline]
     fn each<U: Blank>(self, mut f: impl FnMut(T) -> U) -> [U; N] {
         array(|i| f(self[i]))
     }
