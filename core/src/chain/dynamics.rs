@@ -3,7 +3,7 @@
 use super::along::{at_points, over_points};
 use super::pose::{Pose, Vector, cross, plus};
 use super::{Body, Model};
-use crate::math::{Scalar, array};
+use crate::math::Scalar;
 
 /// Motion of one link in the global frame, as the forward pass leaves it for the backward one.
 #[derive(Clone, Copy, Debug)]
@@ -141,7 +141,7 @@ impl<T: Scalar, const W: usize, const Q: usize> Body<T, W, Q> {
     /// Moment of what accelerates the link and all beyond on each tangent, `f` at the link's end.
     #[inline(always)]
     fn moments(&self, motion: &Motion<T, Q>, pose: &Pose<T, Q>, f: Vector<T>) -> [T; Q] {
-        array(|q| {
+        core::array::from_fn(|q| {
             let mut n = [self.lengths[q] * f[0], self.lengths[q] * f[1]];
             n = plus(n, self.first[q], motion.clamp);
             for p in 0..Q {

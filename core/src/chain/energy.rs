@@ -1,7 +1,7 @@
 //! Energy of a chain, and what damping takes of it.
 
 use super::{Chain, ChainState};
-use crate::math::{Scalar, array};
+use crate::math::Scalar;
 
 /// Energy at one instant, J, and its loss.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +62,6 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// Inertia that each joint turns, kg m².
     pub(super) fn inertias(&self, state: &ChainState<T, LINKS, W>) -> [f64; LINKS] {
         let mass = self.model.mass::<C, false>(&self.pose_of(state));
-        array(|j| mass.matrix[j * W][j * W].to_f64())
+        core::array::from_fn(|j| mass.matrix[j * W][j * W].to_f64())
     }
 }

@@ -5,7 +5,7 @@ use super::solve::Factors;
 use super::{Chain, ChainState, JointState, Model};
 use crate::Error;
 use crate::hub::Angle;
-use crate::math::{Complex, Each, Scalar, array};
+use crate::math::{Complex, Scalar};
 
 /// Most Newton steps.
 const STEPS: usize = 200;
@@ -74,7 +74,7 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
         let spring = self.spring();
         let (mut change, mut gap) = (f64::INFINITY, 0.0);
         for _ in 0..STEPS {
-            let mut right: [f64; C] = flat(&self.missing(rest)).each(|force: f64| -force);
+            let mut right: [f64; C] = flat(&self.missing(rest)).map(|force: f64| -force);
             let mut stiffness = self.tangent(rest, free);
             let (mut missed, mut moves) = ([0.0; 2], [[0.0; 2]; C]);
             if let Some(pin) = pin {
@@ -91,9 +91,11 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
                 }
             }
             let none = [[Complex::ZERO; W]; LINKS];
-            let right = core::array::from_fn(|j| array(|k| Complex::new(right[j * W + k], 0.0)));
+            let right = core::array::from_fn(|j| {
+                core::array::from_fn(|k| Complex::new(right[j * W + k], 0.0))
+            });
             let factors = Factors::<f64, LINKS, W, 0>::new(&stiffness, &none, free);
-            let step: [f64; C] = flat(&factors.solve(&right).each(|row| row.each(|step| step.re)));
+            let step: [f64; C] = flat(&factors.solve(&right).map(|row| row.map(|step| step.re)));
             change = step.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
             gap = crate::math::sqrt(missed[0] * missed[0] + missed[1] * missed[1]);
             if !change.is_finite() {
@@ -179,7 +181,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// no stable place to rest that is found.
     pub fn at_rest(&self, angles: &[f64; LINKS]) -> Result<ChainState<T, LINKS, W>, Error> {
         let model = self.model.precise();
-        let pin = self.pin.map(|pin| pin.each(T::to_f64));
+        let pin = self.pin.map(|pin| pin.map(T::to_f64));
         let mut rest = Rest { q: [[0.0; W]; LINKS], force: [0.0; 2] };
         for j in 0..LINKS {
             let angle = if self.open[j * W] { self.passive_angles[j].to_f64() } else { angles[j] };
@@ -211,7 +213,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         let missing = model.missing(rest);
         let free = if closed { &self.closed } else { &self.open };
         let zero = [[T::ZERO; W]; LINKS];
-        let mut shape = rest.q.each(|row| row.each(f));
+        let mut shape = rest.q.map(|row| row.map(f));
         for row in &mut shape {
             row[0] = T::ZERO;
         }
@@ -220,9 +222,9 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             shape,
             rate: zero,
             acceleration: zero,
-            torque: array(|j| if free[j * W] { T::ZERO } else { f(missing[j][0]) }),
+            torque: core::array::from_fn(|j| if free[j * W] { T::ZERO } else { f(missing[j][0]) }),
             pin: if closed { self.pin } else { None },
-            force: rest.force.each(f),
+            force: rest.force.map(f),
             ends: [[T::ZERO; 2]; LINKS],
             tips: [[T::ZERO; 2]; LINKS],
         };

@@ -66,7 +66,7 @@ pub use state::{ChainState, Command, JointState};
 pub use still::{ChainPlan, ChainPlanner};
 
 use crate::Error;
-use crate::math::{Scalar, array};
+use crate::math::Scalar;
 use crate::mechanism::{Closing, Mechanism};
 use solve::Values;
 use weights::Weights;
@@ -157,7 +157,7 @@ where
         let payload = &mechanism.payload;
         let bends = |j: usize| mechanism.links[j].bends();
         let unknown = |closed: bool| {
-            array(|i| match i % W {
+            core::array::from_fn(|i| match i % W {
                 0 if closed => mechanism.is_free_when_closed(i / W),
                 0 => !mechanism.is_driven(i / W),
                 _ => bends(i / W),
@@ -184,7 +184,7 @@ where
             weights,
             open: unknown(false),
             closed: unknown(true),
-            passive_angles: array(|j| f(mechanism.joints[j].angle)),
+            passive_angles: core::array::from_fn(|j| f(mechanism.joints[j].angle)),
             pin: mechanism.closure.as_ref().and_then(|closure| match closure.begins {
                 Closing::OnPin(pin) => Some(pin.map(f)),
                 Closing::At(_) => None,

@@ -3,7 +3,6 @@
 //! Functions of real numbers are called by path from here (never as methods), so that host and
 //! target run the same code and give the same bits.
 
-mod array;
 mod band;
 mod complex;
 mod gauss;
@@ -14,7 +13,6 @@ mod propagator;
 mod scalar;
 mod words;
 
-pub(crate) use array::{Each, array};
 pub use band::{Band, HalfForm, Ldl};
 pub(crate) use complex::Complex;
 pub(crate) use gauss::{GAUSS_POINTS, gauss_points, polynomial};
@@ -57,7 +55,7 @@ pub(crate) fn clip<T: Scalar>(x: T, most: T) -> T {
 
 /// Rounds a set-up vector to the scalar of the tick.
 pub(crate) fn cast<T: Scalar, P: Scalar, const N: usize>(v: &[P; N]) -> [T; N] {
-    v.each(round)
+    v.map(round)
 }
 
 /// Rounds a number of set-up to the scalar of the tick.
