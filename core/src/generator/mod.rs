@@ -9,8 +9,6 @@ mod redirect;
 mod setpoint;
 mod stop;
 mod stream;
-#[cfg(test)]
-mod tests;
 
 pub(crate) use change::Replaced;
 use current::{Current, Part};
@@ -323,3 +321,6 @@ fn respond<T: Scalar>(hub: &HubState<T>, response: Response<T>) -> Setpoint<T> {
     let Response { torque, tip } = response;
     Setpoint { angle: hub.angle, rate: hub.rate, acceleration: hub.acceleration, torque, tip }
 }
+
+#[cfg(test)]
+mod tests;
