@@ -64,15 +64,11 @@ fn what_no_scene_may_hold_is_refused() {
 #[test]
 fn the_shifts_are_those_of_the_formula() {
     let starter = Starter {
-        length: 0.5,
         material: "steel".to_owned(),
-        width: 0.02,
         thickness: 0.001,
         payload: 0.0,
-        frequency: None,
-        damping: None,
         to: 1.0,
-        duration: None,
+        ..strip()
     };
     let doubts = doubts(&starter).expect("doubts");
     let shift = |word: &str| doubts.iter().find(|d| d.what.contains(word)).expect(word).shift;
