@@ -14,9 +14,11 @@ const CHUNK: usize = 120;
 /// Time limit of one read.
 pub(super) const POLL: Duration = Duration::from_millis(20);
 
-/// Time without a byte after which a board is taken for dead, and an emulated one, whose host may be
-/// busy with other work. That QEMU has ended is seen at once.
-const PATIENCE: [Duration; 2] = [Duration::from_secs(20), Duration::from_secs(120)];
+/// Time without a byte after which a board is taken for dead.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// The same in QEMU, whose host may be busy with other work. That QEMU has ended is seen at once.
+const EMULATED_PATIENCE: Duration = Duration::from_secs(120);
 
 /// A running firmware.
 pub struct Machine {
@@ -26,7 +28,7 @@ pub struct Machine {
     outbox: [VecDeque<u8>; 2],
     /// Time for which the next tick is kept from running, µs.
     stall: u16,
-    /// For how long has been waited for a byte. Time in which this program did not run is no part.
+    /// Time waited for a byte so far, without that in which this program did not run.
     silence: Duration,
 }
 
@@ -120,7 +122,7 @@ impl Machine {
             Err(error) => return Err(broken("link", error)),
         };
         self.silence = if n > 0 { Duration::ZERO } else { self.silence + POLL };
-        let patience = PATIENCE[usize::from(self.is_emulated())];
+        let patience = if self.is_emulated() { EMULATED_PATIENCE } else { PATIENCE };
         if self.silence > patience {
             return Err(self.gone(&format!("has been silent for {} s", patience.as_secs())));
         }
