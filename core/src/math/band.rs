@@ -1,6 +1,6 @@
 //! Symmetric band matrices and their LDLᵀ factors.
 
-use super::{Scalar, dot, words};
+use super::{Each, Scalar, dot, words};
 
 /// Symmetric `N × N` matrix with `W − 1` sub-diagonals, row-wise: `rows[i][d] = A[i][i − d]`.
 ///
@@ -37,7 +37,7 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
 
     /// Applies `f` to each stored entry.
     pub fn map<U: Scalar>(&self, mut f: impl FnMut(T) -> U) -> Band<U, N, W> {
-        Band { rows: self.rows.map(|row| row.map(&mut f)) }
+        Band { rows: self.rows.each(|row| row.each(&mut f)) }
     }
 
     /// `A + s B`.
@@ -73,7 +73,7 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
     /// The diagonal.
     #[inline(always)]
     pub(crate) fn diagonal(&self) -> [T; N] {
-        self.rows.map(|row| row[0])
+        self.rows.each(|row| row[0])
     }
 
     /// `A x` of a diagonal matrix, whatever its band could hold.
@@ -141,7 +141,7 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
     /// `s A`.
     #[inline(always)]
     pub fn scaled(&self, s: T) -> Self {
-        Self { rows: self.rows.map(|row| row.map(|entry| s * entry)) }
+        Self { rows: self.rows.each(|row| row.each(|entry| s * entry)) }
     }
 
     /// `½ xᵀA x` as a function of `x`.
@@ -238,7 +238,7 @@ pub struct Ldl<T, const N: usize, const W: usize> {
 impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
     /// Applies `f` to each stored number, e.g. to round set-up's factors to the tick's scalar.
     pub fn map<U: Scalar>(&self, mut f: impl FnMut(T) -> U) -> Ldl<U, N, W> {
-        Ldl { lower: self.lower.map(|row| row.map(&mut f)), inverse: self.inverse.map(&mut f) }
+        Ldl { lower: self.lower.each(|row| row.each(&mut f)), inverse: self.inverse.each(&mut f) }
     }
 
     /// `Dᵢᵢ`.

@@ -1,5 +1,7 @@
 //! The Gauss-Legendre rule of eight points, and polynomials by their coefficients.
 
+use super::array;
+
 /// Points of the rule: exact to degree 15.
 pub(crate) const GAUSS_POINTS: usize = 8;
 
@@ -13,7 +15,7 @@ const HALF_RULE: [(f64, f64); GAUSS_POINTS / 2] = [
 
 /// `(ξ, weight)` of the rule on 0..1, ascending.
 pub(crate) fn gauss_points() -> [(f64, f64); GAUSS_POINTS] {
-    core::array::from_fn(|p| {
+    array(|p| {
         if p < GAUSS_POINTS / 2 {
             HALF_RULE[p]
         } else {

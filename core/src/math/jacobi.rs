@@ -1,6 +1,6 @@
 //! Generalised symmetric eigenproblem by cyclic Jacobi rotations. Set-up only, f64.
 
-use super::{Band, sqrt};
+use super::{Band, Each, array, sqrt};
 
 /// Sweeps after which the iteration stops; a 16 × 16 beam needs 6 to 8.
 const MAX_SWEEPS: usize = 30;
@@ -26,10 +26,10 @@ pub(crate) fn generalized_eigen<const N: usize, const W: usize>(
             break;
         }
     }
-    let mut order: [usize; N] = core::array::from_fn(|i| i);
+    let mut order: [usize; N] = array(|i| i);
     order.sort_unstable_by(|&i, &j| a[j][j].total_cmp(&a[i][i]));
-    let values = order.map(|i| a[i][i]);
-    let vectors = order.map(|i| back_substitute(&s, &v[i]));
+    let values = order.each(|i| a[i][i]);
+    let vectors = order.each(|i| back_substitute(&s, &v[i]));
     (values, vectors)
 }
 
@@ -53,7 +53,7 @@ fn reduced<const N: usize, const W: usize>(
     m: &Band<f64, N, W>,
     s: &[[f64; N]; N],
 ) -> [[f64; N]; N] {
-    let mut a: [[f64; N]; N] = core::array::from_fn(|i| core::array::from_fn(|j| m.get(i, j)));
+    let mut a: [[f64; N]; N] = array(|i| array(|j| m.get(i, j)));
     // Forward substitution on the columns, then, being symmetric, on the rows.
     for _ in 0..2 {
         for c in 0..N {

@@ -1,6 +1,6 @@
 //! Linear least squares by normal equations, for a few unknowns in a box of unit size. Set-up only.
 
-use super::Band;
+use super::{Band, Each};
 
 /// Fits `Q` quantities as combinations of the same `M` functions. Functions that are zero at every
 /// sample take no part.
@@ -36,7 +36,7 @@ impl<const M: usize, const Q: usize> LeastSquares<M, Q> {
         let factors = self.normal.factor();
         let mut coefficients = [[0.0; Q]; M];
         for q in 0..Q {
-            let fitted = factors.solve(&self.right.map(|row| row[q]));
+            let fitted = factors.solve(&self.right.each(|row| row[q]));
             for i in 0..M {
                 if scale[i] != 0.0 {
                     coefficients[i][q] = fitted[i] / scale[i];

@@ -3,6 +3,7 @@
 //! Functions of real numbers are called by path from here (never as methods), so that host and
 //! target run the same code and give the same bits.
 
+mod array;
 mod band;
 mod complex;
 mod gauss;
@@ -13,6 +14,7 @@ mod propagator;
 mod scalar;
 mod words;
 
+pub(crate) use array::{Each, array};
 pub use band::{Band, HalfForm, Ldl};
 pub(crate) use complex::Complex;
 pub(crate) use gauss::{GAUSS_POINTS, gauss_points, polynomial};
@@ -55,7 +57,7 @@ pub(crate) fn clip<T: Scalar>(x: T, most: T) -> T {
 
 /// Rounds a set-up vector to the scalar of the tick.
 pub(crate) fn cast<T: Scalar, P: Scalar, const N: usize>(v: &[P; N]) -> [T; N] {
-    v.map(round)
+    v.each(round)
 }
 
 /// Rounds a number of set-up to the scalar of the tick.

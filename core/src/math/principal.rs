@@ -1,6 +1,6 @@
 //! Two quadratic forms at once: axes along which both are sums of squares. Set-up only.
 
-use super::{Band, Scalar, dot};
+use super::{Band, Each, Scalar, dot};
 
 /// Sweeps after which the iteration stops; two axes need one, eight about six.
 const MAX_SWEEPS: usize = 30;
@@ -25,7 +25,7 @@ pub(crate) fn principal_axes<T: Scalar, const N: usize, const W: usize>(
             }
         }
         let length = root(form(k, &axes[i], &axes[i]));
-        axes[i] = axes[i].map(|x| x / length);
+        axes[i] = axes[i].each(|x| x / length);
     }
     for _ in 0..MAX_SWEEPS {
         if !sweep(g, &mut axes) {

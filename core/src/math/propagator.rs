@@ -1,5 +1,7 @@
 //! The exact step of one damped oscillator: matrix exponential and φ-functions of a 2 × 2 matrix.
 
+use super::{Each, array};
+
 /// A 2 × 2 matrix, row-wise.
 pub(crate) type Matrix2 = [[f64; 2]; 2];
 
@@ -20,7 +22,7 @@ pub(crate) fn phi_functions(z: &Matrix2) -> [Matrix2; 5] {
         (norm, scale, doublings) = (0.5 * norm, 0.5 * scale, doublings + 1);
     }
     let z = scaled(scale, z);
-    let mut phi = [0, 1, 2, 3, 4].map(|k| series(&z, k));
+    let mut phi = [0, 1, 2, 3, 4].each(|k| series(&z, k));
     for _ in 0..doublings {
         let [p0, p1, p2, p3, p4] = phi;
         phi = [
@@ -52,15 +54,15 @@ fn series(z: &Matrix2, k: u32) -> Matrix2 {
 
 /// `a b`.
 pub(crate) fn product(a: &Matrix2, b: &Matrix2) -> Matrix2 {
-    core::array::from_fn(|i| core::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
+    array(|i| array(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
 }
 
 fn sum<const N: usize>(terms: &[Matrix2; N]) -> Matrix2 {
-    core::array::from_fn(|i| core::array::from_fn(|j| terms.iter().map(|term| term[i][j]).sum()))
+    array(|i| array(|j| terms.iter().map(|term| term[i][j]).sum()))
 }
 
 fn scaled(s: f64, a: &Matrix2) -> Matrix2 {
-    a.map(|row| row.map(|x| s * x))
+    a.each(|row| row.each(|x| s * x))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::Segment;
 use super::segment::Shape;
 use super::shapes::Piece;
 use crate::hub::Angle;
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 
 /// Hands the segments of cubics end to end over `ticks` ticks to `sink`. A stretch that contains no
 /// tick is left out; the next segment's kink makes up for it.
@@ -31,10 +31,10 @@ pub(super) fn lay_cubics<T: Scalar>(
         let end = border + ticks;
         let next = end.div_ceil(share);
         let (before, after) = (shares(first * share - border), shares(next * share - end));
-        let shape = Shape::Cubic(piece.cubic.map(|c| T::from_f64(c) * T::from_f64(turn)));
+        let shape = Shape::Cubic(piece.cubic.each(|c| T::from_f64(c) * T::from_f64(turn)));
         let start = start.plus(piece.start * turn);
         let [begin, end_acceleration] =
-            piece.accelerations.map(|a| T::from_f64(acceleration_scale * a));
+            piece.accelerations.each(|a| T::from_f64(acceleration_scale * a));
         let mut segment =
             Segment::new(start, shape, length, before, next - first, tick).ending(end_acceleration);
         if before == T::ZERO {

@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::{BULGE, Peaks};
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 
 /// Coefficients of `u … u¹¹`.
 const DEGREE: usize = BULGE + 5;
@@ -17,7 +17,7 @@ const NODES: u32 = 128;
 pub(crate) fn curve_peaks<T: Scalar>(c: &[T; 5], d: &[T; BULGE], duration: f64) -> Peaks {
     let mut derivative = monomials(c, d);
     let mut scale = TAU;
-    let [rate, acceleration, jerk] = [1, 2, 3].map(|order: usize| {
+    let [rate, acceleration, jerk] = [1, 2, 3].each(|order: usize| {
         // Coefficient k is that of u^k from here on, the first `order` of them gone.
         for k in 0..DEGREE {
             let power = (k + 2).saturating_sub(order);

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use super::Peaks;
 use super::polynomial::greatest;
 use super::segment::Shape;
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 
 /// Motion at both ends of a piece, from within: the turn between them in turns, and rates and
 /// accelerations in turns per `u` and per `u²`, `u = −1..1` over the piece.
@@ -30,8 +30,8 @@ impl<T: Scalar> Ends<T> {
         let per_u2 = T::HALF * duration * per_u;
         Self {
             turn,
-            rates: rates.map(|rate| rate * per_u),
-            accelerations: accelerations.map(|acceleration| acceleration * per_u2),
+            rates: rates.each(|rate| rate * per_u),
+            accelerations: accelerations.each(|acceleration| acceleration * per_u2),
         }
     }
 

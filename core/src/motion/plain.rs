@@ -15,7 +15,7 @@ use super::shapes::{Shapes, quintic, rest_to_rest, spin_up};
 use super::{BULGE, Limits, MoveSummary, Profile, Segment, curve_peaks};
 use crate::Error;
 use crate::hub::{Angle, HubState, MAX_ANGLE};
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 
 /// Those of the [`Move`](super::Move)s that begin and end at ticks, without acceleration but for a
 /// profile's own jumps: what a wire carries and a small firmware plans.
@@ -135,7 +135,7 @@ impl PlainMove {
                 for b in bulge {
                     Error::check("move.bulge", b, -MAX_ANGLE, MAX_ANGLE, "rad")?;
                 }
-                let (c, d) = (quintic(T::from_f64(delta)), bulge.map(|b| T::from_f64(b / TAU)));
+                let (c, d) = (quintic(T::from_f64(delta)), bulge.each(|b| T::from_f64(b / TAU)));
                 let demand = Demand::Curve(curve_peaks(&c, &d, duration));
                 (Shapes::One(Shape::Bulged { c, d }), end, demand)
             }

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use super::Profile;
 use super::segment::Shape;
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 
 /// The formulas of a move.
 pub(super) enum Shapes<T> {
@@ -33,7 +33,7 @@ const CUBIC: Piece =
 /// Coefficients `c₁ … c₅` of the quintic that turns by `turn`, in turns.
 pub(super) fn quintic<T: Scalar>(turn: T) -> [T; 5] {
     let n = T::from_f64;
-    [n(0.9375), T::ZERO, n(-0.625), T::ZERO, n(0.1875)].map(|c| c * turn)
+    [n(0.9375), T::ZERO, n(-0.625), T::ZERO, n(0.1875)].each(|c| c * turn)
 }
 
 /// Formulas of a rest-to-rest move by `d` turns.

@@ -3,7 +3,7 @@
 use super::Objective;
 use super::curve::{bulges, quintic};
 use super::linear::{Linear, MAX_AMPLITUDES, NODES};
-use crate::math::{Band, Ldl, Scalar, dot};
+use crate::math::{Band, Each, Ldl, Scalar, array, dot};
 use crate::motion::BULGE;
 
 /// Rounds of re-weighting towards the least greatest value.
@@ -68,9 +68,8 @@ impl<T: Scalar> Linear<T> {
         }
         let factors = normal.factor();
         let free = factors.solve(&right);
-        let across: [[T; BULGE]; MAX_AMPLITUDES] = core::array::from_fn(|i| {
-            if i < self.count { factors.solve(&self.rows[i]) } else { [T::ZERO; BULGE] }
-        });
+        let across: [[T; BULGE]; MAX_AMPLITUDES] =
+            array(|i| if i < self.count { factors.solve(&self.rows[i]) } else { [T::ZERO; BULGE] });
         let mut gram = Band::<T, MAX_AMPLITUDES, MAX_AMPLITUDES>::ZERO;
         for i in 0..MAX_AMPLITUDES {
             if i >= self.count {
@@ -83,11 +82,11 @@ impl<T: Scalar> Linear<T> {
             gram.add(i, i, gram.get(i, i) * T::EPSILON * T::from_f64(16.0));
         }
         let gram = gram.factor();
-        let towards: [[T; BULGE]; MAX_AMPLITUDES] = core::array::from_fn(|target| {
+        let towards: [[T; BULGE]; MAX_AMPLITUDES] = array(|target| {
             let mut unit = [T::ZERO; MAX_AMPLITUDES];
             unit[target] = T::ONE;
             let share = gram.solve(&unit);
-            core::array::from_fn(|k| {
+            array(|k| {
                 let mut sum = T::ZERO;
                 for i in 0..MAX_AMPLITUDES {
                     sum += share[i] * across[i][k];
@@ -115,9 +114,9 @@ impl<T: Scalar> LeastEffort<T> {
     /// Finds the bulges (turns) of least effort that change one amplitude of `others` by 1 each and
     /// none of `own`, the amplitudes that this was made for. `others` has one or two rows.
     pub fn aside(&self, own: &Linear<T>, others: &Linear<T>) -> [[T; BULGE]; 2] {
-        let free: [[T; BULGE]; 2] = core::array::from_fn(|j| {
+        let free: [[T; BULGE]; 2] = array(|j| {
             let mut v = self.factors.solve(&others.rows[j]);
-            let on = own.rows.map(|row| dot(&row, &v));
+            let on = own.rows.each(|row| dot(&row, &v));
             for i in 0..own.count {
                 for k in 0..BULGE {
                     v[k] -= on[i] * self.towards[i][k];
@@ -135,15 +134,15 @@ impl<T: Scalar> LeastEffort<T> {
             gram.add(1, 1, T::ONE);
         }
         let gram = gram.factor();
-        [[T::ONE, T::ZERO], [T::ZERO, T::ONE]].map(|unit| {
+        [[T::ONE, T::ZERO], [T::ZERO, T::ONE]].each(|unit| {
             let share = gram.solve(&unit);
-            core::array::from_fn(|k| share[0] * free[0][k] + share[1] * free[1][k])
+            array(|k| share[0] * free[0][k] + share[1] * free[1][k])
         })
     }
 
     /// The bulge that leaves the amplitudes `target` by the linear model, turns.
     pub fn bulge(&self, target: &[T; MAX_AMPLITUDES]) -> [T; BULGE] {
-        core::array::from_fn(|k| {
+        array(|k| {
             let mut sum = self.base[k];
             for i in 0..MAX_AMPLITUDES {
                 sum += target[i] * self.towards[i][k];

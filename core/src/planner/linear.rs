@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use super::Objective;
 use super::curve::{bulges, quintic};
-use crate::math::{Scalar, dot, words};
+use crate::math::{Scalar, array, dot, words};
 use crate::motion::{BULGE, curve_peaks};
 
 /// Most amplitudes that a move has to bring to zero: two of each of three arms.
@@ -67,7 +67,7 @@ impl<T: Scalar> Linear<T> {
             let (sin, cos) = T::from_f64(0.5 * mode.damped * duration / TAU).sin_cos_turns();
             let middle = |a: T, p: T| T::HALF * (cos * a - sin * p);
             let k = self.count;
-            self.rows[k] = core::array::from_fn(|j| middle(rows[0][j], rows[1][j]));
+            self.rows[k] = array(|j| middle(rows[0][j], rows[1][j]));
             self.offset[k] = middle(offset[0], offset[1]);
             self.count += 1;
         } else {

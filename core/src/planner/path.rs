@@ -1,5 +1,6 @@
 //! The curve of a still move, before its bulge.
 
+use crate::math::{Each, array};
 use core::f64::consts::TAU;
 
 use crate::hub::HubState;
@@ -45,7 +46,7 @@ impl Path {
         let rate = self.from.rate * half / TAU;
         let end_rate = self.rate * half / TAU;
         let acceleration = self.from.acceleration * half * half / TAU;
-        core::array::from_fn(|k| {
+        array(|k| {
             let begin = RATE[k] * rate + ACCELERATION[k] * acceleration;
             (TURN[k] * turn + begin + END_RATE[k] * end_rate) / 16.0
         })
@@ -53,7 +54,7 @@ impl Path {
 
     /// The quintic with a bulge in rad.
     pub fn segment(&self, bulge: &[f64; BULGE]) -> Segment<f64> {
-        let shape = Shape::Bulged { c: self.quintic(), d: bulge.map(|b| b / TAU) };
+        let shape = Shape::Bulged { c: self.quintic(), d: bulge.each(|b| b / TAU) };
         let length = f64::from(self.ticks);
         Segment::new(self.from.angle, shape, length, 0.0, self.ticks, self.tick)
             .beginning(self.from.rate, self.from.acceleration)

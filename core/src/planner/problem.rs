@@ -9,7 +9,7 @@ use super::simulate::{Arm, Resolution};
 use super::{ArmState, MAX_ARMS, Objective, Path, Planner, Request, StillMove, second_mode, solve};
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Scalar, cast, dot, sqrt};
+use crate::math::{Scalar, array, cast, dot, sqrt};
 use crate::motion::{BULGE, Segment, curve_peaks};
 
 /// Shortest move in first periods. Below it the search does not converge.
@@ -173,9 +173,8 @@ impl<'a, T: Scalar, const K: usize> Problem<'a, T, K> {
         if self.scope == Scope::Outer {
             let end = self.simulate(0, &bulge);
             solution.simulations += 1;
-            solution.residual = core::array::from_fn(|k| {
-                if k < K { self.amplitude(&self.left(0, k, &end)[..each]) } else { 0.0 }
-            });
+            solution.residual =
+                array(|k| if k < K { self.amplitude(&self.left(0, k, &end)[..each]) } else { 0.0 });
         }
         if self.scope == Scope::Second && self.arms.len() == 1 && solution.residual[1] > RINGS {
             self.quieten(&mut solution, &linear, &effort, [&found.miss[..each], &second[..each]]);

@@ -1,7 +1,7 @@
 //! Brings the second mode to rest too, where it is left ringing.
 
 use super::solve::clip;
-use crate::math::{Band, Scalar, dot};
+use crate::math::{Band, Scalar, array, dot};
 use crate::motion::BULGE;
 
 /// Number of unknowns, and of the amplitudes that they bring to zero: both of two modes.
@@ -37,7 +37,7 @@ pub(super) fn solve<T: Scalar>(
     mut simulate: impl FnMut(&[T; BULGE]) -> [T; MISSES],
 ) -> Found<T> {
     let moved = |bulge: &[T; BULGE], by: &[T; MISSES]| -> [T; BULGE] {
-        core::array::from_fn(|k| {
+        array(|k| {
             let mut sum = bulge[k];
             for i in 0..MISSES {
                 sum += by[i] * along[i][k];
@@ -52,7 +52,7 @@ pub(super) fn solve<T: Scalar>(
         let mut step = [T::ZERO; MISSES];
         step[i] = T::from_f64(PROBE);
         let there = simulate(&moved(&bulge, &step));
-        slopes[i] = core::array::from_fn(|m| (there[m] - miss[m]) * T::from_f64(1.0 / PROBE));
+        slopes[i] = array(|m| (there[m] - miss[m]) * T::from_f64(1.0 / PROBE));
     }
     best.simulations = count as u32;
     let mut size = dot(&miss, &miss);
@@ -114,7 +114,7 @@ fn update<T: Scalar>(
     count: usize,
 ) {
     let scale = T::ONE / squared;
-    let unexplained: [T; MISSES] = core::array::from_fn(|m| {
+    let unexplained: [T; MISSES] = array(|m| {
         let mut sum = after[m] - before[m];
         for i in 0..count {
             sum -= step[i] * slopes[i][m];

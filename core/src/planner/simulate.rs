@@ -6,7 +6,7 @@ use super::linear::Oscillation;
 use super::{MAX_ARMS, Path};
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Scalar, cast, sqrt, words};
+use crate::math::{Each, Scalar, array, cast, sqrt, words};
 use crate::model::{Load, Rod, RodPoints};
 use crate::scene::{LinkShape, Scene};
 use crate::stepper::{ArmState, Forcing, LONGEST_TURN, Oscillator};
@@ -83,8 +83,8 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
             modes: core::array::from_fn(|k| {
                 Oscillator::new(omega[k], alpha, beta[k], coupling[k], step)
             }),
-            stiffness: cast(&omega.map(|w| w * w)),
-            loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
+            stiffness: cast(&omega.each(|w| w * w)),
+            loss: array(|k| f(beta[k] * omega[k] * omega[k])),
             coupling: cast(&coupling),
             oscillation: core::array::from_fn(|k| {
                 let w = omega[k];
@@ -99,9 +99,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
                 }
             }),
             alpha: f(alpha),
-            tip_per_mode: core::array::from_fn(|k| {
-                [f(tip_per_mode(k)), f(tip_per_mode(k) / omega[k])]
-            }),
+            tip_per_mode: array(|k| [f(tip_per_mode(k)), f(tip_per_mode(k) / omega[k])]),
             frequency: cast(&omega),
         })
     }
@@ -155,9 +153,9 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
     /// every stiffness scaled alike, its modes keep their shapes.
     pub fn stiffened(&self, factor: T) -> Self {
         Self {
-            stiffness: self.stiffness.map(|square| factor * factor * square),
-            frequency: self.frequency.map(|omega| factor * omega),
-            tip_per_mode: self.tip_per_mode.map(|[tip, per_rate]| [tip, per_rate / factor]),
+            stiffness: self.stiffness.each(|square| factor * factor * square),
+            frequency: self.frequency.each(|omega| factor * omega),
+            tip_per_mode: self.tip_per_mode.each(|[tip, per_rate]| [tip, per_rate / factor]),
             ..*self
         }
     }
@@ -195,7 +193,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
                 let at = [flex.coordinate[k], flex.rate[k]];
                 y[k] = self.modes[k].predict(at, &drive, [T::ZERO, force[k]], [T::ZERO, change[k]]);
             }
-            let guess = ArmState { coordinate: y.map(|y| y[0]), rate: y.map(|y| y[1]) };
+            let guess = ArmState { coordinate: y.each(|y| y[0]), rate: y.each(|y| y[1]) };
             let next = self.excess(points, &guess, &after);
             for k in 0..K {
                 let new = next[k] - force[k];
@@ -244,7 +242,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         let ArmState { coordinate: a, rate: v } = flex;
         let exact = points.acceleration(a, v, hub, &self.stiffness, &self.loss);
         let drive = hub.acceleration + self.alpha * hub.rate;
-        core::array::from_fn(|k| {
+        array(|k| {
             exact[k]
                 + self.stiffness[k] * a[k]
                 + (self.alpha + self.loss[k]) * v[k]

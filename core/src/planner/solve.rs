@@ -2,7 +2,7 @@
 //! unknowns.
 
 use super::linear::MAX_AMPLITUDES;
-use crate::math::{self, Scalar, dot};
+use crate::math::{self, Each, Scalar, array, dot};
 
 /// The best target of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,18 +45,18 @@ pub(super) fn solve<T: Scalar>(
     while best.simulations < most && best.squared > enough {
         let doubled = T::TWO * T::TWO * best.squared;
         if size > doubled || !size.is_finite() {
-            step = step.map(|x| T::HALF * x);
+            step = step.each(|x| T::HALF * x);
             target = best.target;
         } else {
-            step = core::array::from_fn(|i| -dot(&inverse[i], &left));
+            step = array(|i| -dot(&inverse[i], &left));
             clip(&mut step, T::from_f64(LONGEST));
         }
-        let next = core::array::from_fn(|i| target[i] + step[i]);
+        let next = array(|i| target[i] + step[i]);
         let after = miss(&next);
         best.simulations += 1;
         let found = dot(&after, &after);
         if found.is_finite() && size.is_finite() {
-            let change = core::array::from_fn(|i| after[i] - left[i]);
+            let change = array(|i| after[i] - left[i]);
             update(&mut inverse, count, &step, &change);
         }
         if found < best.squared {
@@ -74,14 +74,14 @@ pub(super) fn update<T: Scalar>(
     step: &[T; MAX_AMPLITUDES],
     change: &[T; MAX_AMPLITUDES],
 ) {
-    let by = inverse.map(|row| dot(&row, change));
+    let by = inverse.each(|row| dot(&row, change));
     let slope = dot(step, &by);
     let squared = dot(step, step);
     // A change at right angles to the step says nothing, and divides by nothing.
     if slope.to_f64().abs() < 0.1 * squared.to_f64() {
         return;
     }
-    let sb: [T; MAX_AMPLITUDES] = core::array::from_fn(|j| {
+    let sb: [T; MAX_AMPLITUDES] = array(|j| {
         let mut sum = T::ZERO;
         for i in 0..count {
             sum += step[i] * inverse[i][j];

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use super::Path;
 use crate::hub::HubState;
-use crate::math::{Scalar, cast};
+use crate::math::{Each, Scalar, cast};
 use crate::motion::{BULGE, Move, Peaks, PlainMove, Segment, curve_peaks};
 
 /// A move after which the arm is at rest.
@@ -68,7 +68,7 @@ impl StillMove {
         let path = self.path();
         curve_peaks::<T>(
             &cast(&path.quintic()),
-            &self.bulge.map(|b| T::from_f64(b / TAU)),
+            &self.bulge.each(|b| T::from_f64(b / TAU)),
             path.duration(),
         )
     }

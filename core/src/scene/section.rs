@@ -3,6 +3,7 @@
 use super::CrossSection;
 use crate::Error;
 use crate::material::Material;
+use crate::math::array;
 
 /// A stretch of the link along which stiffness and mass per length are polynomials of `s`, 0 at the
 /// end nearer to the clamp and 1 at the other.
@@ -62,8 +63,8 @@ impl Section {
 /// Coefficients of the polynomial of degree 4 through values at 0, ¼, ½, ¾ and 1.
 fn quartic(y: [f64; 5]) -> [f64; 5] {
     // Newton's forward differences, of which equal values leave exact zeros.
-    let d1: [f64; 4] = core::array::from_fn(|i| y[i + 1] - y[i]);
-    let d2: [f64; 3] = core::array::from_fn(|i| d1[i + 1] - d1[i]);
+    let d1: [f64; 4] = array(|i| y[i + 1] - y[i]);
+    let d2: [f64; 3] = array(|i| d1[i + 1] - d1[i]);
     let d3 = [d2[1] - d2[0], d2[2] - d2[1]];
     let d4 = d3[1] - d3[0];
     // In u = 4s: y₀ + d₁u + d₂u(u−1)/2 + d₃u(u−1)(u−2)/6 + d₄u(u−1)(u−2)(u−3)/24.

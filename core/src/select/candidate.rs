@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::generator::Generator;
 use crate::hub::HubState;
-use crate::math::{Scalar, sqrt};
+use crate::math::{Each, Scalar, sqrt};
 use crate::motion::{Commanded, Kink, MAX_SEGMENTS};
 use crate::stepper::{AnyMotion, KinkMoments, Response, Stepper};
 
@@ -123,7 +123,7 @@ impl<S: Stepper> Candidate<S> {
         unseen: f64,
         length: f64,
     ) {
-        let [x, y] = [0, 1].map(|i| f64::from(tip[i]) - response.tip[i].to_f64());
+        let [x, y] = [0, 1].each(|i| f64::from(tip[i]) - response.tip[i].to_f64());
         let distance = sqrt(x * x + y * y) / length;
         let apart = (f64::from(torque) - response.torque.to_f64()).abs() + UNSEEN * unseen;
         // Not a number is no distance.

@@ -1,7 +1,7 @@
 //! The exact rod in all its modes, integrated in small steps: what the rungs are judged by.
 
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Band, Scalar, cast, dot, round};
+use crate::math::{Band, Each, Scalar, array, cast, dot, round};
 use crate::model::{LINK_STATIONS, POINTS, Rod};
 
 /// The stations of the link, and the payload.
@@ -119,9 +119,9 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
     pub fn new(rod: &Rod<MODES>, tick: f64, ticks: f64) -> Self {
         let (scene, link) = (rod.scene(), rod.stations());
         let length = scene.link.length;
-        let squared = rod.frequency().map(|omega| omega * omega);
+        let squared = rod.frequency().each(|omega| omega * omega);
         let beta = rod.stiffness_damping();
-        let loss: [f64; MODES] = core::array::from_fn(|k| beta[k] * squared[k]);
+        let loss: [f64; MODES] = array(|k| beta[k] * squared[k]);
         let wanted = |mode: usize| {
             let fastest = rod.frequency()[mode].max(loss[mode]);
             libm::ceil(tick * fastest / MOST).clamp(1.0, MAX_STEPS)
@@ -132,21 +132,21 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         Self {
             steps_a_tick: steps,
             tick,
-            slope: rod.slope().map(|slope| cast(&slope)),
+            slope: rod.slope().each(|slope| cast(&slope)),
             tip_slope: cast(rod.tip_slope()),
-            integral: core::array::from_fn(|s| {
+            integral: array(|s| {
                 let row = link.running.get(s).unwrap_or(&link.to_payload);
-                cast(&row.map(|weight| length * weight))
+                cast(&row.each(|weight| length * weight))
             }),
-            to_tip: cast(&link.to_tip.map(|weight| length * weight)),
-            mass: core::array::from_fn(|s| {
+            to_tip: cast(&link.to_tip.each(|weight| length * weight)),
+            mass: array(|s| {
                 let own = link.weights.get(s).map(|weight| link.mass * weight);
                 T::from_f64(own.unwrap_or(scene.payload.mass))
             }),
             twist: round(scene.payload.inertia),
             stiffness: cast(&squared),
             loss: cast(&loss),
-            ballast: core::array::from_fn(|k| {
+            ballast: array(|k| {
                 let (turn, decay) = (squared[k] * step * step, loss[k] * step);
                 T::from_f64((turn / (MOST * MOST)).max(decay / MOST).max(1.0) - 1.0)
             }),
@@ -157,7 +157,7 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             hub: round(scene.hub.inertia),
             carried: scene.mount.is_linear(),
             carrier: round(scene.mount.carrier),
-            swing: core::array::from_fn(|k| {
+            swing: array(|k| {
                 let swing = rod.tip_swing()[k].abs() / length;
                 [T::from_f64(swing / rod.frequency()[k]), T::from_f64(swing / squared[k])]
             }),
@@ -225,15 +225,15 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
         }
         let tip = [dot(&self.to_tip, &rest[0]) + self.radius, dot(&self.to_tip, &rest[1])];
         let mut fixed = [self.twist * turning, T::ZERO];
-        let mut moving = [self.tip_slope.map(|slope| self.twist * slope), [T::ZERO; MODES]];
+        let mut moving = [self.tip_slope.each(|slope| self.twist * slope), [T::ZERO; MODES]];
         for s in 0..STATIONS {
             if self.mass[s] == T::ZERO {
                 continue;
             }
             let row = &self.integral[s];
-            let along: [T; MODES] = core::array::from_fn(|k| dot(row, &x_slope[k]));
-            let across: [T; MODES] = core::array::from_fn(|k| dot(row, &y_slope[k]));
-            let [x, y, x_rest, y_rest]: [T; 4] = core::array::from_fn(|i| dot(row, &rest[i]));
+            let along: [T; MODES] = array(|k| dot(row, &x_slope[k]));
+            let across: [T; MODES] = array(|k| dot(row, &y_slope[k]));
+            let [x, y, x_rest, y_rest]: [T; 4] = array(|i| dot(row, &rest[i]));
             let x = x + self.radius;
             let (x_rate, y_rate) = (dot(&along, v), dot(&across, v));
             let x_load = x_rest - T::TWO * omega * y_rate - faster * y - omega * omega * x
@@ -330,7 +330,7 @@ impl<T: Scalar, const MODES: usize> Exact<T, MODES> {
             let (middle, last) = (at(2 * i + 1), at(2 * i + 2));
             let half = T::HALF * h;
             let from = |a: &[T; MODES], x: &[T; MODES], step: T| -> [T; MODES] {
-                core::array::from_fn(|k| a[k] + step * x[k])
+                array(|k| a[k] + step * x[k])
             };
             let Shape { a, v } = *shape;
             let v1 = v;

@@ -1,7 +1,7 @@
 //! The ringing after jumps of the commanded acceleration that the exact rod does not follow.
 
 use super::exact::MOST;
-use crate::math::sqrt;
+use crate::math::{Each, array, sqrt};
 use crate::model::Rod;
 
 /// Amplitudes with which the modes ring, rad/s² of the hub: a jump of the commanded acceleration by
@@ -28,16 +28,16 @@ impl<const MODES: usize> Ringing<MODES> {
     pub fn new(rod: &Rod<MODES>, tick: f64, steps: f64) -> Self {
         let (last, damping) = (MODES - 1, rod.scene().damping);
         let rest = rod.kinetics(&[0.0; MODES]);
-        let mut inertia = rest.coupling.map(|b| b * b);
+        let mut inertia = rest.coupling.each(|b| b * b);
         inertia[last] = (rest.inertia - inertia[..last].iter().sum::<f64>()).max(0.0);
         // The frequency of the highest is too high: of those that it stands for, none decays more
         // slowly than the one below it.
         let frequency = |k: usize| rod.frequency()[k.min(last - 1)];
-        let kept = core::array::from_fn(|k| {
+        let kept = array(|k| {
             let decay = 0.5 * (damping.alpha + damping.beta * frequency(k) * frequency(k));
             libm::exp(-decay * tick)
         });
-        let followed = core::array::from_fn(|k| {
+        let followed = array(|k| {
             let turn = frequency(k) * tick / steps;
             if k == last || turn > MOST { 0.0 } else { kept[k] * libm::pow(growth(turn), steps) }
         });
@@ -142,7 +142,7 @@ mod tests {
             let k2 = slope(from(k1, 0.5 * turn));
             let k3 = slope(from(k2, 0.5 * turn));
             let k4 = slope(from(k3, turn));
-            let sum = [0, 1].map(|i| (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]) / 6.0);
+            let sum = [0, 1].each(|i| (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]) / 6.0);
             let [x, v] = from(sum, turn);
             let stepped = sqrt(x * x + v * v);
             assert!((growth(turn) - stepped).abs() < 1e-12, "{turn}: {stepped}");

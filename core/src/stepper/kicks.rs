@@ -1,7 +1,7 @@
 //! Response of a mode to a kink of the motion inside a tick.
 
 use super::oscillator::pulled_back;
-use crate::math::{Matrix2, Scalar, Words, phi_functions, product};
+use crate::math::{Each, Matrix2, Scalar, Words, array, phi_functions, product};
 use crate::motion::{Kink, ORDERS};
 
 /// Changes of a mode's state before a tick, one for each moment of a [`Kink`].
@@ -23,16 +23,16 @@ impl<T: Scalar> Kicks<T> {
         let z = [[0.0, omega * h], [-omega * h, -(alpha + beta * omega * omega) * h]];
         let [whole, ..] = phi_functions(&z);
         let answers = answers(&z);
-        Self(core::array::from_fn(|k| {
-            let [a, p] = answers[k].map(|row| -b * h * (2 * k + 3) as f64 * row[1]);
-            pulled_back(&whole, [a, p]).map(T::from_f64)
+        Self(array(|k| {
+            let [a, p] = answers[k].each(|row| -b * h * (2 * k + 3) as f64 * row[1]);
+            pulled_back(&whole, [a, p]).each(T::from_f64)
         }))
     }
 
     /// The same for a state that holds the rate times `scale`.
     pub(super) fn rates_by(self, scale: f64) -> Self {
         let scale = T::from_f64(scale);
-        Self(self.0.map(|[a, p]| [a, scale * p]))
+        Self(self.0.each(|[a, p]| [a, scale * p]))
     }
 
     /// Returns the change to add to the state before the tick.
@@ -65,7 +65,7 @@ fn answers(z: &Matrix2) -> [Matrix2; ORDERS] {
         let [[a, b], [c, d]] =
             [[whole - next[0][0], -next[0][1]], [-next[1][0], whole - next[1][1]]];
         let determinant = a * d - b * c;
-        let inverse = [[d, -b], [-c, a]].map(|row| row.map(|x| -x / determinant));
+        let inverse = [[d, -b], [-c, a]].each(|row| row.each(|x| -x / determinant));
         ratio = product(&inverse, z);
         if k <= ORDERS {
             answers[k - 1] = ratio;

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Scalar, phi_functions, words};
+use crate::math::{Each, Scalar, array, phi_functions, words};
 
 /// `ȧ = p + nₐ`, `ṗ = −ω²a − (α + βω²)p − b u(t) + n_p`, with `u = θ̈ + αθ̇`.
 ///
@@ -78,21 +78,19 @@ impl<T: Scalar> Oscillator<T> {
     /// to the hub.
     pub(crate) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
         let [_, p1, p2, p3, _] = phi_of(omega, alpha, beta, h);
-        let cast = |matrix: [[f64; 2]; 2]| matrix.map(|row| row.map(|x| T::from_f64(h * x)));
+        let cast = |matrix: [[f64; 2]; 2]| matrix.each(|row| row.each(|x| T::from_f64(h * x)));
         Self {
             gain: contracting(gain(&matrix(omega, alpha, beta, h), &p1)),
             // u = u₀ + c₁s + c₂s², c₁ = 6ū − 4u₀ − 2u₁, c₂ = 3(u₀ + u₁ − 2ū), s = 0..1:
             // the response is h(φ₁u₀ + φ₂c₁ + 2φ₃c₂) times the second column.
-            drive: core::array::from_fn(|r| {
+            drive: array(|r| {
                 let (f1, f2, f3) = (h * p1[r][1], h * p2[r][1], h * p3[r][1]);
                 [f1 - 4.0 * f2 + 6.0 * f3, 6.0 * f2 - 12.0 * f3, 6.0 * f3 - 2.0 * f2]
-                    .map(|weight| T::from_f64(-b * weight))
+                    .each(|weight| T::from_f64(-b * weight))
             }),
             constant: cast(p1),
             slope: cast(p2),
-            correction: cast(core::array::from_fn(|i| {
-                core::array::from_fn(|j| 0.5 * p2[i][j] + p3[i][j])
-            })),
+            correction: cast(array(|i| array(|j| 0.5 * p2[i][j] + p3[i][j]))),
         }
     }
 
@@ -104,19 +102,19 @@ impl<T: Scalar> Oscillator<T> {
         let [c1, c2, c3, c4] = turn_functions(turn * turn);
         let phi = |even: T, odd: T| [[even, h * odd], [-(omega * (turn * odd)), even]];
         let [p1, p2, p3] = [phi(c1, c2), phi(c2, c3), phi(c3, c4)];
-        let scaled = |matrix: [[T; 2]; 2]| matrix.map(|row| row.map(|x| h * x));
+        let scaled = |matrix: [[T; 2]; 2]| matrix.each(|row| row.each(|x| h * x));
         let versine = -(turn * turn * c2);
         Self {
             gain: [[versine, h * c1], [-(omega * (turn * c1)), versine]],
-            drive: [0, 1].map(|r| {
+            drive: [0, 1].each(|r| {
                 let (f1, f2, f3) = (h * p1[r][1], h * p2[r][1], h * p3[r][1]);
-                let [two, four, six, twelve] = [2, 4, 6, 12].map(T::from_u32);
+                let [two, four, six, twelve] = [2, 4, 6, 12].each(T::from_u32);
                 [f1 - four * f2 + six * f3, six * f2 - twelve * f3, six * f3 - two * f2]
-                    .map(|weight| -(b * weight))
+                    .each(|weight| -(b * weight))
             }),
             constant: scaled(p1),
             slope: scaled(p2),
-            correction: scaled([0, 1].map(|i| [0, 1].map(|j| T::HALF * p2[i][j] + p3[i][j]))),
+            correction: scaled([0, 1].each(|i| [0, 1].each(|j| T::HALF * p2[i][j] + p3[i][j]))),
         }
     }
 
@@ -124,7 +122,7 @@ impl<T: Scalar> Oscillator<T> {
     pub(super) fn forced_by(mut self, scale: f64) -> Self {
         let scale = T::from_f64(scale);
         for matrix in [&mut self.constant, &mut self.slope] {
-            *matrix = matrix.map(|row| row.map(|x| scale * x));
+            *matrix = matrix.each(|row| row.each(|x| scale * x));
         }
         self
     }
@@ -163,7 +161,7 @@ impl<T: Scalar> Oscillator<T> {
         n: [T; 2],
         change: [T; 2],
     ) -> [T; 2] {
-        [0, 1].map(|r| {
+        [0, 1].each(|r| {
             self.free(r, y, forcing)
                 + (self.constant[r][0] * n[0] + self.constant[r][1] * n[1])
                 + (self.slope[r][0] * change[0] + self.slope[r][1] * change[1])
@@ -174,19 +172,20 @@ impl<T: Scalar> Oscillator<T> {
     /// the expected one.
     #[inline(always)]
     pub(crate) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
-        [0, 1].map(|r| y[r] + self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1])
+        [0, 1]
+            .each(|r| y[r] + self.correction[r][0] * excess[0] + self.correction[r][1] * excess[1])
     }
 
     /// The state after a step if `n` stays what it is, and `nₐ` is zero.
     #[inline(always)]
     pub(super) fn predict_forced(&self, y: [T; 2], forcing: &Forcing<T>, force: T) -> [T; 2] {
-        [0, 1].map(|r| self.free(r, y, forcing) + self.constant[r][1] * force)
+        [0, 1].each(|r| self.free(r, y, forcing) + self.constant[r][1] * force)
     }
 
     /// Returns that state, corrected once the change of `n` over the step is known.
     #[inline(always)]
     pub(super) fn correct_forced(&self, y: [T; 2], change: T) -> [T; 2] {
-        [0, 1].map(|r| y[r] + self.slope[r][1] * change)
+        [0, 1].each(|r| y[r] + self.slope[r][1] * change)
     }
 
     #[inline(always)]
@@ -226,7 +225,7 @@ fn matrix(omega: f64, alpha: f64, beta: f64, h: f64) -> [[f64; 2]; 2] {
 
 /// `exp Z − I = Z φ₁(Z)`, to full relative precision for small steps.
 pub(super) fn gain(z: &[[f64; 2]; 2], p1: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    [0, 1].map(|i| [0, 1].map(|j| z[i][0] * p1[0][j] + z[i][1] * p1[1][j]))
+    [0, 1].each(|i| [0, 1].each(|j| z[i][0] * p1[0][j] + z[i][1] * p1[1][j]))
 }
 
 /// `φ₀ … φ₄` of `hA`, by way of `(ωa, p)`, in which the matrix is as small as it can be and equally
@@ -234,7 +233,7 @@ pub(super) fn gain(z: &[[f64; 2]; 2], p1: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
 fn phi_of(omega: f64, alpha: f64, beta: f64, h: f64) -> [[[f64; 2]; 2]; 5] {
     let (turn, decay) = (omega * h, (alpha + beta * omega * omega) * h);
     let phi = phi_functions(&[[0.0, turn], [-turn, -decay]]);
-    phi.map(|[[aa, ap], [pa, pp]]| [[aa, ap / omega], [pa * omega, pp]])
+    phi.each(|[[aa, ap], [pa, pp]]| [[aa, ap / omega], [pa * omega, pp]])
 }
 
 /// Largest `(ω + α + βω²)h` of a mode that is advanced exactly: its phase is then known to 1e-10.
@@ -257,8 +256,8 @@ pub(super) fn check_turns(
 /// moment, no mean and no ends. Zero for modes that the step damps out.
 pub(super) fn kick<T: Scalar>(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> [T; 2] {
     let [e, _, p2, p3, p4] = phi_of(omega, alpha, beta, h);
-    let end = [0, 1].map(|r| -60.0 * b * h * (p2[r][1] - 6.0 * p3[r][1] + 12.0 * p4[r][1]));
-    pulled_back(&e, end).map(T::from_f64)
+    let end = [0, 1].each(|r| -60.0 * b * h * (p2[r][1] - 6.0 * p3[r][1] + 12.0 * p4[r][1]));
+    pulled_back(&e, end).each(T::from_f64)
 }
 
 /// The state before a step that ends with `end` by itself, `e` being the step. Zero for modes that
@@ -286,26 +285,26 @@ pub(super) fn contracting<T: Scalar>(exact: [[f64; 2]; 2]) -> [[T; 2]; 2] {
     // det(I + F) − 1.
     let excess = |f: &[[f64; 2]; 2]| (f[0][0] + f[1][1]) + (f[0][0] * f[1][1] - f[0][1] * f[1][0]);
     let limit = excess(&exact).min(0.0);
-    let nearest = exact.map(|row| row.map(T::from_f64));
+    let nearest = exact.each(|row| row.each(T::from_f64));
     // With more damping than rounding there is nothing to mend; and where the step damps the mode
     // out, the determinant is itself but rounding, and no shrinking would bring it below its limit.
     if limit < -DAMPED {
         return nearest;
     }
     // What one rounding changes the determinant by.
-    let [[aa, ap], [pa, pp]] = exact.map(|row| row.map(f64::abs));
+    let [[aa, ap], [pa, pp]] = exact.each(|row| row.each(f64::abs));
     let unit = 0.125 * (aa + pp + ap * pa) * T::EPSILON.to_f64();
     let mut rounded = nearest;
     let mut shrunk = 0.0;
     // In f64 the product of two f32 is exact, and the sum's rounding far below an f32's; of f64
     // themselves a few steps more are on the safe side of what cannot be told.
     for _ in 0..MOST_STEPS {
-        if excess(&rounded.map(|row| row.map(T::to_f64))) <= limit {
+        if excess(&rounded.each(|row| row.each(T::to_f64))) <= limit {
             break;
         }
         shrunk += unit;
-        rounded = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
+        rounded = array(|i| {
+            array(|j| {
                 let identity = if i == j { shrunk } else { 0.0 };
                 T::from_f64((1.0 - shrunk) * exact[i][j] - identity)
             })

@@ -2,7 +2,7 @@
 
 use super::element::{self, Matrix};
 use super::varied::Beam;
-use crate::math::{Band, Scalar, dot};
+use crate::math::{Band, Each, Scalar, array, dot};
 use crate::scene::{LinkShape, Scene};
 
 /// Band width of a chain of two-node elements with two degrees of freedom a node.
@@ -76,13 +76,13 @@ impl<T: Scalar, const D: usize> Assembly<T, D> {
             add(&mut chain.stiffness, &own.stiffness);
             add(&mut chain.mass, &own.mass);
             add(&mut chain.spin, &own.centrifugal);
-            add(&mut chain.spin, &own.mass.map(|row| row.map(|value| -value)));
+            add(&mut chain.spin, &own.mass.each(|row| row.each(|value| -value)));
             add(&mut chain.tension, &own.hanging);
             add(&mut chain.shortening, &own.shortening);
             let x = scene.hub.radius + T::from_u32(e as u32) * l;
             let rigid = [[x, T::ONE, x + l, T::ONE], [T::ONE, T::ZERO, T::ONE, T::ZERO]];
             for (sum, rigid) in [&mut chain.coupling, &mut chain.weight].into_iter().zip(rigid) {
-                let product = own.mass.map(|row| dot(&row, &rigid));
+                let product = own.mass.each(|row| dot(&row, &rigid));
                 scatter_product(sum, e, &vector_with_root(&product, &root));
             }
         }
@@ -105,7 +105,7 @@ impl<T: Scalar, const D: usize> Assembly<T, D> {
     fn hinge<S: LinkShape>(&mut self, scene: &Scene<T, S>, element: &Matrix<T>) -> [T; 4] {
         let Some(k) = scene.hub.stiffness else { return [T::ZERO; 4] };
         let row = element[1];
-        let root = row.map(|x| -x / (row[1] + k));
+        let root = row.each(|x| -x / (row[1] + k));
         let root = [T::ZERO, T::ZERO, root[2], root[3]];
         for i in 2..4 {
             self.root[i - 2] = root[i];
@@ -176,7 +176,7 @@ fn varied_element<T: Scalar>(
     mass: MassMatrix,
 ) -> Element<T> {
     let own = beam.element(e, elements, mass == MassMatrix::Lumped);
-    let round = |matrix: &Matrix<f64>| matrix.map(|row| row.map(T::from_f64));
+    let round = |matrix: &Matrix<f64>| matrix.each(|row| row.each(T::from_f64));
     Element {
         stiffness: round(&own.stiffness),
         mass: round(&own.mass),
@@ -189,16 +189,14 @@ fn varied_element<T: Scalar>(
 /// `BᵀAB` over the second node, with `φ₁ = root · q`. The rows of the first node are left as they
 /// are: they are never asked for.
 fn matrix_with_root<T: Scalar>(a: &Matrix<T>, root: &[T; 4]) -> Matrix<T> {
-    core::array::from_fn(|i| {
-        core::array::from_fn(|j| {
-            a[i][j] + (root[i] * a[1][j] + a[i][1] * root[j] + root[i] * (a[1][1] * root[j]))
-        })
+    array(|i| {
+        array(|j| a[i][j] + (root[i] * a[1][j] + a[i][1] * root[j] + root[i] * (a[1][1] * root[j])))
     })
 }
 
 /// `Bᵀf`, likewise.
 fn vector_with_root<T: Scalar>(f: &[T; 4], root: &[T; 4]) -> [T; 4] {
-    core::array::from_fn(|i| f[i] + root[i] * f[1])
+    array(|i| f[i] + root[i] * f[1])
 }
 
 /// Adds element `e` to the assembled matrix, leaving out the clamped node.

@@ -1,7 +1,7 @@
 //! Static condensation of massless rotations, as a lumped mass matrix needs it.
 
 use super::assembly::{Assembly, CHAIN};
-use crate::math::Band;
+use crate::math::{Band, Each, array};
 
 /// `T`, `D × N`: the full displacement that goes with the kept degrees of freedom when no moment
 /// acts on the massless rotations, `T = [I; −K_φφ⁻¹ K_φw]`, rows in the order of the chain.
@@ -19,8 +19,7 @@ impl<const D: usize, const N: usize> Condensation<D, N> {
         }
         // Gauss-Seidel would do; elimination is exact. `k` loses one massless rotation at a time,
         // `gain[i]` records it as a combination of the degrees that are left.
-        let mut k: [[f64; D]; D] =
-            core::array::from_fn(|i| core::array::from_fn(|j| chain.stiffness.get(i, j)));
+        let mut k: [[f64; D]; D] = array(|i| array(|j| chain.stiffness.get(i, j)));
         for p in (0..D).filter(|&p| !kept(p)) {
             let pivot = k[p];
             for i in (0..D).filter(|&i| i != p) {
@@ -53,7 +52,7 @@ impl<const D: usize, const N: usize> Condensation<D, N> {
     pub(crate) fn matrix(&self, a: &Band<f64, D, CHAIN>) -> Band<f64, N, N> {
         let mut reduced = Band::ZERO;
         for c in 0..N {
-            let column = self.t.map(|row| row[c]);
+            let column = self.t.each(|row| row[c]);
             let product = self.vector(&a.times(&column));
             for r in c..N {
                 reduced.add(r, c, product[r]);
@@ -64,6 +63,6 @@ impl<const D: usize, const N: usize> Condensation<D, N> {
 
     /// `Tᵀ f`.
     pub(crate) fn vector(&self, f: &[f64; D]) -> [f64; N] {
-        core::array::from_fn(|c| (0..D).map(|i| self.t[i][c] * f[i]).sum())
+        array(|c| (0..D).map(|i| self.t[i][c] * f[i]).sum())
     }
 }

@@ -4,7 +4,7 @@ use super::assembly::{Assembly, CHAIN, MassMatrix};
 use super::lumped::Condensation;
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Band, Scalar};
+use crate::math::{Band, Each, Scalar, array};
 use crate::scene::{AxisKind, LinkShape, Scene, Uniform};
 
 /// One consistent element, the paper's choice.
@@ -72,7 +72,7 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
             coupling: chain.coupling,
             weight: chain.weight,
             root: chain.root,
-            tip_slope: core::array::from_fn(|i| if i + 1 == N { T::ONE } else { T::ZERO }),
+            tip_slope: array(|i| if i + 1 == N { T::ONE } else { T::ZERO }),
             tip: N - 2,
         }
         .upright()
@@ -88,7 +88,7 @@ impl<T: Scalar, const N: usize, const W: usize> Model<N, W, T> {
     /// `[K − g sinχ K_P] q = −g cosχ f_g`.
     pub fn equilibrium(&self, sin: T, cos: T) -> [T; N] {
         let gravity = self.scene.in_plane_gravity();
-        let load = self.weight.map(|f| -gravity * cos * f);
+        let load = self.weight.each(|f| -gravity * cos * f);
         self.tangent(T::ZERO, sin).factor().solve(&load)
     }
 

@@ -1,7 +1,7 @@
 //! Natural modes of the clamped beam.
 
 use super::Model;
-use crate::math::{generalized_eigen, sqrt};
+use crate::math::{Each, array, generalized_eigen, sqrt};
 
 /// The modes of `K φ = ω² M φ`, lowest first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,10 +16,10 @@ impl<const N: usize> Modes<N> {
     /// All modes of the model: cyclic Jacobi, relative error of the lower half below 1e-12.
     pub fn of<const W: usize>(model: &Model<N, W>) -> Self {
         let (values, vectors) = generalized_eigen(model.stiffness(), model.mass());
-        let frequency = values.map(|mu| 1.0 / sqrt(mu));
-        let shape = core::array::from_fn(|i| {
+        let frequency = values.each(|mu| 1.0 / sqrt(mu));
+        let shape = array(|i| {
             let sign = if vectors[i][model.tip()] < 0.0 { -1.0 } else { 1.0 };
-            vectors[i].map(|x| x * sign * frequency[i])
+            vectors[i].each(|x| x * sign * frequency[i])
         });
         Self { frequency, shape }
     }

@@ -5,7 +5,7 @@
 //! borders of sections may lie anywhere in it. For a uniform link they are the cubic ones.
 
 use super::element::Matrix;
-use crate::math::{Scalar, dot};
+use crate::math::{Scalar, array, dot};
 use crate::scene::{LinkShape, Point, Scene, Varied};
 
 /// Matrices of an element, degrees of freedom `w₁ φ₁ w₂ φ₂`.
@@ -71,16 +71,16 @@ impl<'a> Beam<'a> {
         let span = Span {
             begin,
             length,
-            a: core::array::from_fn(|i| pair(i).0 / determinant),
-            b: core::array::from_fn(|i| pair(i).1 / determinant),
+            a: array(|i| pair(i).0 / determinant),
+            b: array(|i| pair(i).1 / determinant),
         };
         let (a, b) = (&span.a, &span.b);
         let zero = [[0.0; 4]; 4];
         let mut element = VariedElement {
-            stiffness: core::array::from_fn(|i| {
+            stiffness: array(|i| {
                 // ∫ (a + b y)²/EI dy.
                 let moment = [a0 * a[i] + a1 * b[i], a1 * a[i] + a2 * b[i]];
-                core::array::from_fn(|j| moment[0] * a[j] + moment[1] * b[j])
+                array(|j| moment[0] * a[j] + moment[1] * b[j])
             }),
             mass: zero,
             centrifugal: zero,
@@ -138,10 +138,8 @@ impl<'a> Beam<'a> {
         let [a0, a1, a2] = self.compliance(span.begin, span.begin + y);
         let (first, turned) = ([1.0, y, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]);
         (
-            core::array::from_fn(|i| {
-                first[i] + dot(&[y * a0 - a1, y * a1 - a2], &[span.a[i], span.b[i]])
-            }),
-            core::array::from_fn(|i| turned[i] + dot(&[a0, a1], &[span.a[i], span.b[i]])),
+            array(|i| first[i] + dot(&[y * a0 - a1, y * a1 - a2], &[span.a[i], span.b[i]])),
+            array(|i| turned[i] + dot(&[a0, a1], &[span.a[i], span.b[i]])),
         )
     }
 

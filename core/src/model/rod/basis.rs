@@ -4,7 +4,7 @@ use super::POINTS;
 use super::polynomials::{rule, slopes};
 use super::stations::{Stations, end_of_polynomial};
 use super::varied::VariedLink;
-use crate::math::Band;
+use crate::math::{Band, Each, array};
 use crate::scene::{LinkShape, Scene};
 
 /// `N` angles along the link: those that a bending moment `EI/L P_j(2ξ − 1)` makes, `P_j`
@@ -29,7 +29,7 @@ impl<const N: usize> Basis<N> {
         };
         let give = link.bending_stiffness / link.length * scene.hub.compliance();
         // P_j(−1) is ±1.
-        basis.root = core::array::from_fn(|j| if j % 2 == 0 { give } else { -give });
+        basis.root = array(|j| if j % 2 == 0 { give } else { -give });
         for i in 0..N {
             basis.tip[i] += basis.root[i];
             for row in &mut basis.at_points {
@@ -51,7 +51,7 @@ impl<const N: usize> Basis<N> {
             bending.add(j, j, 1.0 / (2 * j + 1) as f64);
         }
         Self {
-            at_points: points.map(slopes::<N>),
+            at_points: points.each(slopes::<N>),
             root: [0.0; N],
             tip: slopes::<N>(1.0),
             bending,

@@ -14,7 +14,7 @@
 
 use super::Rod;
 use super::monomials::{EVEN, MAX_EVEN, MAX_ODD, ODD};
-use crate::math::{LeastSquares, dot};
+use crate::math::{Each, LeastSquares, array, dot};
 
 /// Even quantities of three modes: `C`, `d`, `e` and two of `X`.
 const MAX_QUANTITIES: usize = 15;
@@ -81,8 +81,8 @@ impl<const K: usize> Even<f64, K> {
     fn from_flat(flat: [f64; MAX_QUANTITIES]) -> Self {
         let scalars = K * K + K;
         Self {
-            c: core::array::from_fn(|i| core::array::from_fn(|j| flat[K * i + j])),
-            d: core::array::from_fn(|i| flat[K * K + i]),
+            c: array(|i| array(|j| flat[K * i + j])),
+            d: array(|i| flat[K * K + i]),
             e: flat[scalars],
             moment: flat[scalars + 1],
             tip: flat[scalars + 2],
@@ -96,14 +96,14 @@ fn sample<const K: usize>(rod: &Rod<K>, a: &[f64; K]) -> (Even<f64, K>, Odd<f64>
     let (m, h) = (&kinetics.mass, &kinetics.coupling);
     let inverse = 1.0 / m[0][0];
     let even = Even {
-        c: core::array::from_fn(|i| {
-            core::array::from_fn(|j| match (i, j) {
+        c: array(|i| {
+            array(|j| match (i, j) {
                 (0, 0) => inverse,
                 (0, k) | (k, 0) => -m[k][0] * inverse,
                 _ => m[i][0] * m[0][j] * inverse - m[i][j],
             })
         }),
-        d: core::array::from_fn(|k| match k {
+        d: array(|k| match k {
             0 => h[0] * inverse,
             _ => h[k] - m[k][0] * h[0] * inverse,
         }),
@@ -131,7 +131,7 @@ impl<const K: usize> Expansion<K> {
         let mut odd = LeastSquares::<MAX_ODD, 2>::new();
         let straight = rest.flat();
         for_each_sample::<K>(|unit| {
-            let a: [f64; K] = core::array::from_fn(|k| unit[k] * range[k]);
+            let a: [f64; K] = array(|k| unit[k] * range[k]);
             let (at, y) = sample(rod, &a);
             let mut change = at.flat();
             for (value, at_rest) in change.iter_mut().zip(&straight) {
@@ -139,8 +139,8 @@ impl<const K: usize> Expansion<K> {
             }
             even.add(&EVEN.values(unit), &change);
             let beyond = |y: f64, slope: [f64; K]| y - dot(&slope, &a);
-            let moment = beyond(y.moment, linear.map(|term| term.moment));
-            odd.add(&ODD.values(unit), &[moment, beyond(y.tip, linear.map(|term| term.tip))]);
+            let moment = beyond(y.moment, linear.each(|term| term.moment));
+            odd.add(&ODD.values(unit), &[moment, beyond(y.tip, linear.each(|term| term.tip))]);
         });
         Self {
             coupling: rest.d,

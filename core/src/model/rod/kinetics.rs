@@ -2,7 +2,7 @@
 
 use super::{LINK_STATIONS, POINTS, Rod};
 use crate::hub::HubState;
-use crate::math::{Scalar, dot};
+use crate::math::{Each, Scalar, array, dot};
 
 /// The rod at modal coordinates `a`, hub-frame axes, nothing moving.
 ///
@@ -48,8 +48,8 @@ impl<const K: usize> Rod<K> {
     pub(crate) fn range(&self, bend: f64) -> [f64; K] {
         let coupling = self.kinetics(&[0.0; K]).coupling;
         let share: [f64; K] =
-            core::array::from_fn(|k| (coupling[k] / (self.frequency[k] * self.frequency[k])).abs());
-        core::array::from_fn(|k| {
+            array(|k| (coupling[k] / (self.frequency[k] * self.frequency[k])).abs());
+        array(|k| {
             let of_first = if k == 0 { 1.0 } else { 6.0 * share[k] / share[0] };
             of_first * bend / self.tip_slope[0]
         })
@@ -68,34 +68,33 @@ impl<const K: usize> Rod<K> {
         // Each as its values at the stations, and last at the payload's centre.
         let integral = |f: &[f64; POINTS]| -> ([f64; LINK_STATIONS], f64) {
             let at_payload = length * dot(&stations.to_payload, f);
-            (stations.running.map(|row| length * dot(&row, f)), at_payload)
+            (stations.running.each(|row| length * dot(&row, f)), at_payload)
         };
-        let times = |f: &[f64; POINTS], g: &[f64; POINTS]| -> [f64; POINTS] {
-            core::array::from_fn(|p| f[p] * g[p])
-        };
+        let times =
+            |f: &[f64; POINTS], g: &[f64; POINTS]| -> [f64; POINTS] { array(|p| f[p] * g[p]) };
         let (mut x, mut x_p) = integral(&cos);
-        x = x.map(|x| x + scene.hub.radius);
+        x = x.each(|x| x + scene.hub.radius);
         x_p += scene.hub.radius;
         let (y, y_p) = integral(&sin);
-        let along: [_; K] = core::array::from_fn(|k| {
+        let along: [_; K] = array(|k| {
             let (f, end) = integral(&times(&self.slope[k], &sin));
-            (f.map(|f| -f), -end)
+            (f.each(|f| -f), -end)
         });
-        let across: [_; K] = core::array::from_fn(|k| integral(&times(&self.slope[k], &cos)));
+        let across: [_; K] = array(|k| integral(&times(&self.slope[k], &cos)));
         let link = |f: [f64; LINK_STATIONS]| stations.mass * dot(&stations.weights, &f);
-        let sum = |f: &dyn Fn(usize) -> f64| link(core::array::from_fn(f));
+        let sum = |f: &dyn Fn(usize) -> f64| link(array(f));
         let (m_p, j_p) = (scene.payload.mass, scene.payload.inertia);
         let tip_slope = &self.tip_slope;
         let carried = scene.mount.is_linear();
         Kinetics {
-            mass: core::array::from_fn(|i| {
-                core::array::from_fn(|j| {
+            mass: array(|i| {
+                array(|j| {
                     sum(&|s| along[i].0[s] * along[j].0[s] + across[i].0[s] * across[j].0[s])
                         + m_p * (along[i].1 * along[j].1 + across[i].1 * across[j].1)
                         + j_p * tip_slope[i] * tip_slope[j]
                 })
             }),
-            coupling: core::array::from_fn(|i| {
+            coupling: array(|i| {
                 if carried {
                     return link(across[i].0) + m_p * across[i].1;
                 }

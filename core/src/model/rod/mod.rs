@@ -18,7 +18,7 @@ use basis::Basis;
 use polynomials::{legendre, rule};
 
 use crate::Error;
-use crate::math::{Band, GAUSS_POINTS, Scalar, dot, generalized_eigen, sqrt};
+use crate::math::{Band, Each, GAUSS_POINTS, Scalar, array, dot, generalized_eigen, sqrt};
 use crate::scene::{LinkShape, Scene, Uniform};
 
 /// Polynomials that [`Rod::new`] makes its modes of: slopes of degree 1 to 5.
@@ -64,10 +64,10 @@ impl<const K: usize> Rod<K> {
         let Basis { at_points, root, tip, bending, stations } = Basis::<N>::new(&scene);
         let length = scene.link.length;
         let stiffness = bending.map(|share| scene.link.bending_stiffness / length * share);
-        let angle = |basis: usize| -> [f64; POINTS] { at_points.map(|row| row[basis]) };
+        let angle = |basis: usize| -> [f64; POINTS] { at_points.each(|row| row[basis]) };
         let deflection = |basis: usize| -> [f64; LINK_STATIONS] {
             let f = angle(basis);
-            stations.running.map(|row| length * dot(&row, &f))
+            stations.running.each(|row| length * dot(&row, &f))
         };
         let payload_deflection =
             |basis: usize| -> f64 { length * dot(&stations.to_payload, &angle(basis)) };
@@ -75,7 +75,7 @@ impl<const K: usize> Rod<K> {
         for i in 0..N {
             for j in 0..=i {
                 let (wi, wj) = (deflection(i), deflection(j));
-                let product: [f64; LINK_STATIONS] = core::array::from_fn(|s| wi[s] * wj[s]);
+                let product: [f64; LINK_STATIONS] = array(|s| wi[s] * wj[s]);
                 let value = stations.mass * dot(&stations.weights, &product)
                     + scene.payload.mass * payload_deflection(i) * payload_deflection(j)
                     + scene.payload.inertia * tip[i] * tip[j];
@@ -83,20 +83,20 @@ impl<const K: usize> Rod<K> {
             }
         }
         let (values, vectors) = generalized_eigen(&stiffness, &mass);
-        let frequency: [f64; K] = core::array::from_fn(|k| 1.0 / sqrt(values[k]));
+        let frequency: [f64; K] = array(|k| 1.0 / sqrt(values[k]));
         let shape = |k: usize| {
             let sign = if dot(&vectors[k], &tip) < 0.0 { -1.0 } else { 1.0 };
-            vectors[k].map(|x| sign * frequency[k] * x)
+            vectors[k].each(|x| sign * frequency[k] * x)
         };
         Ok(Self {
             scene: scene.shaped(Uniform),
             frequency,
-            slope: core::array::from_fn(|k| {
+            slope: array(|k| {
                 let shape = shape(k);
-                at_points.map(|basis| dot(&shape, &basis))
+                at_points.each(|basis| dot(&shape, &basis))
             }),
-            root: core::array::from_fn(|k| dot(&shape(k), &root)),
-            tip_slope: core::array::from_fn(|k| dot(&shape(k), &tip)),
+            root: array(|k| dot(&shape(k), &root)),
+            tip_slope: array(|k| dot(&shape(k), &tip)),
             stations,
         })
     }
@@ -121,7 +121,7 @@ impl<const K: usize> Rod<K> {
     pub fn stiffness_damping(&self) -> [f64; K] {
         let (damping, hub) = (&self.scene.damping, &self.scene.hub);
         let loss = damping.joint * hub.stiffness.unwrap_or(0.0);
-        core::array::from_fn(|k| {
+        array(|k| {
             let share = self.root[k] / self.frequency[k];
             damping.beta + loss * share * share
         })
@@ -131,22 +131,18 @@ impl<const K: usize> Rod<K> {
     /// on the diagonal, which [`Self::stiffness_damping`] holds.
     pub(crate) fn joint_damping(&self) -> [[f64; K]; K] {
         let c = self.scene.damping.joint * self.scene.hub.stiffness.unwrap_or(0.0);
-        core::array::from_fn(|k| {
-            core::array::from_fn(|j| if j == k { 0.0 } else { c * self.root[k] * self.root[j] })
-        })
+        array(|k| array(|j| if j == k { 0.0 } else { c * self.root[k] * self.root[j] }))
     }
 
     /// `½(α/ωₖ + βₖωₖ)`: damping ratios of the modes.
     pub fn damping_ratio(&self) -> [f64; K] {
         let (alpha, beta) = (self.scene.damping.alpha, self.stiffness_damping());
-        core::array::from_fn(|k| 0.5 * (alpha / self.frequency[k] + beta[k] * self.frequency[k]))
+        array(|k| 0.5 * (alpha / self.frequency[k] + beta[k] * self.frequency[k]))
     }
 
     /// `∂Y/∂aₖ` of the straight link's tip, m.
     pub(crate) fn tip_swing(&self) -> [f64; K] {
-        core::array::from_fn(|k| {
-            self.scene.link.length * dot(&self.stations.to_tip, &self.slope[k])
-        })
+        array(|k| self.scene.link.length * dot(&self.stations.to_tip, &self.slope[k]))
     }
 
     /// The payload's centre in the hub frame, m, of an arm whose tip is at `tip` there.
@@ -162,8 +158,8 @@ impl<const K: usize> Rod<K> {
     pub fn slopes_at(&self, xi: f64) -> [f64; K] {
         let (points, weights) = rule();
         let there = legendre::<POINTS>(xi);
-        let at = points.map(legendre::<POINTS>);
-        core::array::from_fn(|k| {
+        let at = points.each(legendre::<POINTS>);
+        array(|k| {
             let mut sum = 0.0;
             for j in 0..POINTS {
                 for p in 0..POINTS {

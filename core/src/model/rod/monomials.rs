@@ -1,6 +1,6 @@
 //! The monomials in the modal coordinates that the exact kinematics are expanded in.
 
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 
 /// Exponents of `a₁, a₂, a₃`.
 pub(crate) type Exponents = [usize; 3];
@@ -55,7 +55,7 @@ pub(crate) struct Powers<T, const K: usize>([[T; DEGREE + 1]; K]);
 impl<T: Scalar, const K: usize> Powers<T, K> {
     #[inline(always)]
     pub(crate) fn new(a: &[T; K]) -> Self {
-        Self(a.map(|a| {
+        Self(a.each(|a| {
             let mut powers = [T::ONE; DEGREE + 1];
             powers[1] = a;
             for e in 2..=DEGREE {

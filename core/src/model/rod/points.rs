@@ -9,7 +9,7 @@ use super::polynomials::{legendre, rule};
 use super::varied::VariedLink;
 use super::{LINK_STATIONS, POINTS as FINE, Rod};
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Band, Scalar, cast, dot, words};
+use crate::math::{Band, Each, Scalar, array, cast, dot, words};
 use crate::scene::{LinkShape, Scene, Varied};
 
 /// Gauss points: six follow moves that bend by a radian.
@@ -115,14 +115,14 @@ impl<const K: usize> Weights<K> {
         };
         let mut link = [[0.0; POINTS]; LINK_STATIONS];
         for (row, &xi) in link.iter_mut().zip(&rule().0) {
-            *row = core::array::from_fn(|p| integral(p, xi));
+            *row = array(|p| integral(p, xi));
         }
-        let to_tip: [f64; POINTS] = core::array::from_fn(|p| integral(p, 1.0));
+        let to_tip: [f64; POINTS] = array(|p| integral(p, 1.0));
         Self {
             link,
             to_tip,
-            to_payload: core::array::from_fn(|p| to_tip[p] + offset * end(p)),
-            slope: at.map(|(xi, _)| rod.slopes_at(xi)),
+            to_payload: array(|p| to_tip[p] + offset * end(p)),
+            slope: at.each(|(xi, _)| rod.slopes_at(xi)),
         }
     }
 
@@ -134,22 +134,20 @@ impl<const K: usize> Weights<K> {
         let (to_points, from_points) = link.coarse(&places().map(|(xi, _)| xi));
         let stations = rod.stations();
         let row = |fine: &[f64; FINE]| -> [f64; POINTS] {
-            core::array::from_fn(|p| {
-                length * (0..FINE).map(|q| fine[q] * from_points[q][p]).sum::<f64>()
-            })
+            array(|p| length * (0..FINE).map(|q| fine[q] * from_points[q][p]).sum::<f64>())
         };
         Self {
-            link: stations.running.map(|fine| row(&fine)),
+            link: stations.running.each(|fine| row(&fine)),
             to_tip: row(&stations.to_tip),
             to_payload: row(&stations.to_payload),
-            slope: to_points.map(|at| core::array::from_fn(|k| dot(&at, &rod.slope()[k]))),
+            slope: to_points.each(|at| array(|k| dot(&at, &rod.slope()[k]))),
         }
     }
 }
 
 /// `(ξ, weight)` of the points on 0..1.
 fn places() -> [(f64, f64); POINTS] {
-    core::array::from_fn(|p| {
+    array(|p| {
         let (x, weight) = HALF_RULE[p % (POINTS / 2)];
         (0.5 * (1.0 + if p < POINTS / 2 { x } else { -x }), 0.5 * weight)
     })
@@ -172,13 +170,9 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         };
         let f = T::from_f64;
         Self {
-            pairs: core::array::from_fn(|p| {
-                core::array::from_fn(|q| if q <= p { f(pair(p, q)) } else { T::ZERO })
-            }),
-            first: core::array::from_fn(|p| {
-                f(over_link(&|row| row[p]) + payload.mass * to_payload[p])
-            }),
-            slope: slope.map(|row| cast(&row)),
+            pairs: array(|p| array(|q| if q <= p { f(pair(p, q)) } else { T::ZERO })),
+            first: array(|p| f(over_link(&|row| row[p]) + payload.mass * to_payload[p])),
+            slope: slope.each(|row| cast(&row)),
             tip_slope: cast(rod.tip_slope()),
             to_tip: cast(&to_tip),
             radius: f(scene.hub.radius),
@@ -208,7 +202,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         let (force, mass) = self.forces(&points);
         let turning = self.payload_inertia
             * (carrying.acceleration + self.alpha * (carrying.rate + dot(&self.tip_slope, v)));
-        let right: [T; K] = core::array::from_fn(|i| {
+        let right: [T; K] = array(|i| {
             let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
             for p in 0..POINTS {
                 sum -= self.slope[p][i] * force[p];
@@ -254,7 +248,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
 
     /// `∂Y/∂aₖ` of the straight link's tip, m.
     pub fn tip_swing(&self) -> [T; K] {
-        core::array::from_fn(|k| {
+        array(|k| {
             let mut sum = T::ZERO;
             for p in 0..POINTS {
                 sum += self.to_tip[p] * self.slope[p][k];

@@ -3,6 +3,7 @@
 
 use super::POINTS;
 use super::polynomials::{legendre, rule, running_integrals};
+use crate::math::array;
 
 /// Stations of the link: one more than there are points, so that the integrals of any distribution
 /// of mass can be had. A uniform link leaves the last without mass.
@@ -47,7 +48,7 @@ impl Stations {
 /// Takes the values at the points to the tip: the polynomial through them.
 pub(super) fn end_of_polynomial() -> [f64; POINTS] {
     let (points, weights) = rule();
-    core::array::from_fn(|p| {
+    array(|p| {
         let at = legendre::<POINTS>(points[p]);
         weights[p] * (0..POINTS).map(|j| (2 * j + 1) as f64 * at[j]).sum::<f64>()
     })

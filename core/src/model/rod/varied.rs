@@ -11,7 +11,7 @@ use super::POINTS;
 use super::basis::Basis;
 use super::polynomials::{legendre, rule, running_integrals};
 use super::stations::{LINK_STATIONS, Stations};
-use crate::math::{Band, dot, sqrt};
+use crate::math::{Band, Each, array, dot, sqrt};
 use crate::scene::{Piece, Varied};
 
 /// Parts that the link is cut into at least, so that Gauss's rule is exact for steep tapers.
@@ -49,7 +49,7 @@ impl<const N: usize> Progress<N> {
     /// The functions of the space, `soft` being that of the whole link.
     fn space(&self, soft: f64) -> [f64; POINTS] {
         let p = legendre::<POINTS>(self.soft / soft);
-        core::array::from_fn(|m| match m {
+        array(|m| match m {
             0 => 1.0,
             m if m <= N => self.angle[m - 1],
             m => p[m],
@@ -121,20 +121,19 @@ impl<'a, const N: usize> VariedLink<'a, N> {
     ) -> ([[f64; POINTS]; M], [[f64; M]; POINTS]) {
         const { assert!(M <= N + 1, "a constant and the angles") }
         let at = shares.map(|share| place::<N>(self.shape, share * self.whole.soft));
-        let space = |angle: &[f64; N]| -> [f64; M] {
-            core::array::from_fn(|m| if m == 0 { 1.0 } else { angle[m - 1] })
-        };
+        let space =
+            |angle: &[f64; N]| -> [f64; M] { array(|m| if m == 0 { 1.0 } else { angle[m - 1] }) };
         let inverse = inverse(at.map(|at| space(&at.angle)));
         let back = self.at_points.map(|angle| {
             let functions = space(&angle);
-            core::array::from_fn(|p| (0..M).map(|m| functions[m] * inverse[m][p]).sum())
+            array(|p| (0..M).map(|m| functions[m] * inverse[m][p]).sum())
         });
         (at.map(|at| self.by_points(&at.space(self.whole.soft))), back)
     }
 
     /// Weights of the values at the points, from those of the functions of the space.
     fn by_points(&self, functions: &[f64; POINTS]) -> [f64; POINTS] {
-        core::array::from_fn(|p| (0..POINTS).map(|m| functions[m] * self.inverse[m][p]).sum())
+        array(|p| (0..POINTS).map(|m| functions[m] * self.inverse[m][p]).sum())
     }
 
     /// Stations with the same integrals of two of `1, ∫v₁, …` over the mass as the link itself.
@@ -147,18 +146,15 @@ impl<'a, const N: usize> VariedLink<'a, N> {
         let b = triangle(&gram);
         let third = 1.0 / sqrt(LINK_STATIONS as f64);
         // v = e₀ − u, and 2/vᵀv = 1/(1 − u₀).
-        let v: [f64; LINK_STATIONS] =
-            core::array::from_fn(|s| if s == 0 { 1.0 - third } else { -third });
+        let v: [f64; LINK_STATIONS] = array(|s| if s == 0 { 1.0 - third } else { -third });
         let reflected = b.map(|row| {
             let along = dot(&row, &v) / (1.0 - third);
-            core::array::from_fn::<f64, LINK_STATIONS, _>(|s| row[s] - along * v[s])
+            array::<f64, LINK_STATIONS, _>(|s| row[s] - along * v[s])
         });
         Stations {
             mass: self.mass[1],
             weights: [third * third; LINK_STATIONS],
-            running: core::array::from_fn(|s| {
-                self.by_points(&core::array::from_fn(|m| reflected[m + 1][s] / third))
-            }),
+            running: array(|s| self.by_points(&array(|m| reflected[m + 1][s] / third))),
             to_tip: self.by_points(&to_tip),
             to_payload: [0.0; POINTS],
         }
@@ -190,10 +186,10 @@ impl<'a, const N: usize> VariedLink<'a, N> {
         let mut done = 0.0;
         each_piece(self.shape, |piece| {
             let values: [[f64; POINTS]; POINTS] =
-                core::array::from_fn(|p| at.after(&piece.first(points[p])).space(self.whole.soft));
+                array(|p| at.after(&piece.first(points[p])).space(self.whole.soft));
             let length = piece.length();
             let integral = |row: &[f64; POINTS]| -> [f64; POINTS] {
-                core::array::from_fn(|m| {
+                array(|m| {
                     begin[m] + length * (0..POINTS).map(|p| row[p] * values[p][m]).sum::<f64>()
                 })
             };
@@ -244,8 +240,7 @@ fn place<const N: usize>(shape: &Varied, soft: f64) -> Progress<N> {
 
 /// The inverse of a matrix of full rank, by elimination with the largest pivot of each column.
 fn inverse<const N: usize>(mut a: [[f64; N]; N]) -> [[f64; N]; N] {
-    let mut inverse: [[f64; N]; N] =
-        core::array::from_fn(|i| core::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }));
+    let mut inverse: [[f64; N]; N] = array(|i| array(|j| if i == j { 1.0 } else { 0.0 }));
     for column in 0..N {
         let mut pivot = column;
         for row in column..N {
@@ -257,7 +252,7 @@ fn inverse<const N: usize>(mut a: [[f64; N]; N]) -> [[f64; N]; N] {
         inverse.swap(column, pivot);
         let scale = 1.0 / a[column][column];
         (a[column], inverse[column]) =
-            (a[column].map(|x| scale * x), inverse[column].map(|x| scale * x));
+            (a[column].each(|x| scale * x), inverse[column].each(|x| scale * x));
         let (own, own_inverse) = (a[column], inverse[column]);
         for row in (0..N).filter(|&row| row != column) {
             let factor = a[row][column];

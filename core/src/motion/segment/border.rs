@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use super::{Rest, Segment};
-use crate::math::Scalar;
+use crate::math::{Each, Scalar, array};
 
 /// θ̈, rad/s², and its first and second derivatives by the tick.
 pub(crate) type Course<T> = [T; 3];
@@ -11,7 +11,7 @@ pub(crate) type Course<T> = [T; 3];
 impl<T: Scalar> Segment<T> {
     /// θ̈ and its derivatives at the segment's true beginning and at its true end, from within.
     pub(crate) fn courses(&self) -> [Course<T>; 2] {
-        [-T::ONE, T::ONE].map(|u| {
+        [-T::ONE, T::ONE].each(|u| {
             let scale = T::HALF * self.acceleration_scale;
             let per_tick = self.advance;
             let [second, third, fourth] = self.curvature_at(u);
@@ -37,7 +37,7 @@ impl<T: Scalar> Segment<T> {
 }
 
 fn plus<T: Scalar>(a: [T; 3], b: [T; 3]) -> [T; 3] {
-    core::array::from_fn(|i| a[i] + b[i])
+    array(|i| a[i] + b[i])
 }
 
 /// Second to fourth derivative of `c₄u⁴ + c₅u⁵`.

@@ -3,7 +3,7 @@
 use super::{End, Rest, Segment, Shape};
 use crate::Error;
 use crate::hub::{Angle, HubState};
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 use crate::motion::Limits;
 use crate::motion::joiner::{Curve, Joiner};
 
@@ -86,7 +86,7 @@ impl<T: Scalar> Braking<T> {
     fn duration(&self, v: T, a: T) -> T {
         let x = if a > T::ZERO { a / self.acceleration } else { T::ZERO };
         let chord = if x > T::ONE {
-            let [at_zero, slope] = STEEP_CHORD.map(T::from_f64);
+            let [at_zero, slope] = STEEP_CHORD.each(T::from_f64);
             at_zero - slope * x
         } else {
             T::from_u32(4) - T::from_f64(CHORD) * x

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use super::{End, Rest, Segment, Shape};
 use crate::hub::{Angle, HubState};
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 use crate::motion::Peaks;
 use crate::motion::piece::Ends;
 
@@ -124,12 +124,12 @@ impl Segment<f64> {
             acceleration_scale: f(self.acceleration_scale),
             end_acceleration: f(self.end_acceleration),
             kink_moment: f(self.kink_moment),
-            low: self.low.map(f),
+            low: self.low.each(f),
             rest: match self.rest {
                 Rest::Cubic { steepest } => Rest::Cubic { steepest: f(steepest) },
-                Rest::Quintic(high) => Rest::Quintic(high.map(f)),
-                Rest::Harmonic(ab) => Rest::Harmonic(ab.map(f)),
-                Rest::Bulged { high, d } => Rest::Bulged { high: high.map(f), d: d.map(f) },
+                Rest::Quintic(high) => Rest::Quintic(high.each(f)),
+                Rest::Harmonic(ab) => Rest::Harmonic(ab.each(f)),
+                Rest::Bulged { high, d } => Rest::Bulged { high: high.each(f), d: d.each(f) },
                 Rest::Cruise { rate, step } => Rest::Cruise { rate: f(rate), step },
             },
         }

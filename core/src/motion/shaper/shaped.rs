@@ -2,7 +2,7 @@
 
 use super::{Kink, MAX_PULSES, Shaper};
 use crate::hub::HubState;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 use crate::motion::Segment;
 
 /// Segments end to end, summed with their delayed copies: before its beginning a motion stays where
@@ -192,7 +192,7 @@ impl<T: Scalar> Delayed<T> {
 
     /// The copy's share of the jumps from one course to another.
     fn jumps(&self, from: [T; 3], to: [T; 3]) -> [T; 3] {
-        core::array::from_fn(|n| self.share * (to[n] - from[n]))
+        array(|n| self.share * (to[n] - from[n]))
     }
 }
 

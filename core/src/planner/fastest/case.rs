@@ -8,7 +8,7 @@ use super::rows::{Bounds, Rows};
 use super::search::BEYOND;
 use super::window::Windows;
 use crate::hub::HubState;
-use crate::math::Scalar;
+use crate::math::{Each, Scalar, array};
 use crate::model::RodPoints;
 use crate::motion::Limits;
 use crate::planner::simulate::Arm;
@@ -180,9 +180,9 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
             if k == 0 && self.windows.is_some() {
                 continue;
             }
-            aims[each * k] = response.deflections().map(|a| tip * a);
+            aims[each * k] = response.deflections().each(|a| tip * a);
             if each == 2 {
-                aims[2 * k + 1] = response.rates().map(|v| tip * v);
+                aims[2 * k + 1] = response.rates().each(|v| tip * v);
             }
             for i in 0..each {
                 weights[each * k + i] = T::from_f64(WEIGHTS[k]);
@@ -212,7 +212,7 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
     fn gain<const N: usize>(&self, trial: &Trial<T, N>) -> [T; N] {
         let (interval, unit) = (self.interval(trial), self.unit(trial));
         let area = 2.0 * unit * interval / self.angle;
-        core::array::from_fn(|k| {
+        array(|k| {
             let (area, at) = if k == 0 { (0.5 * area, 1.0 / 3.0) } else { (area, k as f64) };
             T::from_f64(area * (0.5 * trial.duration - at * interval))
         })

@@ -6,7 +6,7 @@ use super::fastest_move::FastestMove;
 use super::flight::{Loads, fly_finely};
 use super::half::Half;
 use super::search::{Outcome, TURN};
-use crate::math::{Scalar, cast};
+use crate::math::{Each, Scalar, cast};
 use crate::motion::{Limits, Peaks};
 use crate::planner::Prediction;
 
@@ -168,7 +168,7 @@ fn scaled<T: Scalar, const K: usize, const N: usize>(
     let interval = search.case.interval(&found.trial);
     let unscaled = Half::<f64, N>::new(cast(&found.half.knots), interval);
     let scale = turn / unscaled.turn(found.trial.duration);
-    Half::new(unscaled.knots.map(|u| scale * u), interval)
+    Half::new(unscaled.knots.each(|u| scale * u), interval)
 }
 
 /// True if the arm rests behind the move. Windows that the second mode takes too much of are made

@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use super::grid::Nodes;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 /// A natural mode without damping: `ä + ω²a = −b θ̈`.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,7 @@ impl<T: Scalar, const N: usize> Response<T, N> {
 
 /// Values at the end of the last interval by each knot, from those after the beginning of a hat.
 fn at_end<T: Scalar, const N: usize>(hat: &[T; N], half: &[T; N]) -> [T; N] {
-    core::array::from_fn(|k| if k == 0 { half[N - 1] } else { hat[N - k] })
+    array(|k| if k == 0 { half[N - 1] } else { hat[N - k] })
 }
 
 /// Advances a mode from rest over `N` intervals of a piecewise-linear acceleration: a at the nodes,

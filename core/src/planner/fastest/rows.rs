@@ -1,7 +1,7 @@
 //! Rows of the program: every limited quantity as a linear function of the knots, over its limit.
 
 use super::grid::{ACCELERATION, Grid, JERK, KINDS, Nodes, RATE, TORQUE, WINDOW, zero};
-use crate::math::{Band, Scalar, dot};
+use crate::math::{Band, Scalar, array, dot};
 
 /// Largest values that the rows may take; `None` is unlimited. In units of the knots' scale:
 /// acceleration, and jerk, rate and torque per acceleration.
@@ -89,7 +89,7 @@ impl<T: Scalar, const N: usize> Rows<T, N> {
             }
         }
         if self.is_used(WINDOW) {
-            values[WINDOW] = core::array::from_fn(|i| dot(&self.windows[i], y));
+            values[WINDOW] = array(|i| dot(&self.windows[i], y));
         }
         values
     }

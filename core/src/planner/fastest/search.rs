@@ -5,7 +5,7 @@ use super::flight::{View, fly};
 use super::grid::{RATE, zero};
 use super::half::Half;
 use super::program::AIMS;
-use crate::math::{Scalar, sqrt};
+use crate::math::{Each, Scalar, sqrt};
 use crate::planner::LONG;
 use crate::planner::linear::MAX_AMPLITUDES;
 use crate::planner::solve;
@@ -236,7 +236,7 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Search<'a, T, K, N> {
         let found = program.solve();
         let unit = T::from_f64(case.unit(trial));
         let interval = T::from_f64(case.interval(trial));
-        let half = Half::new(found.knots.map(|y| unit * y), interval);
+        let half = Half::new(found.knots.each(|y| unit * y), interval);
         let limit = case.torque(trial);
         let long = trial.duration >= LONG * case.period;
         let view = View { long, loaded: limit.is_some() };

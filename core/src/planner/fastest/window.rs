@@ -3,7 +3,7 @@
 use super::case::{Case, Trial};
 use super::grid::Grid;
 use super::response::{Mode, Response};
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 use crate::planner::simulate::Arm;
 use crate::stepper::ArmState;
 
@@ -75,7 +75,7 @@ impl<T: Scalar, const K: usize> Case<'_, T, K> {
             let response = Response::<T, N>::new(&mode, interval);
             for i in 0..each {
                 let row = if i == 0 { response.deflections() } else { response.rates() };
-                rows[each * j + i] = row.map(|x| scale * x);
+                rows[each * j + i] = row.each(|x| scale * x);
             }
         }
         rows

@@ -2,7 +2,7 @@
 
 use super::{Elastica, ElasticaState};
 use crate::hub::HubState;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 /// Modal coordinates of a [`Rod`](crate::model::Rod) and their rates: what a measurement of the arm
 /// gives, and what a still move is planned from.
@@ -27,8 +27,8 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     pub fn arm_state(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> ArmState<T, K> {
         let value = self.nonlinear.evaluate_at(&state.y, hub);
         ArmState {
-            coordinate: core::array::from_fn(|k| state.y[k][0] / self.nonlinear.omega(k)),
-            rate: core::array::from_fn(|k| state.y[k][1] + value.offset[k][1]),
+            coordinate: array(|k| state.y[k][0] / self.nonlinear.omega(k)),
+            rate: array(|k| state.y[k][1] + value.offset[k][1]),
         }
     }
 
@@ -36,7 +36,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// Set-up only.
     pub fn state_of(&self, flex: &ArmState<T, K>, hub: &HubState<T>) -> ElasticaState<T, K> {
         let mut y: [[T; 2]; K] =
-            core::array::from_fn(|k| [self.nonlinear.omega(k) * flex.coordinate[k], flex.rate[k]]);
+            array(|k| [self.nonlinear.omega(k) * flex.coordinate[k], flex.rate[k]]);
         let mut value = self.nonlinear.evaluate_at(&y, hub);
         for _ in 0..ROUNDS {
             for k in 0..K {

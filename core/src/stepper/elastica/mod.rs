@@ -39,7 +39,7 @@ use super::oscillator::{check_turns, kick};
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Scalar, dot, words};
+use crate::math::{Each, Scalar, array, dot, words};
 use crate::model::{Expansion, Rod};
 use crate::motion::Peaks;
 
@@ -142,10 +142,10 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
                 Mode::new(omega, alpha, beta[k], b, step)
             }),
-            kink: core::array::from_fn(|k| {
+            kink: array(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
                 let [a, p] = kick::<f64>(omega, alpha, beta[k], b, tick);
-                [omega * a, p].map(T::from_f64)
+                [omega * a, p].each(T::from_f64)
             }),
             kicks: core::array::from_fn(|k| {
                 let (omega, b) = (rod.frequency()[k], expansion.coupling[k]);
@@ -153,13 +153,11 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             }),
             nonlinear: Nonlinear::new(rod, &expansion, &range),
             numerical_damping: NumericalDamping::new(rod, step, &range),
-            asleep: core::array::from_fn(|k| {
+            asleep: array(|k| {
                 let floor = super::sleep_floor::<f64>(scene.link.length, expansion.linear[k].tip);
                 T::from_f64(rod.frequency()[k] * floor)
             }),
-            tip_slope: core::array::from_fn(|k| {
-                T::from_f64(rod.tip_slope()[k] / rod.frequency()[k])
-            }),
+            tip_slope: array(|k| T::from_f64(rod.tip_slope()[k] / rod.frequency()[k])),
             bend,
             sag: rod.bend(0.0),
             flexibility: rod.bend(1.0) - rod.bend(0.0),
@@ -175,7 +173,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
 
     #[inline(always)]
     fn tip_of(&self, state: &ElasticaState<T, K>) -> [T; 2] {
-        self.nonlinear.tip(state.y.map(|y| y[0]))
+        self.nonlinear.tip(state.y.each(|y| y[0]))
     }
 }
 
@@ -255,14 +253,14 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     }
 
     fn tip_angle(&self, state: &ElasticaState<T, K>) -> T {
-        dot(&self.tip_slope, &state.y.map(|y| y[0]))
+        dot(&self.tip_slope, &state.y.each(|y| y[0]))
     }
 
     #[inline(always)]
     fn kink(&self, state: &mut ElasticaState<T, K>, moments: KinkMoments<'_, T>) {
         for k in 0..K {
             let kick = match moments {
-                KinkMoments::First(moment) => self.kink[k].map(|kick| kick * moment),
+                KinkMoments::First(moment) => self.kink[k].each(|kick| kick * moment),
                 KinkMoments::All(kink) => self.kicks[k].of(kink),
             };
             for r in 0..2 {

@@ -1,6 +1,6 @@
 //! One mode, advanced exactly about a centre that moves.
 
-use crate::math::{Scalar, phi_functions, words};
+use crate::math::{Each, Scalar, array, phi_functions, words};
 use crate::stepper::Forcing;
 use crate::stepper::oscillator::{contracting, gain};
 
@@ -42,16 +42,16 @@ impl<T: Scalar> Mode<T> {
             turn: contracting(gain(&z, &p1)),
             // u = u₀ + c₁s + c₂s², c₁ = 6ū − 4u₀ − 2u₁, c₂ = 3(u₀ + u₁ − 2ū), s = 0..1:
             // the response is h(φ₁u₀ + φ₂c₁ + 2φ₃c₂) times the second column.
-            drive: core::array::from_fn(|r| {
+            drive: array(|r| {
                 let (f1, f2, f3) = (h * p1[r][1], h * p2[r][1], h * p3[r][1]);
                 [f1 - 4.0 * f2 + 6.0 * f3, 6.0 * f2 - 12.0 * f3, 6.0 * f3 - 2.0 * f2]
-                    .map(|weight| f(-b * weight))
+                    .each(|weight| f(-b * weight))
             }),
             per_turn: f(1.0 / (omega * h)),
             loss_per_turn: f(loss / (omega * omega * h)),
             lag: f(b / omega),
-            correction: core::array::from_fn(|i| {
-                core::array::from_fn(|j| {
+            correction: array(|i| {
+                array(|j| {
                     let weight = |k: usize| 0.5 * p2[i][k] + p3[i][k];
                     f(-(weight(0) * z[0][j] + weight(1) * z[1][j]))
                 })
@@ -74,7 +74,7 @@ impl<T: Scalar> Mode<T> {
             lag += self.loss_per_turn * drift[0];
         }
         let off = [y[0] + (offset[0] - lag), y[1] + (offset[1] + self.per_turn * drift[0])];
-        [0, 1].map(|r| {
+        [0, 1].each(|r| {
             let (turn, drive) = (&self.turn[r], &self.drive[r]);
             let driven = drive[0] * u.begin + drive[1] * u.mean + drive[2] * u.end;
             y[r] + ((turn[0] * off[0] + turn[1] * off[1]) + driven - drift[r])
@@ -127,7 +127,7 @@ impl<T: Scalar> Mode<T> {
     #[inline(always)]
     pub(super) fn correct(&self, y: [T; 2], excess: [T; 2]) -> [T; 2] {
         let weight = &self.correction;
-        [0, 1].map(|r| y[r] - (weight[r][0] * excess[0] + weight[r][1] * excess[1]))
+        [0, 1].each(|r| y[r] - (weight[r][0] * excess[0] + weight[r][1] * excess[1]))
     }
 
     /// The same of an undamped mode.

@@ -3,7 +3,7 @@
 use super::polynomial::{Axial, Even, Local, Odd, Order, Shape};
 use super::reach::Reach;
 use crate::hub::HubState;
-use crate::math::{Scalar, cast, dot, words};
+use crate::math::{Each, Scalar, array, cast, dot, words};
 use crate::model::rod::monomials::{EVEN, ODD};
 use crate::model::{Expansion, Rod};
 use crate::scene::AxisKind;
@@ -109,12 +109,10 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
                 Odd::new(&ODD, omega, |k| linear[k].tip, |n| odd[n].tip),
             ),
             omega: cast(omega),
-            loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
+            loss: array(|k| f(beta[k] * omega[k] * omega[k])),
             alpha: f(scene.damping.alpha),
-            drag: cast(&omega.map(|omega| scene.damping.alpha / omega)),
-            joint: core::array::from_fn(|k| {
-                cast(&rod.joint_damping()[k].map(|coupling| coupling / omega[k]))
-            }),
+            drag: cast(&omega.each(|omega| scene.damping.alpha / omega)),
+            joint: array(|k| cast(&rod.joint_damping()[k].each(|coupling| coupling / omega[k]))),
             joint_damping: scene.damping.joint > 0.0,
             gravity: g != 0.0,
             damping: !scene.damping.is_zero(),
@@ -170,7 +168,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         }
         let (torque, inertia) = self.torque::<ALL, TURNS>(&shape, &forms, &flow, &gradient);
         let torque = if ALL { torque + weight } else { torque };
-        let offset = core::array::from_fn(|k| {
+        let offset = array(|k| {
             let drag = if ALL && self.damping { self.drag[k] * flow.u[k] } else { T::ZERO };
             [if ALL { gradient[k] - drag } else { gradient[k] }, flow.u[k]]
         });
@@ -191,7 +189,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
             c: core::array::from_fn(|k| self.c[k].at(shape, order(k))),
             d: core::array::from_fn(|k| self.d[k].at(shape, order(k))),
             e: self.e.at(shape, Order::Second),
-            second: core::array::from_fn(|k| self.second[k].at(shape)),
+            second: array(|k| self.second[k].at(shape)),
         }
     }
 
@@ -222,7 +220,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         if K > 2 {
             u[2] = along(2) + second[2].0 * v2;
         }
-        let rate = core::array::from_fn(|k| if k == 1 { v2 } else { p_tilde[k] + u[k] });
+        let rate = array(|k| if k == 1 { v2 } else { p_tilde[k] + u[k] });
         Flow { omega, p, v2, u, rate, lightness }
     }
 
@@ -258,7 +256,7 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         let mut lever = self.coupling;
         let mut inertia = self.inertia_at_rest - e.value;
         // Half the slope of t along each mode, levers held.
-        let mut rise: [T; K] = core::array::from_fn(|k| {
+        let mut rise: [T; K] = array(|k| {
             let rise = p * d[0].half_slope[k];
             if TURNS { rise - omega * e.half_slope[k] } else { rise }
         });
@@ -327,7 +325,7 @@ fn gradient<T: Scalar, const K: usize, const TURNS: bool>(
     // R's products of p, v₂ and ω.
     let twice = p + p;
     let of_first = [p * p, twice * omega, omega * omega];
-    let mut gradient: [T; K] = core::array::from_fn(|k| {
+    let mut gradient: [T; K] = array(|k| {
         let own = of_first[0] * c[0].half_slope[k];
         if !TURNS {
             return own;

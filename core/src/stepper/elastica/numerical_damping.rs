@@ -1,6 +1,6 @@
 //! Numerical damping: keeps an undamped arm from gaining energy while its hub rests.
 
-use crate::math::{Scalar, sqrt, words};
+use crate::math::{Each, Scalar, array, sqrt, words};
 use crate::model::Rod;
 
 /// Relative energy growth per step, divided by `b²(ω₁h)⁴`, `b` the bend in rad, in one mode and in
@@ -37,7 +37,7 @@ impl<T: Scalar, const K: usize> NumericalDamping<T, K> {
         Self {
             bend: T::from_f64(bend * bend),
             most: T::from_f64(most * most),
-            weight: core::array::from_fn(|k| {
+            weight: array(|k| {
                 let turn = omega[k] * step;
                 let fourth = (turn * turn * turn * turn).min(LARGEST_TURN[k.min(1)]);
                 // Half of the energy is amplitude, half of that turns by in one of the two.
@@ -58,7 +58,7 @@ impl<T: Scalar, const K: usize> NumericalDamping<T, K> {
         let bend = self.bend * (off[0] * off[0] + off[1] * off[1]);
         let bend = if bend < self.most { bend } else { self.most };
         let rounding = T::EPSILON * T::from_f64(ROUNDING);
-        self.weight.map(|weight| weight * bend + rounding)
+        self.weight.each(|weight| weight * bend + rounding)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The polynomials that the remainder is made of, in the scaled coordinates `xₖ = ωₖaₖ`.
 
-use crate::math::{Scalar, words};
+use crate::math::{Scalar, array, words};
 use crate::model::rod::monomials::{Exponents, Table};
 
 /// A shape of the arm, with the powers that every polynomial needs.
@@ -75,7 +75,7 @@ impl<T: Scalar, const K: usize> Even<T, K> {
     pub(super) fn at(&self, shape: &Shape<T, K>, order: Order) -> Local<T, K> {
         let x = &shape.x;
         // `fx + ½·(slope of the rest)`, by Euler's relation for what is quadratic.
-        let half_slope: [T; K] = core::array::from_fn(|k| {
+        let half_slope: [T; K] = array(|k| {
             let mut sum = self.q[0][k] * x[0];
             for j in 1..K {
                 let pair = (j.min(k), j.max(k));
@@ -133,7 +133,7 @@ impl<T: Scalar, const K: usize> Odd<T, K> {
         coefficient: impl Fn(usize) -> f64,
     ) -> Self {
         let mut odd = Self {
-            linear: core::array::from_fn(|k| T::from_f64(linear(k) / omega[k])),
+            linear: array(|k| T::from_f64(linear(k) / omega[k])),
             square: [T::ZERO; K],
             second: [T::ZERO; 2],
             fifth: T::ZERO,
@@ -156,8 +156,7 @@ impl<T: Scalar, const K: usize> Odd<T, K> {
     #[inline(always)]
     pub(super) fn value(&self, shape: &Shape<T, K>) -> T {
         let x = &shape.x;
-        let mut factor: [T; K] =
-            core::array::from_fn(|k| self.linear[k] + self.square[k] * shape.square);
+        let mut factor: [T; K] = array(|k| self.linear[k] + self.square[k] * shape.square);
         factor[0] += self.fifth * (shape.square * shape.square);
         if K > 1 {
             let square = x[1] * x[1];
@@ -172,8 +171,7 @@ impl<T: Scalar, const K: usize> Odd<T, K> {
     pub(super) fn slope(&self, shape: &Shape<T, K>) -> [T; K] {
         let x = &shape.x;
         let n = |n: u32| T::from_u32(n);
-        let mut slope: [T; K] =
-            core::array::from_fn(|k| self.linear[k] + self.square[k] * shape.square);
+        let mut slope: [T; K] = array(|k| self.linear[k] + self.square[k] * shape.square);
         slope[0] += T::TWO * (self.square[0] * shape.square)
             + n(5) * (self.fifth * (shape.square * shape.square));
         for k in 1..K {

@@ -1,6 +1,6 @@
 //! Keeps the remainder's arguments where its polynomials are bounded.
 
-use crate::math::{Scalar, words};
+use crate::math::{Each, Scalar, array, words};
 
 /// Largest weighted sum of the arguments' absolute values, in fitted ranges of the first mode.
 ///
@@ -32,7 +32,7 @@ impl<T: Scalar, const K: usize> Reach<T, K> {
         let first = omega[0] * range[0];
         Self {
             most: T::from_f64(REACH * first),
-            weight: core::array::from_fn(|k| T::from_f64(first / (LOOSER * omega[k] * range[k]))),
+            weight: array(|k| T::from_f64(first / (LOOSER * omega[k] * range[k]))),
         }
     }
 
@@ -48,7 +48,7 @@ impl<T: Scalar, const K: usize> Reach<T, K> {
             sum += self.weight[k] * own;
         }
         let scale = self.most / if sum > self.most { sum } else { self.most };
-        (y.map(|y| scale * y[0]), y.map(|y| scale * y[1]))
+        (y.each(|y| scale * y[0]), y.each(|y| scale * y[1]))
     }
 }
 
@@ -145,7 +145,7 @@ mod tests {
             for b in steps {
                 for c in steps {
                     // One range of every mode at once: the first's swing and rate together 2.
-                    let y: [[T; 2]; 3] = core::array::from_fn(|k| {
+                    let y: [[T; 2]; 3] = array(|k| {
                         let range = OMEGA[k] * RANGE[k];
                         [[a, b][k.min(1)] * range, c * range].map(T::from_f64)
                     });

@@ -1,7 +1,7 @@
 //! State of the arm between two ticks.
 
 use super::nonlinear::Value;
-use crate::math::Scalar;
+use crate::math::{Each, Scalar};
 
 /// The arm's state; [`Elastica::arm_state`](super::Elastica::arm_state) says what it means.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ impl<T: Scalar, const K: usize> ElasticaState<T, K> {
         correct: impl Fn(usize, [T; 2], [T; 2]) -> [T; 2],
     ) {
         for k in 0..K {
-            let moved = [0, 1].map(|r| value.offset[k][r] - self.offset[k][r]);
+            let moved = [0, 1].each(|r| value.offset[k][r] - self.offset[k][r]);
             self.y[k] = correct(k, guess[k], [0, 1].map(|r| moved[r] - self.drift[k][r]));
             self.drift[k] = moved;
         }

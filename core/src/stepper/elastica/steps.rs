@@ -2,7 +2,7 @@
 
 use super::{Elastica, ElasticaState, Quality};
 use crate::hub::HubState;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 use crate::stepper::Forcing;
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
@@ -88,9 +88,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     fn advance(&self, state: &mut ElasticaState<T, K>, hub: &HubState<T>, forcing: &Forcing<T>) {
         let damped = self.nonlinear.is_damped();
         let ElasticaState { y, offset, drift, .. } = state;
-        let guess = core::array::from_fn(|k| {
-            self.modes[k].predict(y[k], offset[k], drift[k], forcing, damped)
-        });
+        let guess = array(|k| self.modes[k].predict(y[k], offset[k], drift[k], forcing, damped));
         let value = self.nonlinear.evaluate::<true, true>(&guess, hub);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct(y, excess));
     }
@@ -100,9 +98,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     #[inline(always)]
     fn rotate(&self, state: &mut ElasticaState<T, K>, begin: T, gained: T, rate: T) {
         let ElasticaState { y, offset, drift, .. } = state;
-        let guess = core::array::from_fn(|k| {
-            self.modes[k].rotate(y[k], offset[k], drift[k], begin, gained)
-        });
+        let guess = array(|k| self.modes[k].rotate(y[k], offset[k], drift[k], begin, gained));
         let hub = HubState { rate, ..HubState::ZERO };
         let value = self.nonlinear.evaluate::<false, true>(&guess, &hub);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
@@ -112,12 +108,9 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     #[inline(always)]
     fn ring(&self, state: &mut ElasticaState<T, K>) {
         let ElasticaState { y, offset, drift, .. } = state;
-        let off: [[T; 2]; K] =
-            core::array::from_fn(|k| self.modes[k].off(y[k], offset[k], drift[k]));
+        let off: [[T; 2]; K] = array(|k| self.modes[k].off(y[k], offset[k], drift[k]));
         let damping = self.numerical_damping.at(&off[0]);
-        let guess = core::array::from_fn(|k| {
-            self.modes[k].step_at_rest(y[k], off[k], drift[k], damping[k])
-        });
+        let guess = array(|k| self.modes[k].step_at_rest(y[k], off[k], drift[k], damping[k]));
         let value = self.nonlinear.evaluate::<false, false>(&guess, &HubState::ZERO);
         state.follow(guess, value, |k, y, excess| self.modes[k].correct_undamped(y, excess));
     }

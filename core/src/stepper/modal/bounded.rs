@@ -9,7 +9,7 @@
 use super::{Modal, ModalState};
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Band, Scalar, sqrt};
+use crate::math::{Band, Each, Scalar, array, sqrt};
 use crate::stepper::{AnyMotion, Linear, Stepper};
 
 /// A step at a constant rate, linear: the image of each unit of coordinate, rate and force.
@@ -87,11 +87,11 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
     /// The step without what shifts the modes and does not feed them: weight and the drag of the
     /// turning. The link points upwards by `sin`.
     fn held(&self, rate: f64, sin: f64, linear: bool) -> Step<T, K> {
-        let [rate, sin] = [rate, sin].map(T::from_f64);
+        let [rate, sin] = [rate, sin].each(T::from_f64);
         let hub = HubState { rate, sin, cos: T::ZERO, ..HubState::ZERO };
         let level = Self { alpha: T::ZERO, ..*self };
-        Step(core::array::from_fn(|k| {
-            core::array::from_fn(|part| {
+        Step(array(|k| {
+            array(|part| {
                 let mut y = [[T::ZERO; K]; 3];
                 y[part][k] = T::ONE;
                 let [coordinate, rate, force] = y;
@@ -101,7 +101,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
                 } else {
                     level.step::<AnyMotion>(&mut state, &hub, &hub);
                 }
-                core::array::from_fn(|j| [state.coordinate[j], state.rate[j], state.force[j]])
+                array(|j| [state.coordinate[j], state.rate[j], state.force[j]])
             })
         }))
     }
@@ -113,7 +113,7 @@ impl<T: Scalar, const K: usize> Step<T, K> {
     fn stays_bounded(mut self, doublings: u32, most: f64) -> bool {
         let most = T::from_f64(most * 2.0 * K as f64);
         (0..doublings).all(|_| {
-            self = Self(self.0.map(|part| part.map(|image| self.of(&image))));
+            self = Self(self.0.each(|part| part.each(|image| self.of(&image))));
             let mut trace = T::ZERO;
             for k in 0..K {
                 for i in 0..3 {

@@ -2,7 +2,7 @@
 
 use super::Modal;
 use crate::hub::HubState;
-use crate::math::{Scalar, clip};
+use crate::math::{Each, Scalar, array, clip};
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// The change of the force over a step that agrees with the coordinates it leads to, from that
@@ -20,8 +20,8 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         if self.terms.gravity {
             stiff = stiff.plus(-hub.sin, &self.tension);
         }
-        let mut a: [[T; K]; K] = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
+        let mut a: [[T; K]; K] = array(|i| {
+            array(|j| {
                 let unit = if i == j { T::ONE } else { T::ZERO };
                 unit + stiff.get(i, j) * self.modes[j].ramp(0, T::ONE)
             })
@@ -44,6 +44,6 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             }
             change[p] = change[p] * a[p][p];
         }
-        if self.terms.gravity { change.map(|force| clip(force, self.most)) } else { change }
+        if self.terms.gravity { change.each(|force| clip(force, self.most)) } else { change }
     }
 }

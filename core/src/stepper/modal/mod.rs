@@ -12,7 +12,7 @@ use super::terms::Terms;
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Band, HalfForm, Scalar, dot, words};
+use crate::math::{Band, Each, HalfForm, Scalar, dot, words};
 use crate::motion::Peaks;
 
 /// The lowest `K` modes of a model, 1 to 3, each advanced exactly:
@@ -102,7 +102,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         if self.terms.spin {
             let rate2 = hub.rate * hub.rate;
             softening = self.spin.times(a);
-            force = softening.map(|f| -(rate2 * f));
+            force = softening.each(|f| -(rate2 * f));
         }
         if self.terms.gravity {
             let hanging = self.hanging(a, hub);
@@ -154,7 +154,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
         for k in 0..K {
             stiffness.add(k, k, T::ONE);
         }
-        let coordinate = stiffness.factor().solve(&self.weight.map(|f| -(hub.cos * f)));
+        let coordinate = stiffness.factor().solve(&self.weight.each(|f| -(hub.cos * f)));
         let still = HubState { rate: T::ZERO, ..*hub };
         let [force, softening] = self.force(&coordinate, &still);
         ModalState { coordinate, rate: [T::ZERO; K], force, softening }
@@ -208,7 +208,7 @@ impl<T: Scalar, const K: usize> Stepper for Modal<T, K> {
     fn kink(&self, state: &mut ModalState<T, K>, moments: KinkMoments<'_, T>) {
         for k in 0..K {
             let [a, v] = match moments {
-                KinkMoments::First(moment) => self.kink[k].map(|kick| kick * moment),
+                KinkMoments::First(moment) => self.kink[k].each(|kick| kick * moment),
                 KinkMoments::All(kink) => self.kicks[k].of(kink),
             };
             state.coordinate[k] += a;

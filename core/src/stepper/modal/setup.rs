@@ -2,7 +2,7 @@
 
 use super::Modal;
 use crate::Error;
-use crate::math::{Band, Scalar, cast, dot};
+use crate::math::{Band, Each, Scalar, array, cast, dot};
 use crate::model::{Model, Modes};
 use crate::stepper::kicks::Kicks;
 use crate::stepper::oscillator::{Oscillator, check_turns, kick};
@@ -19,20 +19,20 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let scene = model.scene();
         let (alpha, gravity) = (scene.damping.alpha, scene.in_plane_gravity());
         let modes = Modes::of(model);
-        let omega: [f64; K] = core::array::from_fn(|k| modes.frequency[k]);
+        let omega: [f64; K] = array(|k| modes.frequency[k]);
         let beta: [f64; K] = stiffness_damping(model, &modes);
         check_turns(&omega, alpha, &beta, tick)?;
-        let shape: [[f64; N]; K] = core::array::from_fn(|k| modes.shape[k].map(|x| x / omega[k]));
-        let onto = |load: &[f64; N]| -> [f64; K] { shape.map(|shape| dot(&shape, load)) };
+        let shape: [[f64; N]; K] = array(|k| modes.shape[k].each(|x| x / omega[k]));
+        let onto = |load: &[f64; N]| -> [f64; K] { shape.each(|shape| dot(&shape, load)) };
         let between =
             |matrix: &Band<f64, N, W>| -> Band<T, K, K> { matrix.onto(&shape).map(T::from_f64) };
         let rest = onto(model.coupling());
-        let coupling: [f64; K] = core::array::from_fn(|k| rest[k] * omega[k]);
-        let support: [f64; K] = core::array::from_fn(|k| coupling[k] * omega[k]);
+        let coupling: [f64; K] = array(|k| rest[k] * omega[k]);
+        let support: [f64; K] = array(|k| coupling[k] * omega[k]);
         let residual = model.rigid_inertia() - dot(&coupling, &coupling);
         let tension = between(&model.tension().scaled(gravity));
-        let tip = shape.map(|shape| shape[model.tip()]);
-        let weight = onto(model.weight()).map(|f| gravity * f);
+        let tip = shape.each(|shape| shape[model.tip()]);
+        let weight = onto(model.weight()).each(|f| gravity * f);
         let swings = if scene.mount.is_linear() { 0.0 } else { 1.0 };
         let modal = Self {
             modes: core::array::from_fn(|k| {
@@ -49,23 +49,21 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             inertia: T::from_f64(scene.hub.inertia + residual),
             terms: Terms::of(scene),
             per_tick: T::from_f64(1.0 / tick),
-            kink: core::array::from_fn(|k| kick(omega[k], alpha, beta[k], support[k], tick)),
+            kink: array(|k| kick(omega[k], alpha, beta[k], support[k], tick)),
             kicks: core::array::from_fn(|k| {
                 Kicks::new(omega[k], alpha, beta[k], coupling[k], tick).rates_by(omega[k])
             }),
             alpha: T::from_f64(alpha),
             drag: T::from_f64(alpha * residual),
-            loss: core::array::from_fn(|k| T::from_f64(beta[k] * support[k])),
+            loss: array(|k| T::from_f64(beta[k] * support[k])),
             tension,
             bent: tension.map(|pull| T::from_f64(swings) * pull).half_form(),
             weight: cast(&weight),
-            lever: cast(&weight.map(|f| swings * f)),
+            lever: cast(&weight.each(|f| swings * f)),
             moment: T::from_f64(gravity * model.first_moment()),
-            awake: core::array::from_fn(|k| {
-                settled_weights(omega[k], sleep_floor(scene.link.length, tip[k]))
-            }),
+            awake: array(|k| settled_weights(omega[k], sleep_floor(scene.link.length, tip[k]))),
             tick,
-            tip_slope: core::array::from_fn(|k| T::from_f64(dot(&shape[k], model.tip_slope()))),
+            tip_slope: array(|k| T::from_f64(dot(&shape[k], model.tip_slope()))),
             most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length / tip[0].abs()),
             gravity: scene.gravity_direction(),
         };
@@ -99,8 +97,8 @@ fn stiffness_damping<const K: usize, const N: usize, const W: usize>(
     modes: &Modes<N>,
 ) -> [f64; K] {
     let joint = model.joint_damping();
-    core::array::from_fn(|k| {
-        let shape = modes.shape[k].map(|x| x / modes.frequency[k]);
+    array(|k| {
+        let shape = modes.shape[k].each(|x| x / modes.frequency[k]);
         model.scene().damping.beta + dot(&shape, &joint.times(&shape))
     })
 }
@@ -108,5 +106,5 @@ fn stiffness_damping<const K: usize, const N: usize, const W: usize>(
 /// Weights of the squares of `ωa` and of `ωȧ` of a mode that is settled below the coordinate
 /// `floor`.
 fn settled_weights<T: Scalar>(omega: f64, floor: f64) -> [T; 2] {
-    [floor, omega * floor].map(|floor| T::from_f64(1.0 / (floor * floor)))
+    [floor, omega * floor].each(|floor| T::from_f64(1.0 / (floor * floor)))
 }

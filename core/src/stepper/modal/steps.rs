@@ -2,7 +2,7 @@
 
 use super::{Modal, ModalState};
 use crate::hub::HubState;
-use crate::math::Scalar;
+use crate::math::{Each, Scalar, array};
 use crate::stepper::oscillator::Forcing;
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
@@ -25,16 +25,16 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             y[k] = self.modes[k].predict_forced(y[k], &forcing, state.force[k]);
         }
         if self.terms.spin || self.terms.gravity {
-            let [force, _] = self.force(&y.map(|y| y[0]), after);
-            let change = self.implied(core::array::from_fn(|k| force[k] - state.force[k]), after);
+            let [force, _] = self.force(&y.each(|y| y[0]), after);
+            let change = self.implied(array(|k| force[k] - state.force[k]), after);
             for k in 0..K {
                 y[k] = self.modes[k].correct_forced(y[k], change[k]);
                 state.force[k] += change[k];
             }
-            state.softening = self.spin.times(&y.map(|y| y[0]));
+            state.softening = self.spin.times(&y.each(|y| y[0]));
         }
-        state.coordinate = y.map(|y| y[0]);
-        state.rate = y.map(|y| y[1]);
+        state.coordinate = y.each(|y| y[0]);
+        state.rate = y.each(|y| y[1]);
     }
 
     /// Advances by a tick with linear acceleration, without damping and gravity.
@@ -57,7 +57,7 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         }
         let softening = self.spin.times(&predicted);
         let square = after.rate * after.rate;
-        let force = softening.map(|f| -(square * f));
+        let force = softening.each(|f| -(square * f));
         let (mut coordinate, mut rate) = (state.coordinate, state.rate);
         for k in 0..K {
             let change = force[k] - driven[k];
@@ -76,14 +76,14 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
             y[k] = self.modes[k].step_at_rest(y[k], state.force[k]);
         }
         if self.terms.gravity {
-            let hanging = self.hanging(&y.map(|y| y[0]), hub);
-            let change = self.implied(core::array::from_fn(|k| hanging[k] - state.force[k]), hub);
+            let hanging = self.hanging(&y.each(|y| y[0]), hub);
+            let change = self.implied(array(|k| hanging[k] - state.force[k]), hub);
             for k in 0..K {
                 y[k] = self.modes[k].correct_forced(y[k], change[k]);
                 state.force[k] += change[k];
             }
         }
-        state.coordinate = y.map(|y| y[0]);
-        state.rate = y.map(|y| y[1]);
+        state.coordinate = y.each(|y| y[0]);
+        state.rate = y.each(|y| y[1]);
     }
 }

@@ -32,7 +32,7 @@ use super::terms::Terms;
 use super::{FastPaths, HubMotion, KinkMoments, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Band, HalfForm, Ldl, Scalar, dot, words};
+use crate::math::{Band, Each, HalfForm, Ldl, Scalar, dot, words};
 use crate::model::Model;
 use crate::motion::Peaks;
 
@@ -141,7 +141,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     /// `q̇`, the deflection's rate in the hub frame.
     pub fn deflection_rate(&self, state: &NewmarkState<T, N>) -> [T; N] {
         let per_half = T::HALF * self.twice_per_half;
-        state.gain.map(|gain| per_half * gain)
+        state.gain.each(|gain| per_half * gain)
     }
 }
 
@@ -197,7 +197,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Stepper
     }
 
     fn equilibrium(&self, hub: &HubState<T>) -> NewmarkState<T, N> {
-        let load = self.weight.map(|f| -hub.cos * f);
+        let load = self.weight.each(|f| -hub.cos * f);
         let deflection = self.stiffness.plus(-hub.sin, &self.tension).factor().solve(&load);
         NewmarkState { deflection, gain: [T::ZERO; N], restoring: [T::ZERO; N] }
     }

@@ -2,7 +2,7 @@
 
 use super::Newmark;
 use crate::Error;
-use crate::math::{Band, Ldl, Scalar, cast, dot, principal_axes, root, round};
+use crate::math::{Band, Each, Ldl, Scalar, array, cast, dot, principal_axes, root, round};
 use crate::model::Model;
 use crate::scene::{Scene, Uniform};
 use crate::stepper::terms::Terms;
@@ -58,11 +58,11 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         let coupling = vector(model.coupling());
         let turn = inertia.solve(&coupling);
         let residual = model.rigid_inertia() - dot(&coupling, &turn);
-        let scaled = |scale: P| cast(&coupling.map(|f| scale * f));
-        let tip: [P; N] = principal.map(|axis| axis[model.tip()]);
+        let scaled = |scale: P| cast(&coupling.each(|f| scale * f));
+        let tip: [P; N] = principal.each(|axis| axis[model.tip()]);
         let stiff = half * half * Self::slowest(&coupling, &mass, &stiffness);
         Ok(Self {
-            turn: cast(&turn.map(|b| half * b)),
+            turn: cast(&turn.each(|b| half * b)),
             spin: band(model.spin()).map(round),
             effective: effective.map(round),
             coupling: scaled(-per_half * per_half),
@@ -85,7 +85,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             rigid_drag: round(alpha * model.rigid_inertia()),
             tension: tension.map(round),
             bent: tension.map(|k| round(swings * k)).half_form(),
-            weight: cast(&vector(model.weight()).map(|f| gravity * f)),
+            weight: cast(&vector(model.weight()).each(|f| gravity * f)),
             swings: round(swings),
             moment: round(gravity * model.first_moment()),
             most: T::from_f64(MOST_GRAVITY_CHANGE * scene.link.length.to_f64()),
@@ -108,7 +108,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
         if Self::PRINCIPAL {
             return principal_axes(model.stiffness(), model.spin());
         }
-        core::array::from_fn(|i| core::array::from_fn(|j| if i == j { P::ONE } else { P::ZERO }))
+        array(|i| array(|j| if i == j { P::ONE } else { P::ZERO }))
     }
 
     /// Factors of `M` and of the effective matrix, unless the tick leaves one of them no digits.
@@ -184,7 +184,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             false => P::ONE,
         };
         let weight = reach / (floor * floor * stiff);
-        [weight / stiff, weight].map(round)
+        [weight / stiff, weight].each(round)
     }
 }
 
@@ -196,5 +196,5 @@ fn least<P: Scalar, const N: usize>(of: impl Fn(usize) -> P) -> P {
 /// `vᵢᵀf` for the axes `vᵢ`.
 #[inline(never)]
 fn onto<P: Scalar, const N: usize>(axes: &[[P; N]; N], f: &[P; N]) -> [P; N] {
-    axes.map(|axis| dot(&axis, f))
+    axes.each(|axis| dot(&axis, f))
 }

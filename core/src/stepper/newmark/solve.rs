@@ -2,7 +2,7 @@
 
 use super::{Newmark, NewmarkState};
 use crate::hub::HubState;
-use crate::math::{Band, Scalar, clip};
+use crate::math::{Band, Each, Scalar, clip};
 use crate::stepper::HubMotion;
 
 impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, W, AXES> {
@@ -54,7 +54,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
     pub(super) fn solve_turning(&self, mut force: [T; N], q: &[T; N], rate: T) -> [T; N] {
         let square = rate * rate;
         if Self::PRINCIPAL {
-            let change = self.spin.diagonal().map(|g| square * g);
+            let change = self.spin.diagonal().each(|g| square * g);
             for i in 0..N {
                 force[i] += change[i] * q[i];
             }
@@ -119,7 +119,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
             force[i] += changed[i] + self.weight[i] * cos;
         }
         let restoring = self.effective.plus(T::ONE, &change).solve(&force);
-        restoring.map(|c| clip(c, self.most))
+        restoring.each(|c| clip(c, self.most))
     }
 
     /// Adds what damping puts on the arm.

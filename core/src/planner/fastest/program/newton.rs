@@ -1,7 +1,7 @@
 //! One step of Newton's method on the program's conditions of optimality.
 
 use super::{AIMS, Program};
-use crate::math::{Band, Ldl, Scalar, dot};
+use crate::math::{Band, Each, Ldl, Scalar, array, dot};
 use crate::planner::fastest::grid::{TORQUE, zero};
 use crate::planner::fastest::point::{Goal, Point, Step};
 
@@ -26,8 +26,8 @@ impl<T: Scalar, const N: usize> Program<T, N> {
         let mut weights = zero();
         for kind in self.limited_kinds() {
             for i in 0..N {
-                let [above, below] =
-                    [0, 1].map(|side| point.multiplier[side][kind][i] / point.slack[side][kind][i]);
+                let [above, below] = [0, 1]
+                    .each(|side| point.multiplier[side][kind][i] / point.slack[side][kind][i]);
                 weights[kind][i] = above + below;
             }
         }
@@ -101,7 +101,7 @@ impl<T: Scalar, const N: usize> Program<T, N> {
         let pulled = self.rows.transposed(&pull);
         let rough = self.rough(&point.knots);
         let gain = if self.effort == T::ZERO { T::ONE } else { T::ZERO };
-        let right = core::array::from_fn(|k| gain * self.gain[k] - rough[k] - pulled[k]);
+        let right = array(|k| gain * self.gain[k] - rough[k] - pulled[k]);
         let free = factors.normal.solve(&right);
         let mut miss = [T::ZERO; CONDITIONS];
         for i in 0..CONDITIONS {
@@ -131,7 +131,7 @@ impl<T: Scalar, const N: usize> Program<T, N> {
 
     /// `ρDᵀD y`.
     fn rough(&self, y: &[T; N]) -> [T; N] {
-        core::array::from_fn(|k| {
+        array(|k| {
             let before = if k > 0 { y[k] - y[k - 1] } else { T::ZERO };
             let after = if k + 1 < N { y[k] - y[k + 1] } else { y[k] };
             self.roughness * (before + after)
