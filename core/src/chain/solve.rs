@@ -23,7 +23,7 @@ pub(super) struct Factors<T, const LINKS: usize, const W: usize, const FROM: usi
 impl<T: Scalar, const LINKS: usize, const W: usize, const FROM: usize> Factors<T, LINKS, W, FROM> {
     /// Factors `matrix + diag(diagonal)`, of which the lower triangle is read, in the rows and
     /// columns that are `free`.
-    #[inline(never)]
+    #[inline(always)]
     pub fn new<const C: usize>(
         matrix: &[[T; C]; C],
         diagonal: &Values<T, LINKS, W>,
@@ -34,13 +34,23 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const FROM: usize> Factors<T
             blocks: [[[[Complex::ZERO; W]; W]; LINKS]; LINKS],
             inverse: [[Complex::ZERO; W]; LINKS],
         };
+        factors.factor(matrix, diagonal, free);
+        factors
+    }
+
+    #[inline(never)]
+    fn factor<const C: usize>(
+        &mut self,
+        matrix: &[[T; C]; C],
+        diagonal: &Values<T, LINKS, W>,
+        free: &[bool; C],
+    ) {
         for i in 0..LINKS {
             for p in 0..i {
-                factors.factor_beside(matrix, i, p);
+                self.factor_beside(matrix, i, p);
             }
-            factors.factor_diagonal(matrix, diagonal, free, i);
+            self.factor_diagonal(matrix, diagonal, free, i);
         }
-        factors
     }
 
     /// Rows of link `i` in the columns of link `p`.

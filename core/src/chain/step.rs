@@ -93,25 +93,24 @@ where
         force: Option<Vector<T>>,
     ) -> [Slots<T, LINKS, W>; 2] {
         let model = &self.model;
-        let mut residuals = [[[T::ZERO; W]; LINKS]; 2];
+        let mut residuals: [Slots<T, LINKS, W>; 2] = core::array::from_fn(|stage| {
+            let (q, v) = (&stages.q[stage], &stages.v[stage]);
+            core::array::from_fn(|j| {
+                core::array::from_fn(|i| {
+                    model.links[j].stiffness[i] * (q[j][i] + model.beta * v[j][i])
+                })
+            })
+        });
         for stage in 0..2 {
             let (v, k) = (&stages.v[stage], &stages.k[stage]);
-            residuals[stage] = if model.alpha == T::ZERO {
-                model.inverse_dynamics(&poses[stage], v, k, force)
+            let residual = &mut residuals[stage];
+            if model.alpha == T::ZERO {
+                model.add_inverse_dynamics(&poses[stage], v, k, force, residual);
             } else {
-                let mut damped = *k;
-                for j in 0..LINKS {
-                    for i in 0..W {
-                        damped[j][i] += model.alpha * v[j][i];
-                    }
-                }
-                model.inverse_dynamics(&poses[stage], v, &damped, force)
-            };
-            for j in 0..LINKS {
-                for i in 1..W {
-                    let bend = stages.q[stage][j][i] + model.beta * v[j][i];
-                    residuals[stage][j][i] += model.links[j].stiffness[i] * bend;
-                }
+                let damped = core::array::from_fn(|j| {
+                    core::array::from_fn(|i| k[j][i] + model.alpha * v[j][i])
+                });
+                model.add_inverse_dynamics(&poses[stage], v, &damped, force, residual);
             }
         }
         residuals
