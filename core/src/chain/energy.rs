@@ -31,7 +31,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// for the tick.
     pub fn energy(&self, state: &ChainState<T, LINKS, W>) -> Energy<T> {
         let pose = self.pose_of(state);
-        let mut mass = Mass { matrix: [[T::ZERO; C]; C] };
+        let mut mass = Mass::NONE;
         let whole = self.model.write_mass::<C, true>(&pose, &mut mass);
         let rates = state.rate.as_flattened();
         let mut twice = T::ZERO;

@@ -12,6 +12,11 @@ pub(super) struct Mass<T, const C: usize> {
     pub matrix: [[T; C]; C],
 }
 
+impl<T: Scalar, const C: usize> Mass<T, C> {
+    /// Room for a matrix.
+    pub const NONE: Self = Self { matrix: [[T::ZERO; C]; C] };
+}
+
 /// Momentum of all beyond a place per unit rate of a coordinate, and its moment about that place.
 #[derive(Clone, Copy, Debug)]
 struct Column<T> {
@@ -34,7 +39,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         &self,
         pose: &[Pose<T, Q>; LINKS],
     ) -> Mass<T, C> {
-        let mut mass = Mass { matrix: [[T::ZERO; C]; C] };
+        let mut mass = Mass::NONE;
         self.write_mass::<C, WHOLE>(pose, &mut mass);
         mass
     }

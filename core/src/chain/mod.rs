@@ -39,6 +39,7 @@ mod close;
 mod dynamics;
 mod energy;
 mod equilibrium;
+mod factors;
 mod generator;
 mod mass;
 mod modes;
@@ -68,7 +69,7 @@ pub use still::{ChainPlan, ChainPlanner};
 use crate::Error;
 use crate::math::Scalar;
 use crate::mechanism::{Closing, Mechanism};
-use solve::Values;
+use factors::Values;
 use weights::Weights;
 
 /// Links, joints and payload as the tick needs them.
