@@ -28,12 +28,12 @@ impl<T: Scalar, const LINKS: usize, const W: usize> Pinned<T, LINKS, W> {
         moves: [[Vector<T>; W]; LINKS],
         right: &Values<T, LINKS, W>,
     ) -> Self {
-        let mut sides = [[[Complex::ZERO; W]; LINKS], [[Complex::ZERO; W]; LINKS], *right];
-        for j in 0..LINKS {
-            for k in 0..W {
-                (sides[0][j][k].re, sides[1][j][k].re) = (moves[j][k][0], moves[j][k][1]);
-            }
-        }
+        let side = |axis: usize| -> Values<T, LINKS, W> {
+            core::array::from_fn(|j| {
+                core::array::from_fn(|k| Complex::new(moves[j][k][axis], T::ZERO))
+            })
+        };
+        let mut sides = [side(0), side(1), *right];
         factors.forward(&mut sides);
         let (mut end, mut moved) = ([Complex::ZERO; 3], [Complex::ZERO; 2]);
         for j in 0..LINKS {
