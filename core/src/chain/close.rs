@@ -1,13 +1,12 @@
 //! A chain that closes while it runs.
 
+use super::factors::Factors;
 use super::pin::Pinned;
-use super::solve::Factors;
 use super::{Chain, ChainState};
 use crate::math::{Complex, Scalar};
 
 /// The factors of the mass matrix, and what a pin makes of them.
-type EndAnswer<T, const LINKS: usize, const W: usize> =
-    (Factors<T, LINKS, W, 0>, Pinned<T, LINKS, W>);
+type EndAnswer<T, const LINKS: usize, const W: usize> = (Factors<T, LINKS, W>, Pinned<T, LINKS, W>);
 
 impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usize>
     Chain<T, LINKS, W, C, Q>

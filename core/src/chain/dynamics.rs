@@ -28,7 +28,6 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
     /// `acceleration` is to hold `q̈ + αq̇`: damping in proportion to mass is that much more
     /// acceleration, of all but hubs. Elastic forces are left out. `force` is what the ground
     /// pushes on the chain's end with, N.
-    #[inline(never)]
     pub(super) fn inverse_dynamics(
         &self,
         pose: &[Pose<T, Q>; LINKS],
@@ -36,22 +35,39 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         acceleration: &[[T; W]; LINKS],
         force: Option<Vector<T>>,
     ) -> [[T; W]; LINKS] {
-        let motions = self.forward(pose, rate, acceleration);
         let mut residual = [[T::ZERO; W]; LINKS];
+        self.add_inverse_dynamics(pose, rate, acceleration, force, &mut residual);
+        residual
+    }
+
+    /// Adds to `residual` what [`Self::inverse_dynamics`] returns; what it held of joints is lost.
+    #[inline(never)]
+    pub(super) fn add_inverse_dynamics(
+        &self,
+        pose: &[Pose<T, Q>; LINKS],
+        rate: &[[T; W]; LINKS],
+        acceleration: &[[T; W]; LINKS],
+        force: Option<Vector<T>>,
+        residual: &mut [[T; W]; LINKS],
+    ) {
+        let motions = self.forward(pose, rate, acceleration);
         let (mut f, mut moment) = self.tip_force(&pose[LINKS - 1], &motions[LINKS - 1], force);
         for j in (0..LINKS).rev() {
             let (body, motion, pose) = (&self.links[j], &motions[j], &pose[j]);
             if body.offset != T::ZERO {
                 moment += body.offset * cross(pose.end, f);
             }
-            residual[j] = over_points(&body.moments(motion, pose, f));
+            let mut sums = over_points::<T, W, Q>(&body.moments(motion, pose, f));
             // The moment at the end acts on the coordinate that turns the end, the first.
-            residual[j][1] += moment;
+            sums[1] += moment;
+            for k in 1..W {
+                residual[j][k] += sums[k];
+            }
             f = plus(f, body.mass, motion.clamp);
             for q in 0..Q {
                 f = plus(f, body.first[q], motion.tangents[q]);
             }
-            moment = moment + residual[j][0] + body.hub * motion.hub_angular;
+            moment = moment + sums[0] + body.hub * motion.hub_angular;
             if body.radius != T::ZERO {
                 moment += body.radius * cross(pose.base, f);
             }
@@ -62,7 +78,6 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
                 moment += inner.stator * motions[j - 1].end_angular;
             }
         }
-        residual
     }
 
     #[inline(always)]
@@ -72,44 +87,32 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         rate: &[[T; W]; LINKS],
         acceleration: &[[T; W]; LINKS],
     ) -> [Motion<T, Q>; LINKS] {
-        let zero = [T::ZERO; 2];
-        let mut motions = [Motion {
-            clamp: zero,
-            end: zero,
-            tangents: [zero; Q],
-            hub_angular: T::ZERO,
-            end_angular: T::ZERO,
-            end_rate: T::ZERO,
-        }; LINKS];
         // The ground falls upwards where there is gravity.
         let mut a = [T::ZERO, self.gravity];
         let (mut omega, mut angular) = (T::ZERO, T::ZERO);
-        for j in 0..LINKS {
+        core::array::from_fn(|j| {
             let (body, pose) = (&self.links[j], &pose[j]);
             omega += rate[j][0];
             angular += acceleration[j][0];
-            let motion = &mut motions[j];
             // A hub is not damped.
-            motion.hub_angular = angular - self.alpha * omega;
+            let hub_angular = angular - self.alpha * omega;
             if body.radius != T::ZERO {
                 a = plus(a, body.radius, spun(pose.base, omega, angular));
             }
-            motion.clamp = a;
+            let clamp = a;
             let rates = at_points::<T, W, Q>(omega, &rate[j]);
             let angulars = at_points::<T, W, Q>(angular, &acceleration[j]);
+            let tangents = core::array::from_fn(|q| spun(pose.tangents[q], rates[q], angulars[q]));
             for q in 0..Q {
-                let spun = spun(pose.tangents[q], rates[q], angulars[q]);
-                motion.tangents[q] = spun;
-                a = plus(a, body.lengths[q], spun);
+                a = plus(a, body.lengths[q], tangents[q]);
             }
             omega += rate[j][1];
             angular += acceleration[j][1];
             if body.offset != T::ZERO {
                 a = plus(a, body.offset, spun(pose.end, omega, angular));
             }
-            (motion.end, motion.end_rate, motion.end_angular) = (a, omega, angular);
-        }
-        motions
+            Motion { clamp, end: a, tangents, hub_angular, end_angular: angular, end_rate: omega }
+        })
     }
 
     /// Force and moment at the chain's end.

@@ -1,5 +1,6 @@
 //! Energy of a chain, and what damping takes of it.
 
+use super::mass::Mass;
 use super::{Chain, ChainState};
 use crate::math::Scalar;
 
@@ -30,7 +31,8 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// for the tick.
     pub fn energy(&self, state: &ChainState<T, LINKS, W>) -> Energy<T> {
         let pose = self.pose_of(state);
-        let (mass, whole) = self.model.mass_and_whole::<C, true>(&pose);
+        let mut mass = Mass::NONE;
+        let whole = self.model.write_mass::<C, true>(&pose, &mut mass);
         let rates = state.rate.as_flattened();
         let mut twice = T::ZERO;
         for i in 0..C {

@@ -1,7 +1,7 @@
 //! Where a chain is at rest: its sag under gravity, and the angles that close a loop.
 
+use super::factors::Factors;
 use super::pose::Vector;
-use super::solve::Factors;
 use super::{Chain, ChainState, JointState, Model};
 use crate::Error;
 use crate::hub::Angle;
@@ -94,7 +94,7 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
             let right = core::array::from_fn(|j| {
                 core::array::from_fn(|k| Complex::new(right[j * W + k], 0.0))
             });
-            let factors = Factors::<f64, LINKS, W, 0>::new(&stiffness, &none, free);
+            let factors = Factors::<f64, LINKS, W>::new(&stiffness, &none, free);
             let step: [f64; C] = flat(&factors.solve(&right).map(|row| row.map(|step| step.re)));
             change = step.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
             gap = crate::math::sqrt(missed[0] * missed[0] + missed[1] * missed[1]);

@@ -12,6 +12,11 @@ pub(super) struct Mass<T, const C: usize> {
     pub matrix: [[T; C]; C],
 }
 
+impl<T: Scalar, const C: usize> Mass<T, C> {
+    /// Room for a matrix.
+    pub const NONE: Self = Self { matrix: [[T::ZERO; C]; C] };
+}
+
 /// Momentum of all beyond a place per unit rate of a coordinate, and its moment about that place.
 #[derive(Clone, Copy, Debug)]
 struct Column<T> {
@@ -34,17 +39,20 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         &self,
         pose: &[Pose<T, Q>; LINKS],
     ) -> Mass<T, C> {
-        self.mass_and_whole::<C, WHOLE>(pose).0
+        let mut mass = Mass::NONE;
+        self.write_mass::<C, WHOLE>(pose, &mut mass);
+        mass
     }
 
-    /// The same, and with `WHOLE` the first moment of all mass about the first joint, kg m.
+    /// Writes the lower triangle for that pose. Returns, with `WHOLE`, the first moment of all mass
+    /// about the first joint, kg m.
     #[inline(never)]
-    pub(super) fn mass_and_whole<const C: usize, const WHOLE: bool>(
+    pub(super) fn write_mass<const C: usize, const WHOLE: bool>(
         &self,
         pose: &[Pose<T, Q>; LINKS],
-    ) -> (Mass<T, C>, Vector<T>) {
+        mass: &mut Mass<T, C>,
+    ) -> Vector<T> {
         const { assert!(C == LINKS * W, "a coordinate a joint and curvature") }
-        let mut mass = Mass { matrix: [[T::ZERO; C]; C] };
         let mut columns = [Column { momentum: [T::ZERO; 2], moment: T::ZERO }; C];
         let mut beyond = self.load_composite(&pose[LINKS - 1]);
         for j in (0..LINKS).rev() {
@@ -52,9 +60,9 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
                 beyond.inertia += self.links[j].stator;
             }
             self.past_offset(j, &pose[j], &mut beyond, &mut columns);
-            self.past_link::<C, WHOLE>(j, &pose[j], &mut beyond, &mut columns, &mut mass);
+            self.past_link::<C, WHOLE>(j, &pose[j], &mut beyond, &mut columns, mass);
         }
-        (mass, beyond.first)
+        beyond.first
     }
 
     /// The payload about the chain's end.

@@ -29,8 +29,8 @@
 //!
 //! A chain of one is a single arm, but take [`Elastica2`](crate::stepper::Elastica2) for it. At
 //! 10 ms its tip is within 2e-4 of the length of the truth on every scene, that of a chain with two
-//! coordinates within 2.4e-4 to 2.6e-2 (with three 8e-6 to 1.6e-2), at a third of the instructions
-//! or less: it advances the modes of vibration exactly, a chain steps them.
+//! coordinates within 2.4e-4 to 2.6e-2 (with three 8e-6 to 1.6e-2), at two fifths of the
+//! instructions or less: it advances the modes of vibration exactly, a chain steps them.
 
 mod admit;
 mod along;
@@ -39,6 +39,7 @@ mod close;
 mod dynamics;
 mod energy;
 mod equilibrium;
+mod factors;
 mod generator;
 mod mass;
 mod modes;
@@ -68,7 +69,7 @@ pub use still::{ChainPlan, ChainPlanner};
 use crate::Error;
 use crate::math::Scalar;
 use crate::mechanism::{Closing, Mechanism};
-use solve::Values;
+use factors::Values;
 use weights::Weights;
 
 /// Links, joints and payload as the tick needs them.

@@ -1,8 +1,9 @@
 //! The pin of a closed chain: two forces that keep its end in place.
 
 use super::along::at_points;
+use super::factors::{Factors, Values};
 use super::pose::{Pose, Vector, normal, plus};
-use super::solve::{Factors, Values, solve_pair};
+use super::solve::solve_pair;
 use super::stages::{Slots, Stages};
 use super::{Chain, Model};
 use crate::math::{Complex, Scalar};
@@ -23,16 +24,16 @@ pub(super) struct Pinned<T, const LINKS: usize, const W: usize> {
 impl<T: Scalar, const LINKS: usize, const W: usize> Pinned<T, LINKS, W> {
     #[inline(always)]
     pub fn new(
-        factors: &Factors<T, LINKS, W, 0>,
+        factors: &Factors<T, LINKS, W>,
         moves: [[Vector<T>; W]; LINKS],
         right: &Values<T, LINKS, W>,
     ) -> Self {
-        let mut sides = [[[Complex::ZERO; W]; LINKS], [[Complex::ZERO; W]; LINKS], *right];
-        for j in 0..LINKS {
-            for k in 0..W {
-                (sides[0][j][k].re, sides[1][j][k].re) = (moves[j][k][0], moves[j][k][1]);
-            }
-        }
+        let side = |axis: usize| -> Values<T, LINKS, W> {
+            core::array::from_fn(|j| {
+                core::array::from_fn(|k| Complex::new(moves[j][k][axis], T::ZERO))
+            })
+        };
+        let mut sides = [side(0), side(1), *right];
         factors.forward(&mut sides);
         let (mut end, mut moved) = ([Complex::ZERO; 3], [Complex::ZERO; 2]);
         for j in 0..LINKS {
@@ -54,7 +55,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize> Pinned<T, LINKS, W> {
     #[inline(always)]
     pub fn solve(
         &self,
-        factors: &Factors<T, LINKS, W, 0>,
+        factors: &Factors<T, LINKS, W>,
         to: [Complex<T>; 2],
     ) -> (Values<T, LINKS, W>, [Complex<T>; 2]) {
         let missing = [to[0] - self.moved[0], to[1] - self.moved[1]];

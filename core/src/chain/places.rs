@@ -23,7 +23,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     #[inline(never)]
     pub(super) fn locate(&self, state: &mut ChainState<T, LINKS, W>) {
         let pose = self.pose_of(state);
-        self.write_places(state, &pose);
+        self.write_places(state, |j| self.model.links[j].reach(&pose[j]));
     }
 
     /// Writes the places of a state whose coordinates are `moved`, rad, from those of `pose`. Its
@@ -35,31 +35,32 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         pose: &[Pose<T, Q>; LINKS],
         moved: &Slots<T, LINKS, W>,
     ) {
-        let mut near = *pose;
         let mut angle = T::ZERO;
-        for j in 0..LINKS {
-            angle += moved[j][0];
-            if self.model.links[j].radius != T::ZERO {
-                near[j].base = turned_little(near[j].base, angle);
-            }
-            let angles = at_points::<T, W, Q>(angle, &moved[j]);
-            for q in 0..Q {
-                near[j].tangents[q] = turned_little(near[j].tangents[q], angles[q]);
-            }
-            angle += moved[j][1];
-            if self.model.sticks_out(j) {
-                near[j].end = turned_little(near[j].end, angle);
-            }
-        }
-        self.write_places(state, &near);
+        self.write_places(state, |j| {
+            let (body, pose) = (&self.model.links[j], &pose[j]);
+            let clamp = angle + moved[j][0];
+            let angles = at_points::<T, W, Q>(clamp, &moved[j]);
+            angle = clamp + moved[j][1];
+            body.reach_along(
+                || turned_little(pose.base, clamp),
+                |q| turned_little(pose.tangents[q], angles[q]),
+                || turned_little(pose.end, angle),
+            )
+        });
     }
 
+    /// Writes the places of a state. `reach` is called link by link and tells how far its end is
+    /// from its joint.
     #[inline(always)]
-    fn write_places(&self, state: &mut ChainState<T, LINKS, W>, pose: &[Pose<T, Q>; LINKS]) {
+    fn write_places(
+        &self,
+        state: &mut ChainState<T, LINKS, W>,
+        mut reach: impl FnMut(usize) -> Vector<T>,
+    ) {
         let mut place = [T::ZERO; 2];
         let mut angle = T::ZERO;
         for j in 0..LINKS {
-            let reach = self.model.links[j].reach(&pose[j]);
+            let reach = reach(j);
             place = plus(place, T::ONE, reach);
             angle += state.joints[j].angle.part;
             state.ends[j] = place;

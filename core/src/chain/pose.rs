@@ -114,14 +114,25 @@ impl<T: Scalar, const W: usize, const Q: usize> Body<T, W, Q> {
     /// From a link's joint to its end, the next joint or the tip, in the global frame.
     #[inline(always)]
     pub fn reach(&self, pose: &Pose<T, Q>) -> Vector<T> {
+        self.reach_along(|| pose.base, |q| pose.tangents[q], || pose.end)
+    }
+
+    /// The same along other directions: of the clamp, at the points, and of the end.
+    #[inline(always)]
+    pub fn reach_along(
+        &self,
+        base: impl FnOnce() -> Vector<T>,
+        tangent: impl Fn(usize) -> Vector<T>,
+        end: impl FnOnce() -> Vector<T>,
+    ) -> Vector<T> {
         let mut reach = [T::ZERO; 2];
         for q in 0..Q {
-            reach = plus(reach, self.lengths[q], pose.tangents[q]);
+            reach = plus(reach, self.lengths[q], tangent(q));
         }
         if self.radius != T::ZERO {
-            reach = plus(reach, self.radius, pose.base);
+            reach = plus(reach, self.radius, base());
         }
-        if self.offset != T::ZERO { plus(reach, self.offset, pose.end) } else { reach }
+        if self.offset != T::ZERO { plus(reach, self.offset, end()) } else { reach }
     }
 }
 

@@ -132,6 +132,13 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
     /// The same where a segment ends in the tick.
     #[inline(never)]
     fn command_at_border(&mut self, third: T) -> Command<T> {
+        if self.k >= self.current.count() {
+            // A hold that a push has cut at the latest tick.
+            self.take_up_next();
+            if self.k + 1 < self.current.count() {
+                return self.next_command(third);
+            }
+        }
         let next = self.waiting.front().unwrap_or(&self.tail);
         let whole = self.k + 1 == self.current.count() && next.ticks_before() == T::ZERO;
         let command = if whole {
@@ -212,4 +219,27 @@ impl<T: Scalar, const QUEUE: usize> JointQueue<T, QUEUE> {
 fn state<T: Scalar>(segment: &Segment<T>, ticks: T) -> JointState<T> {
     let (angle, rate, acceleration) = segment.angle_at(ticks);
     JointState { angle, rate, acceleration }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::JointQueue;
+    use crate::hub::Angle;
+    use crate::{Move, Profile};
+
+    /// In f32, ticks of a hold this long are counted in steps of two.
+    #[test]
+    fn a_move_begins_alike_after_a_long_hold() {
+        let third = 1.0 / 3.0;
+        let begun = |held: u32| {
+            let mut queue = JointQueue::<f32, 4>::new(Angle { turns: 0, part: 0.1 });
+            for _ in 0..held {
+                queue.advance();
+            }
+            let turn = Move::To { profile: Profile::Quintic, duration: 0.5, to: 2.0 };
+            queue.push(&turn, 0.01, |_| Ok(())).expect("a move");
+            [queue.next_command(third), queue.next_command(third)]
+        };
+        assert_eq!(begun(1 << 25), begun(0));
+    }
 }

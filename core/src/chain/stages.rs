@@ -19,8 +19,9 @@ pub(super) struct Stages<T, const LINKS: usize, const W: usize> {
     pub v: [Slots<T, LINKS, W>; 2],
 }
 
-/// Change of both stages' accelerations in an iteration.
-pub(super) type Changes<T, const LINKS: usize, const W: usize> = [Slots<T, LINKS, W>; 2];
+/// Changes of the accelerations of both stages in an iteration, of the last `N` coordinates of each
+/// link.
+pub(super) type Changes<T, const LINKS: usize, const N: usize> = [[[T; 2]; N]; LINKS];
 
 /// Change of the coordinates by the iteration, rad in all, up to which the directions of the guess
 /// are turned by it: the fourth power, over 24, is the error.
@@ -49,19 +50,19 @@ impl<T, const LINKS: usize, const W: usize, const C: usize, const Q: usize> Chai
 where
     T: Scalar,
 {
-    /// True if joint `j` has no motor: never where `FROM` says that none has.
+    /// True if joint `j` has no motor: never where all joints have one.
     #[inline(always)]
-    pub(super) fn is_free<const FROM: usize>(
+    pub(super) fn is_free<const N: usize>(
         &self,
         state: &ChainState<T, LINKS, W>,
         j: usize,
     ) -> bool {
-        FROM == 0 && (if state.pin.is_some() { &self.closed } else { &self.open })[j * W]
+        N == W && (if state.pin.is_some() { &self.closed } else { &self.open })[j * W]
     }
 
     /// Both stages accelerate as the last tick ended; driven joints as commanded.
     #[inline(always)]
-    pub(super) fn first_guess<const FROM: usize>(
+    pub(super) fn first_guess<const N: usize>(
         &self,
         state: &ChainState<T, LINKS, W>,
         commands: &[Command<T>; LINKS],
@@ -72,7 +73,7 @@ where
         for j in 0..LINKS {
             for i in 0..W {
                 let (v, k) = (state.rate[j][i], state.acceleration[j][i]);
-                if i == 0 && !self.is_free::<FROM>(state, j) {
+                if i == 0 && !self.is_free::<N>(state, j) {
                     let Command { third, end } = &commands[j];
                     for (stage, joint) in [third, end].into_iter().enumerate() {
                         stages.q[stage][j][0] = joint.angle.part;
@@ -99,27 +100,30 @@ where
     /// Takes stage 2 with its changes, which is the tick's end, as the new state. `pose` is that of
     /// stage 2 as guessed.
     #[inline(always)]
-    pub(super) fn accept<const FROM: usize>(
+    pub(super) fn accept<const N: usize>(
         &self,
         state: &mut ChainState<T, LINKS, W>,
         commands: &[Command<T>; LINKS],
         stages: &Stages<T, LINKS, W>,
-        changes: &Changes<T, LINKS, W>,
+        changes: &Changes<T, LINKS, N>,
         pose: &[Pose<T, Q>; LINKS],
     ) {
         let Weights { three_quarters, quarter, half_square, .. } = self.weights;
-        let mut moved = [[T::ZERO; W]; LINKS];
+        let moved: Slots<T, LINKS, W> = core::array::from_fn(|j| {
+            core::array::from_fn(|i| {
+                if i + N < W { T::ZERO } else { half_square * changes[j][i + N - W][0] }
+            })
+        });
         for j in 0..LINKS {
-            for i in FROM..W {
-                let (first, second) = (changes[0][j][i], changes[1][j][i]);
-                moved[j][i] = half_square * first;
+            for i in W - N..W {
+                let [first, second] = changes[j][i + N - W];
                 state.rate[j][i] = stages.v[1][j][i] + (three_quarters * first + quarter * second);
                 state.acceleration[j][i] = stages.k[1][j][i] + second;
                 if i > 0 {
                     state.shape[j][i] = stages.q[1][j][i] + moved[j][i];
                 }
             }
-            if self.is_free::<FROM>(state, j) {
+            if self.is_free::<N>(state, j) {
                 let Angle { turns, .. } = state.joints[j].angle;
                 let part = stages.q[1][j][0] + self.model.turns * moved[j][0];
                 let angle = Angle { turns, part: T::ZERO }.plus(part);
@@ -131,7 +135,7 @@ where
                 state.joints[j] = joint;
             }
         }
-        if self.bound::<FROM>(state) && turns_little::<T, LINKS, W, FROM>(&moved) {
+        if self.bound::<N>(state) && turns_little::<T, LINKS, W, N>(&moved) {
             self.locate_near(state, pose, &moved);
         } else {
             self.locate(state);
@@ -141,11 +145,11 @@ where
     /// Keeps a state finite, and returns true if it was. One comparison of a sum, as no state that
     /// a move makes is near.
     #[inline(always)]
-    fn bound<const FROM: usize>(&self, state: &mut ChainState<T, LINKS, W>) -> bool {
+    fn bound<const N: usize>(&self, state: &mut ChainState<T, LINKS, W>) -> bool {
         let (mut rates, mut kicks, mut bends) = (T::ZERO, T::ZERO, T::ZERO);
         let mut torques = T::ZERO;
         for j in 0..LINKS {
-            for i in FROM..W {
+            for i in W - N..W {
                 rates += state.rate[j][i].abs();
                 kicks += state.acceleration[j][i].abs();
             }
@@ -187,12 +191,12 @@ where
 
 /// True if the iteration has changed the coordinates by no more than [`TURN`].
 #[inline(always)]
-fn turns_little<T: Scalar, const LINKS: usize, const W: usize, const FROM: usize>(
+fn turns_little<T: Scalar, const LINKS: usize, const W: usize, const N: usize>(
     moved: &Slots<T, LINKS, W>,
 ) -> bool {
     let mut sum = T::ZERO;
     for row in moved {
-        for i in FROM..W {
+        for i in W - N..W {
             sum += row[i].abs();
         }
     }

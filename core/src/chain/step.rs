@@ -9,13 +9,13 @@
 //!
 //! `Z = M(1 + hαλ) + K(hβλ + h²λ²)`, of which `M` is that of the tick's end as first guessed.
 
+use super::factors::{Factors, Values};
 use super::mass::Mass;
 use super::pin::Pinned;
 use super::pose::{Pose, Vector, plus};
-use super::solve::{Factors, Values};
 use super::stages::{Changes, Slots, Stages};
 use super::{Chain, ChainState, Command};
-use crate::math::{Complex, Scalar};
+use crate::math::Scalar;
 
 impl<T, const LINKS: usize, const W: usize, const C: usize, const Q: usize> Chain<T, LINKS, W, C, Q>
 where
@@ -28,28 +28,33 @@ where
         if let Some(pin) = state.pin {
             self.step_closed(state, commands, pin);
         } else if self.passive {
-            self.step_open::<0>(state, commands);
+            self.step_open::<W>(state, commands);
+        } else if W == 3 {
+            self.step_open::<2>(state, commands);
         } else {
-            self.step_open::<1>(state, commands);
+            self.step_open::<3>(state, commands);
         }
     }
 
-    /// A tick of an open chain; `FROM` is 1 if all joints are driven.
+    /// A tick of an open chain. The last `N` coordinates of each link are unknown: all `W`, or all
+    /// but the joints' if those are driven.
     #[inline(never)]
-    fn step_open<const FROM: usize>(
+    fn step_open<const N: usize>(
         &self,
         state: &mut ChainState<T, LINKS, W>,
         commands: &[Command<T>; LINKS],
     ) {
         let free = &self.open;
-        let stages = self.first_guess::<FROM>(state, commands);
+        let stages = self.first_guess::<N>(state, commands);
         let poses = self.poses(&stages);
-        let mass = self.model.mass::<C, false>(&poses[1]);
-        let factors = Factors::<T, LINKS, W, FROM>::new(&mass.matrix, &self.diagonal, free);
+        let mut mass = Mass::NONE;
+        self.model.write_mass::<C, false>(&poses[1], &mut mass);
+        let mut factors = Factors::<T, LINKS, N>::NONE;
+        factors.factor(&mass.matrix, &self.diagonal, free);
         let residuals = self.residuals(&poses, &stages, None);
-        let changes = self.changes::<FROM>(&factors.solve(&self.right::<FROM>(&residuals)));
-        state.torque = self.torques::<FROM>(&residuals[1], &mass, &changes, free);
-        self.accept::<FROM>(state, commands, &stages, &changes, &poses[1]);
+        let changes = self.changes::<N>(&factors.solve(&self.right::<N>(&residuals)));
+        state.torque = self.torques::<N>(&residuals[1], &mass, &changes, free);
+        self.accept::<N>(state, commands, &stages, &changes, &poses[1]);
     }
 
     #[inline(never)]
@@ -60,23 +65,25 @@ where
         pin: Vector<T>,
     ) {
         let free = &self.closed;
-        let stages = self.first_guess::<0>(state, commands);
+        let stages = self.first_guess::<W>(state, commands);
         let poses = self.poses(&stages);
-        let mass = self.model.mass::<C, false>(&poses[1]);
-        let factors = Factors::<T, LINKS, W, 0>::new(&mass.matrix, &self.diagonal, free);
+        let mut mass = Mass::NONE;
+        self.model.write_mass::<C, false>(&poses[1], &mut mass);
+        let mut factors = Factors::<T, LINKS, W>::NONE;
+        factors.factor(&mass.matrix, &self.diagonal, free);
         let residuals = self.residuals(&poses, &stages, Some(state.force));
-        let right = self.right::<0>(&residuals);
+        let right = self.right::<W>(&residuals);
         let pinned = Pinned::new(&factors, self.model.tip_moves(&poses[1]), &right);
         let (y, pushed) = pinned.solve(&factors, self.missed(&poses, &stages, pin));
-        let (changes, pushed) = (self.changes::<0>(&y), self.push(pushed));
-        state.torque = self.torques::<0>(&residuals[1], &mass, &changes, free);
+        let (changes, pushed) = (self.changes::<W>(&y), self.push(pushed));
+        state.torque = self.torques::<W>(&residuals[1], &mass, &changes, free);
         for j in 0..LINKS {
             if !free[j * W] {
                 state.torque[j] -= pinned.torque(j, &pushed[1]);
             }
         }
         state.force = plus(state.force, T::ONE, pushed[1]);
-        self.accept::<0>(state, commands, &stages, &changes, &poses[1]);
+        self.accept::<W>(state, commands, &stages, &changes, &poses[1]);
     }
 
     #[inline(always)]
@@ -93,92 +100,80 @@ where
         force: Option<Vector<T>>,
     ) -> [Slots<T, LINKS, W>; 2] {
         let model = &self.model;
-        let mut residuals = [[[T::ZERO; W]; LINKS]; 2];
+        let mut residuals: [Slots<T, LINKS, W>; 2] = core::array::from_fn(|stage| {
+            let (q, v) = (&stages.q[stage], &stages.v[stage]);
+            core::array::from_fn(|j| {
+                core::array::from_fn(|i| {
+                    model.links[j].stiffness[i] * (q[j][i] + model.beta * v[j][i])
+                })
+            })
+        });
         for stage in 0..2 {
             let (v, k) = (&stages.v[stage], &stages.k[stage]);
-            residuals[stage] = if model.alpha == T::ZERO {
-                model.inverse_dynamics(&poses[stage], v, k, force)
+            let residual = &mut residuals[stage];
+            if model.alpha == T::ZERO {
+                model.add_inverse_dynamics(&poses[stage], v, k, force, residual);
             } else {
-                let mut damped = *k;
-                for j in 0..LINKS {
-                    for i in 0..W {
-                        damped[j][i] += model.alpha * v[j][i];
-                    }
-                }
-                model.inverse_dynamics(&poses[stage], v, &damped, force)
-            };
-            for j in 0..LINKS {
-                for i in 1..W {
-                    let bend = stages.q[stage][j][i] + model.beta * v[j][i];
-                    residuals[stage][j][i] += model.links[j].stiffness[i] * bend;
-                }
+                let damped = core::array::from_fn(|j| {
+                    core::array::from_fn(|i| k[j][i] + model.alpha * v[j][i])
+                });
+                model.add_inverse_dynamics(&poses[stage], v, &damped, force, residual);
             }
         }
         residuals
     }
 
     #[inline(always)]
-    fn right<const FROM: usize>(&self, residuals: &[Slots<T, LINKS, W>; 2]) -> Values<T, LINKS, W> {
-        let mut right = [[Complex::ZERO; W]; LINKS];
-        for j in 0..LINKS {
-            for i in FROM..W {
-                right[j][i] = self.weights.forward(residuals[0][j][i], residuals[1][j][i]);
-                if self.model.alpha != T::ZERO {
-                    right[j][i] = self.weights.mass * right[j][i];
-                }
-            }
-        }
-        right
+    fn right<const N: usize>(&self, residuals: &[Slots<T, LINKS, W>; 2]) -> Values<T, LINKS, N> {
+        core::array::from_fn(|j| {
+            core::array::from_fn(|k| {
+                let i = W - N + k;
+                let right = self.weights.forward(residuals[0][j][i], residuals[1][j][i]);
+                if self.model.alpha == T::ZERO { right } else { self.weights.mass * right }
+            })
+        })
     }
 
     /// Changes of both stages' accelerations by a solution.
     #[inline(always)]
-    fn changes<const FROM: usize>(&self, y: &Values<T, LINKS, W>) -> Changes<T, LINKS, W> {
-        let mut changes = [[[T::ZERO; W]; LINKS]; 2];
-        for j in 0..LINKS {
-            for i in FROM..W {
-                [changes[0][j][i], changes[1][j][i]] = self.weights.back(y[j][i]);
-            }
-        }
-        changes
+    fn changes<const N: usize>(&self, y: &Values<T, LINKS, N>) -> Changes<T, LINKS, N> {
+        y.map(|row| row.map(|y| self.weights.back(y)))
     }
 
     /// Torques at the tick's end: the residuals of the joints, and what the iteration's change of
     /// the accelerations changes of them.
     #[inline(always)]
-    fn torques<const FROM: usize>(
+    fn torques<const N: usize>(
         &self,
         residual: &Slots<T, LINKS, W>,
         mass: &Mass<T, C>,
-        changes: &Changes<T, LINKS, W>,
+        changes: &Changes<T, LINKS, N>,
         free: &[bool; C],
     ) -> [T; LINKS] {
-        let mut change = changes[1];
-        if self.model.alpha != T::ZERO {
-            let damping = self.model.alpha * self.weights.quarter;
-            for j in 0..LINKS {
-                for i in FROM..W {
-                    let three = (T::TWO + T::ONE) * changes[0][j][i];
-                    change[j][i] += damping * (changes[1][j][i] + three);
+        let damping = self.model.alpha * self.weights.quarter;
+        let change: [[T; N]; LINKS] = changes.map(|row| {
+            row.map(|[first, second]| {
+                if self.model.alpha == T::ZERO {
+                    return second;
                 }
-            }
-        }
-        let mut torques = [T::ZERO; LINKS];
-        for j in 0..LINKS {
+                second + damping * (second + (T::TWO + T::ONE) * first)
+            })
+        });
+        core::array::from_fn(|j| {
             let row = j * W;
-            if FROM == 0 && free[row] {
-                continue;
+            if N == W && free[row] {
+                return T::ZERO;
             }
-            torques[j] = residual[j][0];
+            let mut torque = residual[j][0];
             // What is driven does not change.
             for link in 0..LINKS {
-                for i in FROM..W {
-                    let (own, other) = (link * W + i, row);
+                for k in 0..N {
+                    let (own, other) = (link * W + W - N + k, row);
                     let (below, beside) = if own < other { (other, own) } else { (own, other) };
-                    torques[j] += mass.matrix[below][beside] * change[link][i];
+                    torque += mass.matrix[below][beside] * change[link][k];
                 }
             }
-        }
-        torques
+            torque
+        })
     }
 }

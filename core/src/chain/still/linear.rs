@@ -2,7 +2,7 @@
 
 use super::search::Search;
 use super::{Bulges, Left, TERMS};
-use crate::chain::solve::Factors;
+use crate::chain::factors::Factors;
 use crate::math::{Complex, Scalar, sqrt};
 
 impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usize>
@@ -38,7 +38,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             }
         }
         let none = [[Complex::ZERO; W]; LINKS];
-        let factors = Factors::<f64, LINKS, W, 0>::new(&matrix, &none, &used);
+        let factors = Factors::<f64, LINKS, W>::new(&matrix, &none, &used);
         let multipliers = factors.solve(&right);
         core::array::from_fn(|j| {
             core::array::from_fn(|term| {
