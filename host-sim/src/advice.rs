@@ -3,6 +3,7 @@
 use stillbeam::select::{Assessment, Choice, Tolerance};
 
 use crate::error::Error;
+use crate::number::short_percent;
 use crate::scene_file::SceneFile;
 use crate::solver::{Method, Solver, SolverKeys};
 use crate::{axis_units, dispatch};
@@ -28,8 +29,8 @@ pub fn chosen(
     let Some(nearest) = none.nearest.filter(near) else { return Err(none.error.into()) };
     notes.push(format!(
         "no method keeps {} of L and {} of the {}'s peak here; {} comes nearest, with {}",
-        solver.tolerance,
-        solver.torque_tolerance,
+        short_percent(solver.tolerance, 4),
+        short_percent(solver.torque_tolerance, 4),
         axis_units::of(scene.arm.mount.axis).effort,
         nearest.rung,
         errors(scene, &nearest.expected)
@@ -66,8 +67,9 @@ pub fn remark(scene: &SceneFile, solver: &Solver) -> Option<String> {
     Some(format!("{method} is expected to err by {}; {advice}", errors(scene, &expected)))
 }
 
-/// Returns the errors in words, e.g. `4.0e-4 of L, 0.2 % of the torque's peak`.
+/// Returns the errors in words, e.g. `0.04 % of L, 0.2 % of the torque's peak`.
 pub fn errors(scene: &SceneFile, expected: &Assessment) -> String {
     let effort = axis_units::of(scene.arm.mount.axis).effort;
-    format!("{:.1e} of L, {:.2} % of the {effort}'s peak", expected.tip, 100.0 * expected.torque)
+    let [tip, torque] = [expected.tip, expected.torque].map(|e| short_percent(e, 2));
+    format!("{tip} of L, {torque} of the {effort}'s peak")
 }

@@ -47,6 +47,12 @@ pub fn percent(part: f64, whole: f64, digits: Digits) -> String {
     format!("{}{unit}", digits.show(value))
 }
 
+/// Formats a fraction as a percentage without zeros at its end, e.g. `0.1 %`, rounded to so many
+/// significant digits.
+pub fn short_percent(fraction: f64, digits: usize) -> String {
+    format!("{} %", significant(100.0 * fraction, digits))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
+use crate::number::short_percent;
 
 mod keys;
 
@@ -168,7 +169,8 @@ impl Solver {
                 format!("{method}, {modes}, {}, {tick} ms, {scalar}", self.quality.name())
             }
             Method::Auto => {
-                let (tip, torque) = (self.tolerance, self.torque_tolerance);
+                let tip = short_percent(self.tolerance, 4);
+                let torque = short_percent(self.torque_tolerance, 4);
                 format!("{method}, within {tip} of L and {torque} of torque, {tick} ms, {scalar}")
             }
         }

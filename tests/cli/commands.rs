@@ -75,8 +75,8 @@ fn every_method_runs_with_its_own_words() {
         (&["--method", "modal", "--modes", "1", "--no-spin"], "modal, 1 mode of 8 consistent"),
         (&["--method", "elastica"], "elastica, 2 modes, fine"),
         (&["--method", "elastica", "--modes", "3", "--quality", "fast"], "elastica, 3 modes, fast"),
-        (&["--method", "auto"], "auto, within 0.001 of L and 0.01 of torque"),
-        (&[], "auto, within 0.001 of L and 0.01 of torque"),
+        (&["--method", "auto"], "auto, within 0.1 % of L and 1 % of torque"),
+        (&[], "auto, within 0.1 % of L and 1 % of torque"),
         (
             &["--tolerance", "0.05", "--torque-tolerance", "0.1"],
             "chose            modal, 1 mode (expected error ",
@@ -149,7 +149,7 @@ fn without_a_method_the_nearest_is_taken() {
     let args = ["run", "scene.toml", "--csv", "a.csv"];
     let (code, out, err) = run(folder.path(), &args);
     assert_eq!((code, err.lines().count()), (0, 1), "{out}{err}");
-    assert!(err.starts_with("note: no method keeps 0.001 of L and 0.01 of the torque"), "{err}");
+    assert!(err.starts_with("note: no method keeps 0.1 % of L and 1 % of the torque"), "{err}");
     let asked = [&args[..], &["--method", "auto"]].concat();
     let (code, _, err) = run(folder.path(), &asked);
     assert_eq!((code, err.lines().count()), (2, 1), "{err}");

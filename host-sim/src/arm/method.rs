@@ -5,9 +5,9 @@ use stillbeam::select::{Assessment, Choice, Rung};
 
 use crate::dispatch;
 use crate::error::Error;
+use crate::number::short_percent;
 use crate::scene_file::SceneFile;
 use crate::solver::{Method, Solver};
-use crate::table::significant;
 
 /// A choice of `auto` and its reason.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,8 +41,9 @@ pub fn advise(scene: &SceneFile) -> Result<MethodReport, Error> {
 /// [`advise`] with the choice itself. `progress` is called with the fraction that is done.
 pub fn advise_with(scene: &SceneFile, progress: &dyn Fn(f64)) -> Result<Advice, Error> {
     let solver = Solver { method: Method::Auto, ..scene.solver.resolve()? };
-    let (tip, torque) = (100.0 * solver.tolerance, 100.0 * solver.torque_tolerance);
-    let limits = format!("{tip} % of L and {torque} % of the torque\u{2019}s peak");
+    let [tip, torque] =
+        [solver.tolerance, solver.torque_tolerance].map(|part| short_percent(part, 4));
+    let limits = format!("{tip} of L and {torque} of the torque\u{2019}s peak");
     let (choice, keeps, why) = match dispatch::choose_with(scene, &solver, progress)? {
         Ok(choice) => (choice, true, kept(scene, &solver, &choice, &limits)),
         Err(none) => {
@@ -71,9 +72,9 @@ fn kept(scene: &SceneFile, solver: &Solver, choice: &Choice, limits: &str) -> St
     };
     let other = match dispatch::assess_rung(scene, solver, cheaper, choice.bend) {
         Ok(Assessment { tip, torque, .. }) if tip.is_finite() => format!(
-            "{cheaper} would err by {} % and {} %",
-            significant(100.0 * tip, 2),
-            significant(100.0 * torque, 2)
+            "{cheaper} would err by {} and {}",
+            short_percent(tip, 2),
+            short_percent(torque, 2)
         ),
         _ => format!("{cheaper} cannot follow"),
     };

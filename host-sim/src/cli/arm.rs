@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use stillbeam_sim::arm::{ArmReport, MethodReport, describe};
 use stillbeam_sim::console::open_arm;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::number::short_percent;
 use stillbeam_sim::println;
 use stillbeam_sim::table::significant;
 
@@ -86,10 +87,10 @@ pub fn print(report: &ArmReport) {
 
 fn print_method(method: &MethodReport) {
     println!(
-        "  method     {}: expected to err by {} % of L and {} % of the torque\u{2019}s peak",
+        "  method     {}: expected to err by {} of L and {} of the torque\u{2019}s peak",
         method.name,
-        percent(method.tip_error),
-        percent(method.torque_error)
+        short_percent(method.tip_error, 2),
+        short_percent(method.torque_error, 2)
     );
     println!("             {}", method.why);
 }
@@ -148,11 +149,6 @@ fn metres(length: f64) -> String {
     } else {
         format!("{} m", digits(length))
     }
-}
-
-/// Writes a fraction in % with two significant digits.
-fn percent(fraction: f64) -> String {
-    significant(100.0 * fraction, 2).to_string()
 }
 
 /// Writes a number with four significant digits.
