@@ -10,10 +10,13 @@ fn corpus() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus")
 }
 
-fn inputs(name: &str) -> Vec<PathBuf> {
+/// Paths of a target's kept inputs, in order.
+pub fn inputs(name: &str) -> Vec<PathBuf> {
     let folder = corpus().join(name);
     let files = fs::read_dir(&folder).unwrap_or_else(|error| panic!("{folder:?}: {error}"));
-    files.map(|file| file.expect("a file").path()).collect()
+    let mut paths: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
+    paths.sort();
+    paths
 }
 
 #[test]

@@ -9,7 +9,7 @@ BUILD="$profile --fuzz-dir . --target-dir ../../../target/$folder --sanitizer no
 
 build_targets() {
     (cd targets && cargo fuzz --version >/dev/null 2>&1) || {
-        echo "cargo-fuzz is missing: cargo install --locked cargo-fuzz" >&2
+        echo "cargo-fuzz is missing: cargo install --locked cargo-fuzz@0.13.2; it needs g++" >&2
         return 1
     }
     # Of all targets at once, cargo links several side by side.

@@ -1,0 +1,4 @@
+//! The bodies on the stable toolchain.
+
+mod changed;
+mod replay;
