@@ -2,7 +2,7 @@
 
 use super::{Body, Chain, Model};
 use crate::Error;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 /// Largest slope at the end of a link that moves may be expected to make, rad.
 const MOST: f64 = 2.0;
@@ -30,14 +30,14 @@ impl<const LINKS: usize> Bends<LINKS> {
             if body.stiffness[1] > 0.0 { 0.5 / body.stiffness[1] } else { 0.0 }
         };
         Self {
-            acceleration: core::array::from_fn(|j| {
-                core::array::from_fn(|i| {
+            acceleration: array(|j| {
+                array(|i| {
                     let (row, column) = (i.max(j) * W, i.min(j) * W);
                     let hub = if i == j { model.links[j].hub } else { 0.0 };
                     (matrix[row][column] - hub) * slope(&model.links[j])
                 })
             }),
-            sag: core::array::from_fn(|j| weight[j][0] * slope(&model.links[j])),
+            sag: array(|j| weight[j][0] * slope(&model.links[j])),
         }
     }
 }

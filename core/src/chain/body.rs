@@ -1,7 +1,7 @@
 //! One link of a chain with all that does not change while it moves.
 
 use super::quadrature::Rule;
-use crate::math::Scalar;
+use crate::math::{Each, Scalar, array};
 use crate::mechanism::Mechanism;
 
 /// Constants of link `j`.
@@ -44,21 +44,17 @@ impl<const W: usize, const Q: usize> Body<f64, W, Q> {
         let (next_mass, stator) =
             mechanism.joints.get(j + 1).map_or((0.0, 0.0), |next| (next.mass, next.stator_inertia));
         let (l, m, outer) = (link.length, link.mass, outer + next_mass);
-        let lengths = rule.weights.map(|weight| l * weight);
-        let first = rule.first.map(|moment| m * l * moment);
-        let second = rule.second.map(|row| row.map(|moment| m * l * l * moment));
+        let lengths = rule.weights.each(|weight| l * weight);
+        let first = rule.first.each(|moment| m * l * moment);
+        let second = rule.second.each(|row| row.each(|moment| m * l * l * moment));
         let bending = link.bending_stiffness() / l;
         Self {
-            first_beyond: core::array::from_fn(|q| first[q] + outer * lengths[q]),
-            second_beyond: core::array::from_fn(|q| {
-                core::array::from_fn(|p| second[q][p] + outer * lengths[q] * lengths[p])
-            }),
+            first_beyond: array(|q| first[q] + outer * lengths[q]),
+            second_beyond: array(|q| array(|p| second[q][p] + outer * lengths[q] * lengths[p])),
             lengths,
             first,
             second,
-            stiffness: core::array::from_fn(|k| {
-                if k == 0 { 0.0 } else { bending / (2 * k - 1) as f64 }
-            }),
+            stiffness: array(|k| if k == 0 { 0.0 } else { bending / (2 * k - 1) as f64 }),
             mass: m,
             mass_beyond: m + outer,
             radius: joint.radius,
@@ -75,12 +71,12 @@ impl<T: Scalar, const W: usize, const Q: usize> Body<T, W, Q> {
     pub fn cast<U: Scalar>(&self) -> Body<U, W, Q> {
         let f = |x: T| U::from_f64(x.to_f64());
         Body {
-            lengths: self.lengths.map(f),
-            first: self.first.map(f),
-            second: self.second.map(|row| row.map(f)),
-            first_beyond: self.first_beyond.map(f),
-            second_beyond: self.second_beyond.map(|row| row.map(f)),
-            stiffness: self.stiffness.map(f),
+            lengths: self.lengths.each(f),
+            first: self.first.each(f),
+            second: self.second.each(|row| row.each(f)),
+            first_beyond: self.first_beyond.each(f),
+            second_beyond: self.second_beyond.each(|row| row.each(f)),
+            stiffness: self.stiffness.each(f),
             mass: f(self.mass),
             mass_beyond: f(self.mass_beyond),
             radius: f(self.radius),

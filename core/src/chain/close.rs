@@ -3,7 +3,7 @@
 use super::factors::Factors;
 use super::pin::Pinned;
 use super::{Chain, ChainState};
-use crate::math::{Complex, Scalar};
+use crate::math::{Complex, Each, Scalar};
 
 /// The factors of the mass matrix, and what a pin makes of them.
 type EndAnswer<T, const LINKS: usize, const W: usize> = (Factors<T, LINKS, W>, Pinned<T, LINKS, W>);
@@ -52,7 +52,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// chain: 0 where the links lie in one line, along which no force moves it.
     pub(super) fn mobility(&self, state: &ChainState<T, LINKS, W>) -> f64 {
         let (_, pinned) = self.end_answer(state);
-        let [a, b, c] = pinned.end.map(|entry| entry.re.to_f64());
+        let [a, b, c] = pinned.end.each(|entry| entry.re.to_f64());
         let mean = 0.5 * (a + c);
         let spread = crate::math::sqrt(0.25 * (a - c) * (a - c) + b * b);
         (mean - spread) / (mean + spread)

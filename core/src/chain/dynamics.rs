@@ -3,7 +3,7 @@
 use super::along::{at_points, over_points};
 use super::pose::{Pose, Vector, cross, plus};
 use super::{Body, Model};
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 /// Motion of one link in the global frame, as the forward pass leaves it for the backward one.
 #[derive(Clone, Copy, Debug)]
@@ -102,7 +102,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
             let clamp = a;
             let rates = at_points::<T, W, Q>(omega, &rate[j]);
             let angulars = at_points::<T, W, Q>(angular, &acceleration[j]);
-            let tangents = core::array::from_fn(|q| spun(pose.tangents[q], rates[q], angulars[q]));
+            let tangents = array(|q| spun(pose.tangents[q], rates[q], angulars[q]));
             for q in 0..Q {
                 a = plus(a, body.lengths[q], tangents[q]);
             }
@@ -144,7 +144,7 @@ impl<T: Scalar, const W: usize, const Q: usize> Body<T, W, Q> {
     /// Moment of what accelerates the link and all beyond on each tangent, `f` at the link's end.
     #[inline(always)]
     fn moments(&self, motion: &Motion<T, Q>, pose: &Pose<T, Q>, f: Vector<T>) -> [T; Q] {
-        core::array::from_fn(|q| {
+        array(|q| {
             let mut n = [self.lengths[q] * f[0], self.lengths[q] * f[1]];
             n = plus(n, self.first[q], motion.clamp);
             for p in 0..Q {

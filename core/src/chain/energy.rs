@@ -2,7 +2,7 @@
 
 use super::mass::Mass;
 use super::{Chain, ChainState};
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 /// Energy at one instant, J, and its loss.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +64,6 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
     /// Inertia that each joint turns, kg m².
     pub(super) fn inertias(&self, state: &ChainState<T, LINKS, W>) -> [f64; LINKS] {
         let mass = self.model.mass::<C, false>(&self.pose_of(state));
-        core::array::from_fn(|j| mass.matrix[j * W][j * W].to_f64())
+        array(|j| mass.matrix[j * W][j * W].to_f64())
     }
 }

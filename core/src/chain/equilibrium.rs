@@ -5,7 +5,7 @@ use super::pose::Vector;
 use super::{Chain, ChainState, JointState, Model};
 use crate::Error;
 use crate::hub::Angle;
-use crate::math::{Complex, Scalar};
+use crate::math::{Complex, Scalar, array};
 
 /// Most Newton steps.
 const STEPS: usize = 200;
@@ -91,9 +91,7 @@ impl<const LINKS: usize, const W: usize, const Q: usize> Model<f64, LINKS, W, Q>
                 }
             }
             let none = [[Complex::ZERO; W]; LINKS];
-            let right = core::array::from_fn(|j| {
-                core::array::from_fn(|k| Complex::new(right[j * W + k], 0.0))
-            });
+            let right = array(|j| array(|k| Complex::new(right[j * W + k], 0.0)));
             let factors = Factors::<f64, LINKS, W>::new(&stiffness, &none, free);
             let step: [f64; C] = flat(&factors.solve(&right).map(|row| row.map(|step| step.re)));
             change = step.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
@@ -222,7 +220,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             shape,
             rate: zero,
             acceleration: zero,
-            torque: core::array::from_fn(|j| if free[j * W] { T::ZERO } else { f(missing[j][0]) }),
+            torque: array(|j| if free[j * W] { T::ZERO } else { f(missing[j][0]) }),
             pin: if closed { self.pin } else { None },
             force: rest.force.map(f),
             ends: [[T::ZERO; 2]; LINKS],

@@ -6,7 +6,7 @@ use super::{Chain, ChainState, Command, JointState};
 use crate::Error;
 use crate::generator::Setpoint;
 use crate::hub::Angle;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 use crate::mechanism::of_joint;
 use crate::motion::{Limits, MoveSummary, Plannable};
 
@@ -104,7 +104,7 @@ impl<
         if self.stop.is_some() {
             return Err(Error::Moving);
         }
-        let mut peaks = core::array::from_fn(|j| self.queues[j].peak());
+        let mut peaks = array(|j| self.queues[j].peak());
         let (chain, closed) = (&self.chain, self.state.is_closed());
         self.queues[joint].push(motion, chain.tick(), |peak| {
             peaks[joint] = peak;

@@ -3,7 +3,7 @@
 use super::Model;
 use super::along::over_points;
 use super::pose::{Pose, Vector, cross, normal, plus};
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 /// Mass matrix of all coordinates, joints included.
 #[derive(Clone, Copy, Debug)]
@@ -185,14 +185,14 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         let mut levers = [T::ZERO; W];
         // A payload at the end of the last link has no lever.
         if j + 1 < LINKS || self.load.offset != T::ZERO {
-            levers = over_points(&core::array::from_fn::<T, Q, _>(|q| {
+            levers = over_points(&array::<T, Q, _>(|q| {
                 body.lengths[q] * (t[q][0] * beyond.first[0] + t[q][1] * beyond.first[1])
             }));
         }
-        let rows: [[T; W]; Q] = core::array::from_fn(|q| over_points(&kernel[q]));
+        let rows: [[T; W]; Q] = array(|q| over_points(&kernel[q]));
         let mut own = [[T::ZERO; W]; W];
         for p in 0..W {
-            let column: [T; W] = over_points::<T, W, Q>(&core::array::from_fn(|q| rows[q][p]));
+            let column: [T; W] = over_points::<T, W, Q>(&array(|q| rows[q][p]));
             for k in p..W {
                 own[k][p] = column[k];
             }

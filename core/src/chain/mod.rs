@@ -67,7 +67,7 @@ pub use state::{ChainState, Command, JointState};
 pub use still::{ChainPlan, ChainPlanner};
 
 use crate::Error;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 use crate::mechanism::{Closing, Mechanism};
 use factors::Values;
 use weights::Weights;
@@ -158,7 +158,7 @@ where
         let payload = &mechanism.payload;
         let bends = |j: usize| mechanism.links[j].bends();
         let unknown = |closed: bool| {
-            core::array::from_fn(|i| match i % W {
+            array(|i| match i % W {
                 0 if closed => mechanism.is_free_when_closed(i / W),
                 0 => !mechanism.is_driven(i / W),
                 _ => bends(i / W),
@@ -185,7 +185,7 @@ where
             weights,
             open: unknown(false),
             closed: unknown(true),
-            passive_angles: core::array::from_fn(|j| f(mechanism.joints[j].angle)),
+            passive_angles: array(|j| f(mechanism.joints[j].angle)),
             pin: mechanism.closure.as_ref().and_then(|closure| match closure.begins {
                 Closing::OnPin(pin) => Some(pin.map(f)),
                 Closing::At(_) => None,

@@ -3,7 +3,7 @@
 use super::equilibrium::Rest;
 use super::{Chain, Model};
 use crate::Error;
-use crate::math::{Band, Scalar, generalized_eigen, sqrt};
+use crate::math::{Band, Each, Scalar, generalized_eigen, sqrt};
 
 /// The lowest modes, one a link that bends, for the joints at rest.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +38,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
             }
         }
         let state = self.at_rest(angles)?;
-        let mut rest = Rest { q: state.shape.map(|row| row.map(T::to_f64)), force: [0.0; 2] };
+        let mut rest = Rest { q: state.shape.each(|row| row.each(T::to_f64)), force: [0.0; 2] };
         for j in 0..LINKS {
             rest.q[j][0] = angles[j];
         }
@@ -76,7 +76,7 @@ fn modes_of<const LINKS: usize, const W: usize, const C: usize, const Q: usize>(
     let bends = (0..LINKS).filter(|link| free[link * W + 1]).count();
     for mode in 0..bends.min(LINKS) {
         let omega = 1.0 / sqrt(squares[mode]);
-        let shape = vectors[mode].map(|entry| entry * omega);
+        let shape = vectors[mode].each(|entry| entry * omega);
         modes.frequency[mode] = omega;
         modes.onto[mode] = mass.times(&shape);
         let tip = |axis: usize| (0..C).map(|i| moves[i / W][i % W][axis] * shape[i]).sum::<f64>();

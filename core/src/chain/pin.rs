@@ -6,7 +6,7 @@ use super::pose::{Pose, Vector, normal, plus};
 use super::solve::solve_pair;
 use super::stages::{Slots, Stages};
 use super::{Chain, Model};
-use crate::math::{Complex, Scalar};
+use crate::math::{Complex, Each, Scalar, array};
 
 /// A right side of the stage equations and the answer to forces at the chain's end: a Schur
 /// complement on their factors `LDLᵀ`.
@@ -103,18 +103,18 @@ where
         stages: &Stages<T, LINKS, W>,
         pin: Vector<T>,
     ) -> [Complex<T>; 2] {
-        let [first, second]: [Vector<T>; 2] = core::array::from_fn(|stage| {
+        let [first, second]: [Vector<T>; 2] = array(|stage| {
             let (tip, velocity) = self.model.tip_motion(&poses[stage], &stages.v[stage]);
             plus(velocity, self.weights.per_tick, [tip[0] - pin[0], tip[1] - pin[1]])
         });
-        [0, 1].map(|axis| self.weights.pin * self.weights.forward(first[axis], second[axis]))
+        [0, 1].each(|axis| self.weights.pin * self.weights.forward(first[axis], second[axis]))
     }
 
     /// Change of the pin's force in both stages. Per unit of force the equations were divided by
     /// 1 + hαλ.
     #[inline(always)]
     pub(super) fn push(&self, pushed: [Complex<T>; 2]) -> [Vector<T>; 2] {
-        let [x, y] = pushed.map(|push| self.weights.back(push * self.weights.undamped));
+        let [x, y] = pushed.each(|push| self.weights.back(push * self.weights.undamped));
         [[x[0], y[0]], [x[1], y[1]]]
     }
 }

@@ -2,7 +2,7 @@
 
 use super::along::{at_points, over_points};
 use super::{Body, Model};
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 /// A vector of the plane.
 pub(super) type Vector<T> = [T; 2];
@@ -46,11 +46,9 @@ impl<T: Scalar, const Q: usize> Pose<T, Q> {
     /// Sums over the points of `factor[q] ψ_k(ξ_q) n_q` for every coordinate `k`, `n` the normals.
     #[inline(always)]
     pub fn normals<const W: usize>(&self, factor: &[T; Q]) -> [Vector<T>; W] {
-        let part = |axis: usize| -> [T; Q] {
-            core::array::from_fn(|q| factor[q] * self.tangents[q][axis])
-        };
+        let part = |axis: usize| -> [T; Q] { array(|q| factor[q] * self.tangents[q][axis]) };
         let [along_x, along_y] = [0, 1].map(|axis| over_points::<T, W, Q>(&part(axis)));
-        core::array::from_fn(|k| [-along_y[k], along_x[k]])
+        array(|k| [-along_y[k], along_x[k]])
     }
 }
 
@@ -63,7 +61,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const Q: usize> Model<T, LIN
         let mut pose = [Pose { base: ahead, tangents: [ahead; Q], end: ahead }; LINKS];
         let mut angle = T::ZERO;
         for j in 0..LINKS {
-            let turns: [T; W] = core::array::from_fn(|k| self.turns * coordinates[j][k]);
+            let turns: [T; W] = array(|k| self.turns * coordinates[j][k]);
             angle += coordinates[j][0];
             if self.links[j].radius != T::ZERO {
                 pose[j].base = direction(angle);

@@ -1,5 +1,7 @@
 //! The Gauss-Legendre points of a link, and the integrals along it that do not change.
 
+use crate::math::{Each, array};
+
 /// Distance of the points of the rule of `Q` points from the middle of −1..1, and their weights,
 /// from the middle outwards.
 const THREE: [(f64, f64); 2] = [(0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
@@ -25,7 +27,7 @@ pub(super) const fn shapes(x: f64) -> [f64; 3] {
 /// `(ξ, weight)` of the rule of `Q` points on 0..1, 3 or 5 of them.
 fn rule<const Q: usize>() -> [(f64, f64); Q] {
     let half: &[(f64, f64)] = if Q == 3 { &THREE } else { &FIVE };
-    core::array::from_fn(|q| {
+    array(|q| {
         let middle = Q / 2;
         let (x, weight) = half[q.abs_diff(middle)];
         let x = if q < middle { -x } else { x };
@@ -69,21 +71,17 @@ impl<const W: usize, const Q: usize> Rule<W, Q> {
             let others = (0..Q).filter(|&p| p != q);
             others.map(|p| (x - points[p].0) / (points[q].0 - points[p].0)).product::<f64>()
         };
-        let run: [[f64; Q]; Q] = points.map(|(end, _)| {
-            core::array::from_fn(|q| {
-                points.iter().map(|(xi, weight)| end * weight * lagrange(q, end * xi)).sum()
-            })
+        let run: [[f64; Q]; Q] = points.each(|(end, _)| {
+            array(|q| points.iter().map(|(xi, weight)| end * weight * lagrange(q, end * xi)).sum())
         });
-        let weights = points.map(|(_, weight)| weight);
+        let weights = points.each(|(_, weight)| weight);
         let sum = |term: &dyn Fn(usize) -> f64| (0..Q).map(|g| weights[g] * term(g)).sum::<f64>();
         Self {
             #[cfg(test)]
-            slopes: points.map(|(xi, _)| core::array::from_fn(|k| slope(k, xi))),
+            slopes: points.each(|(xi, _)| array(|k| slope(k, xi))),
             weights,
-            first: core::array::from_fn(|q| sum(&|g| run[g][q])),
-            second: core::array::from_fn(|q| {
-                core::array::from_fn(|p| sum(&|g| run[g][q] * run[g][p]))
-            }),
+            first: array(|q| sum(&|g| run[g][q])),
+            second: array(|q| array(|p| sum(&|g| run[g][q] * run[g][p]))),
         }
     }
 }

@@ -8,7 +8,7 @@ use super::generator::ChainSetpoint;
 use super::weights::Weights;
 use super::{Chain, ChainGenerator, ChainState, Command, Model};
 use crate::Error;
-use crate::math::{Scalar, sqrt};
+use crate::math::{Each, Scalar, sqrt};
 use crate::scene::Damping;
 
 /// Largest distance of a link's end in ticks from that in half ticks, of all lengths.
@@ -124,7 +124,7 @@ impl<
 }
 
 fn distance<T: Scalar>(a: [T; 2], b: [T; 2]) -> f64 {
-    let [x, y] = [0, 1].map(|axis| (a[axis] - b[axis]).to_f64());
+    let [x, y] = [0, 1].each(|axis| (a[axis] - b[axis]).to_f64());
     sqrt(x * x + y * y)
 }
 

@@ -4,7 +4,7 @@ use super::pose::Pose;
 use super::weights::Weights;
 use super::{Chain, ChainState, Command, JointState};
 use crate::hub::Angle;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 /// Coordinates of all links: slot 0 a joint's, the others curvature.
 pub(super) type Slots<T, const LINKS: usize, const W: usize> = [[T; W]; LINKS];
@@ -109,10 +109,8 @@ where
         pose: &[Pose<T, Q>; LINKS],
     ) {
         let Weights { three_quarters, quarter, half_square, .. } = self.weights;
-        let moved: Slots<T, LINKS, W> = core::array::from_fn(|j| {
-            core::array::from_fn(|i| {
-                if i + N < W { T::ZERO } else { half_square * changes[j][i + N - W][0] }
-            })
+        let moved: Slots<T, LINKS, W> = array(|j| {
+            array(|i| if i + N < W { T::ZERO } else { half_square * changes[j][i + N - W][0] })
         });
         for j in 0..LINKS {
             for i in W - N..W {

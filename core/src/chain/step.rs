@@ -15,7 +15,7 @@ use super::pin::Pinned;
 use super::pose::{Pose, Vector, plus};
 use super::stages::{Changes, Slots, Stages};
 use super::{Chain, ChainState, Command};
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 
 impl<T, const LINKS: usize, const W: usize, const C: usize, const Q: usize> Chain<T, LINKS, W, C, Q>
 where
@@ -100,13 +100,9 @@ where
         force: Option<Vector<T>>,
     ) -> [Slots<T, LINKS, W>; 2] {
         let model = &self.model;
-        let mut residuals: [Slots<T, LINKS, W>; 2] = core::array::from_fn(|stage| {
+        let mut residuals: [Slots<T, LINKS, W>; 2] = array(|stage| {
             let (q, v) = (&stages.q[stage], &stages.v[stage]);
-            core::array::from_fn(|j| {
-                core::array::from_fn(|i| {
-                    model.links[j].stiffness[i] * (q[j][i] + model.beta * v[j][i])
-                })
-            })
+            array(|j| array(|i| model.links[j].stiffness[i] * (q[j][i] + model.beta * v[j][i])))
         });
         for stage in 0..2 {
             let (v, k) = (&stages.v[stage], &stages.k[stage]);
@@ -114,9 +110,7 @@ where
             if model.alpha == T::ZERO {
                 model.add_inverse_dynamics(&poses[stage], v, k, force, residual);
             } else {
-                let damped = core::array::from_fn(|j| {
-                    core::array::from_fn(|i| k[j][i] + model.alpha * v[j][i])
-                });
+                let damped = array(|j| array(|i| k[j][i] + model.alpha * v[j][i]));
                 model.add_inverse_dynamics(&poses[stage], v, &damped, force, residual);
             }
         }
@@ -125,8 +119,8 @@ where
 
     #[inline(always)]
     fn right<const N: usize>(&self, residuals: &[Slots<T, LINKS, W>; 2]) -> Values<T, LINKS, N> {
-        core::array::from_fn(|j| {
-            core::array::from_fn(|k| {
+        array(|j| {
+            array(|k| {
                 let i = W - N + k;
                 let right = self.weights.forward(residuals[0][j][i], residuals[1][j][i]);
                 if self.model.alpha == T::ZERO { right } else { self.weights.mass * right }
@@ -159,7 +153,7 @@ where
                 second + damping * (second + (T::TWO + T::ONE) * first)
             })
         });
-        core::array::from_fn(|j| {
+        array(|j| {
             let row = j * W;
             if N == W && free[row] {
                 return T::ZERO;

@@ -4,7 +4,7 @@ use super::search::Search;
 use super::{Bulges, Left, TERMS};
 use crate::Error;
 use crate::chain::{ChainGenerator, ChainState};
-use crate::math::{Scalar, sqrt};
+use crate::math::{Each, Scalar, sqrt};
 
 /// Change of a coefficient for the derivative, rad.
 const NUDGE: f64 = 4e-3;
@@ -45,7 +45,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         let (mut deviation, on) = (0.0, (longer / chain.tick()) as u32);
         for _ in 0..on {
             for (end, still) in arm.tick().ends.iter().zip(&still) {
-                let [x, y] = [0, 1].map(|axis| (end[axis] - still[axis]).to_f64());
+                let [x, y] = [0, 1].each(|axis| (end[axis] - still[axis]).to_f64());
                 deviation = f64::max(deviation, sqrt(x * x + y * y));
             }
         }

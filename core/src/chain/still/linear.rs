@@ -3,7 +3,7 @@
 use super::search::Search;
 use super::{Bulges, Left, TERMS};
 use crate::chain::factors::Factors;
-use crate::math::{Complex, Scalar, sqrt};
+use crate::math::{Complex, Scalar, array, sqrt};
 
 impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usize>
     Search<'_, T, LINKS, W, C, Q>
@@ -20,8 +20,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         let mut matrix = [[0.0; C]; C];
         let mut right = [[Complex::ZERO; W]; LINKS];
         // C is at least three times the number of links, of which two a mode are used.
-        let used: [bool; C] =
-            core::array::from_fn(|i| i < 2 * LINKS && self.modes.frequency[i / 2].is_finite());
+        let used: [bool; C] = array(|i| i < 2 * LINKS && self.modes.frequency[i / 2].is_finite());
         let d = |j: usize, term: usize, row: usize| derivative[j][term][row / 2][row % 2];
         for row in (0..C).filter(|&row| used[row]) {
             right[row / W][row % W].re = -left[row / 2][row % 2];
@@ -40,8 +39,8 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         let none = [[Complex::ZERO; W]; LINKS];
         let factors = Factors::<f64, LINKS, W>::new(&matrix, &none, &used);
         let multipliers = factors.solve(&right);
-        core::array::from_fn(|j| {
-            core::array::from_fn(|term| {
+        array(|j| {
+            array(|term| {
                 let mut sum = 0.0;
                 for row in (0..C).filter(|&row| used[row]) {
                     for other in 0..TERMS {
@@ -78,7 +77,7 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         let det = a * c - b * b;
         let inverse = [[c / det, 0.0, -b / det], [0.0, 1.0 / m, 0.0], [-b / det, 0.0, a / det]];
         let inertia = self.planner.chain.inertias(&self.end);
-        core::array::from_fn(|j| {
+        array(|j| {
             let square = inertia[0] / inertia[j];
             inverse.map(|row| row.map(|entry| entry * square * square))
         })

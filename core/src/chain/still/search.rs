@@ -5,7 +5,7 @@ use super::{Bulges, ChainPlan, ChainPlanner, Left, TERMS};
 use crate::Error;
 use crate::chain::ChainState;
 use crate::chain::modes::ChainModes;
-use crate::math::Scalar;
+use crate::math::{Scalar, array};
 use crate::mechanism::of_joint;
 use crate::motion::{BULGE, Limits, Move};
 
@@ -79,11 +79,8 @@ impl<T: Scalar, const LINKS: usize, const W: usize, const C: usize, const Q: usi
         before: f64,
     ) -> Option<(Bulges<LINKS>, Left<LINKS>)> {
         for share in [1.0, 0.5, 0.2, 0.05] {
-            let next: Bulges<LINKS> = core::array::from_fn(|j| {
-                core::array::from_fn(|term| {
-                    from[j][term] + share * (target[j][term] - from[j][term])
-                })
-            });
+            let next: Bulges<LINKS> =
+                array(|j| array(|term| from[j][term] + share * (target[j][term] - from[j][term])));
             // A flight that a link does not follow is too far.
             let after = self.fly(&next, 0.0).map(|flight| self.left(&flight));
             if let Ok(after) = after
