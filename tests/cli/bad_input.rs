@@ -258,7 +258,7 @@ fn a_link_that_buckles_says_what_to_do() {
 #[test]
 fn a_reference_keeps_limits_as_a_run_does() {
     let folder = tempfile::tempdir().expect("folder");
-    let scene = GOOD.replace("rate = 10.0", "moment = 0.0001");
+    let scene = GOOD.replace("rate = 10.0", "moment = 0.02");
     fs::write(folder.path().join("scene.toml"), scene).expect("scene");
     for command in ["run", "reference"] {
         let output = sim()
@@ -269,7 +269,7 @@ fn a_reference_keeps_limits_as_a_run_does() {
         let text = String::from_utf8(output.stderr).expect("text");
         assert_eq!(output.status.code(), Some(2), "{command}: {text}");
         assert_eq!(text.lines().count(), 1, "{command}: {text}");
-        assert!(text.contains("limits.moment = 0.0001: move needs"), "{command}: {text}");
+        assert!(text.contains("limits.moment = 0.02: move needs"), "{command}: {text}");
         assert!(!folder.path().join("out.csv").exists());
     }
 }

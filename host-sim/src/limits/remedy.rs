@@ -23,6 +23,10 @@ const FLIGHTS: u32 = 60;
 /// it takes a longer move.
 const BUDGET: f64 = 1000.0;
 
+/// Flights as long as the duration aimed at that a search takes at least: a few up to the first that
+/// keeps the limit, and a dozen shorter ones back. Where they exceed the budget none is begun.
+const LEAST_FLIGHTS: f64 = 8.0;
+
 /// Number of durations that are tried above the one that a quick search has found.
 const CLOSER: u32 = 24;
 
@@ -75,6 +79,10 @@ pub fn of_loads(
         return Ok(refusal(Way::Remedy(Remedy::Weight(held))));
     }
     let period = rod::first_period(case.arm)?;
+    let longer = Way::Remedy(Remedy::Longer);
+    if LEAST_FLIGHTS * aimed_at(case, &excess) > BUDGET * period {
+        return Ok(refusal(longer));
+    }
     // A vibration that the move starts adds to the load or not, as its phase at the end is.
     let careful = (0.125 * period / case.tick).ceil().max(1.0) as u32;
     let flown = Cell::new(0.0);
@@ -104,7 +112,6 @@ pub fn of_loads(
         // Beyond the budget nothing is flown any more, and nothing fits.
         if affords(ticks) { keeps_in(&load::QUICK, quick, ticks) } else { Ok(Some(1.0)) }
     })?;
-    let longer = Way::Remedy(Remedy::Longer);
     let Way::Remedy(Remedy::Duration(duration)) = way else {
         return Ok(refusal(if flown.get() < BUDGET { way } else { longer }));
     };
@@ -124,6 +131,13 @@ pub fn of_loads(
         }
     }
     Ok(refusal(longer))
+}
+
+/// Returns the duration, s, at which the exceeded quantity would keep its limit if it fell as the
+/// hub's own does; 0 for a step that does not exist.
+fn aimed_at(case: &Case<'_>, excess: &Excess) -> f64 {
+    let duration = case.steps.get(excess.index).map_or(0.0, |step| step.motion.duration());
+    duration * excess.quantity.stretch(excess.ratio())
 }
 
 /// Returns the load that holds the arm at rest between two hub angles, rad, if it exceeds the

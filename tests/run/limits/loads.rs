@@ -127,6 +127,25 @@ fn the_search_for_a_duration_says_what_it_tries() {
     assert!((tried.last().expect("a trial") - way).abs() < 1e-9, "{way}: {trials:?}");
 }
 
+/// A limit a million times too low: the duration that keeps it would be flown many times.
+#[test]
+fn a_search_that_could_not_end_is_not_begun() {
+    let scene = parse(&format!(
+        "{LINK}{PAYLOAD}[limits]\nmoment = 1e-6\n[move]\nprofile = \"cubic\"\nduration = 0.4\n\
+         to = 1.0\nsettle = 0.3\n"
+    ))
+    .expect("a scene");
+    let tried = RefCell::new(Vec::new());
+    let error = admit_loads(&scene, 0.01, &|_| true, &|at| {
+        if let load::Progress::Tried(duration) = at {
+            tried.borrow_mut().push(duration);
+        }
+    });
+    let error = error.expect_err("above the limit").to_string();
+    assert!(error.contains("; use a longer move or raise the limit"), "{error}");
+    assert!(tried.borrow().is_empty(), "{tried:?}");
+}
+
 const HEAVY: &str = "[link]\nlength = 0.9\nmass = 0.6\nbending_stiffness = 180.0\n[hub]\n\
                      radius = 0.05\n[payload]\nmass = 1.5\n[gravity]\nacceleration = 9.81\n";
 
