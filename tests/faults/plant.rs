@@ -16,3 +16,11 @@ fn arms_come_to_rest_whatever_happens_in_the_loop() {
         assert!(outcome.behind > 1e-3 && outcome.swing > 0.0, "{name}: {outcome:?}");
     }
 }
+
+/// A motor that saturates under a loop that the arm makes soft: the hub overshoots, and with an
+/// integrator it sticks and breaks away by a twelfth of a radian long after.
+#[test]
+fn a_drive_does_not_hunt_on_friction() {
+    let outcome = plant::one(Fault::Saturation, 1, 88).expect("a run");
+    assert!(outcome.broken.is_empty() && outcome.turn < 1e-3, "{outcome:?}");
+}

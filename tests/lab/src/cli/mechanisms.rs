@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use stillbeam_lab::campaign::with_bar;
+use stillbeam_lab::mechanisms::random::Outcome;
 use stillbeam_lab::mechanisms::{NAMES, SOLVERS, page, random, summary};
 use stillbeam_lab::pages::Target;
 use stillbeam_sim::error::Error;
 use stillbeam_sim::println;
 
-use super::counted;
+use super::{counted, verdict};
 
 #[derive(clap::Args)]
 pub struct MechanismsArgs {
@@ -23,23 +24,30 @@ pub struct MechanismsArgs {
     /// Seed of the first of them
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
+    /// Judge every K-th of them; all are run and looked through for what is not finite
+    #[arg(long, value_name = "K", default_value_t = 1)]
+    judge: u64,
 }
 
 impl MechanismsArgs {
     pub fn execute(self) -> Result<ExitCode, Error> {
+        let Self { seed, judge, .. } = self;
         let count = counted(self.count)?;
+        if judge == 0 {
+            return Err(Error::new("--judge = 0: must be 1 at least"));
+        }
         let target = Target::open(self.page, [page::NAME, summary::NAME])?;
         let steps = (NAMES.len() * SOLVERS.len()) as u64;
         let truth = with_bar("solutions", steps, |done| page::block(&|| done(1)))?;
         let trials =
-            with_bar("mechanisms", count, |done| random::trials(self.seed, count, &|| done(1)));
-        let blocks = [truth, summary::block(&trials)];
+            with_bar("mechanisms", count, |done| random::trials(seed, count, judge, &|| done(1)));
+        let blocks = [truth, summary::block(&trials, seed, judge)];
         for block in &blocks {
             println!("{}", block.text);
         }
         if let Some(target) = target {
             target.fill(&blocks)?;
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(verdict(trials.iter().all(|trial| trial.outcome != Outcome::NotFinite)))
     }
 }

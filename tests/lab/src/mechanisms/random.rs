@@ -37,16 +37,23 @@ pub enum Outcome {
     Refused(&'static str),
     /// It ran. A row holds a number that is none.
     NotFinite,
-    /// It ran; the judge was refused.
-    Unjudged,
-    /// It ran: largest error of a place over the total length, and largest deflection of a link
-    /// over its own length.
+    /// It ran: largest deflection of a link over its own length, and how far off it is, if it was
+    /// judged.
     Ran {
-        /// Error of a place, of the total length.
-        place: f64,
         /// Deflection, of the link's length.
         deflection: f64,
+        /// None if it was not to be judged, or the judge was refused.
+        judged: Option<Judged>,
     },
+}
+
+/// A run beside the judge's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// Largest error of a place, of the total length.
+    pub place: f64,
+    /// Largest deflection of a link in the judge's run, of its own length.
+    pub deflection: f64,
 }
 
 /// One trial: links, end and outcome.
@@ -60,19 +67,20 @@ pub struct Trial {
     pub outcome: Outcome,
 }
 
-/// Tries random mechanisms with those numbers.
-pub fn trials(seed: u64, count: u64, done: &(dyn Fn() + Sync)) -> Vec<Trial> {
+/// Tries `count` random mechanisms, and judges every `judged`-th of them. Judging one takes some
+/// ten times as long as running it.
+pub fn trials(seed: u64, count: u64, judged: u64, done: &(dyn Fn() + Sync)) -> Vec<Trial> {
     campaign::each("mechanism", 0..count, done, |index| {
         let mut rng = StdRng::seed_from_u64(seed.wrapping_add(index));
         let links = rng.random_range(1..=3);
         let end = [End::Open, End::Closes, End::Loop][rng.random_range(0..3)];
         let scene = draw(&mut rng, links, end);
-        Trial { links, end, outcome: attempt(&scene) }
+        Trial { links, end, outcome: attempt(&scene, index.is_multiple_of(judged)) }
     })
 }
 
-/// Runs a mechanism and judges it.
-fn attempt(scene: &MechanismScene) -> Outcome {
+/// Runs a mechanism and, if it is `to_judge`, judges it.
+fn attempt(scene: &MechanismScene, to_judge: bool) -> Outcome {
     let rows = match run::run(scene, &TRIED) {
         Ok(rows) => rows,
         Err(error) => return Outcome::Refused(kind(&error.to_string())),
@@ -81,18 +89,30 @@ fn attempt(scene: &MechanismScene) -> Outcome {
     if !rows.iter().all(finite) {
         return Outcome::NotFinite;
     }
-    let Ok(exact) = run::run(scene, &JUDGE) else { return Outcome::Unjudged };
+    let judged = if to_judge { judge(scene, &rows) } else { None };
+    Outcome::Ran { deflection: deflection(scene, &rows), judged }
+}
+
+/// Compares a run with the judge's, unless that is refused.
+fn judge(scene: &MechanismScene, rows: &[Row]) -> Option<Judged> {
+    let exact = run::run(scene, &JUDGE).ok()?;
     let length = scene.mechanism.total_length();
-    let (mut place, mut deflection) = (0.0, 0.0);
+    let mut place = 0.0;
     for (row, exact) in rows.iter().zip(exact.iter().step_by(8)) {
         for (end, exact) in row.ends.iter().zip(&exact.ends) {
             place = f64::max(place, (end[0] - exact[0]).hypot(end[1] - exact[1]) / length);
         }
-        for (bent, link) in exact.deflections.iter().zip(&scene.mechanism.links) {
-            deflection = f64::max(deflection, bent.abs() / link.length);
-        }
     }
-    Outcome::Ran { place, deflection }
+    Some(Judged { place, deflection: deflection(scene, &exact) })
+}
+
+/// Returns the largest deflection of a link, of its own length.
+fn deflection(scene: &MechanismScene, rows: &[Row]) -> f64 {
+    let of_row = |row: &Row| {
+        let links = row.deflections.iter().zip(&scene.mechanism.links);
+        links.map(|(bent, link)| bent.abs() / link.length).fold(0.0, f64::max)
+    };
+    rows.iter().map(of_row).fold(0.0, f64::max)
 }
 
 /// Returns the field by which a mechanism was refused, in the words of the table.

@@ -28,6 +28,8 @@ pub struct Case {
     pub turn: f64,
     /// Inertia of arm, hub and rotor about the hub, kg m².
     pub inertia: f64,
+    /// Rate at which the arm's damping by mass slows the hub with the arm stiff, 1/s.
+    pub drag: f64,
     /// First period of the arm on a hub that is held, s.
     pub period: f64,
     /// Time in which its damping takes a vibration down to 5 %, s.
@@ -56,6 +58,7 @@ impl Case {
         let torque = (load + rotor) * 6.0 * turn.abs() / (duration * duration);
         let parts = parts(rng, ratio, rotor / (n * n), torque);
         let inertia = load + rotor;
+        let drag = scene.damping.alpha * (load - arm.hub.inertia) / inertia;
         // Peak rate and acceleration of a quintic, with room for a stop.
         let limits = Limits {
             rate: Some(2.2 * turn.abs() / duration),
@@ -68,7 +71,7 @@ impl Case {
         let zero = rng.random_range(-2.0..2.0);
         let configuration =
             Configuration { scene, policy, joint, direction, zero, node: rng.random_range(0..64) };
-        let drive = gains(rng, rotor / (n * n));
+        let drive = gains(rng, rotor, n, parts.friction.breakaway);
         let counts = 1 << rng.random_range(13..18);
         let latency = if rng.random() { 0.0 } else { 1.0 / drive.rate };
         let settling = 20f64.ln() * period / (std::f64::consts::TAU * damping);
@@ -81,14 +84,39 @@ impl Case {
             duration,
             turn,
             inertia,
+            drag,
             period,
             settling,
         }
     }
 
-    /// Time in which the drive's position loop takes an error of the hub down to 0.1 %, s.
+    /// Time after which the drive's loops, left to an error of the hub with the arm stiff, turn it
+    /// by less than a thousandth of that error in the arm's first period, s.
+    ///
+    /// The position gain alone does not say it: the arm has up to fifty times the rotor's inertia,
+    /// makes the velocity loop as many times softer, and then the hub swings.
     pub fn drive_settling(&self) -> f64 {
-        1e3_f64.ln() / self.drive.position_gain
+        const STEP: f64 = 1e-3;
+        const LONGEST: f64 = 60.0;
+        let [gain, integrator] = self.stiff_loop();
+        let [mut angle, mut rate, mut held, mut settled]: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
+        for k in 1..(LONGEST / STEP) as u32 {
+            let error = -self.drive.position_gain * angle - rate;
+            held += STEP * integrator * error;
+            rate += STEP * (gain * error + held - self.drag * rate);
+            angle += STEP * rate;
+            if rate.abs() * self.period > 1e-3 {
+                settled = STEP * f64::from(k);
+            }
+        }
+        settled
+    }
+
+    /// Gain of the velocity loop over the whole inertia, 1/s, and of its integrator, 1/s².
+    fn stiff_loop(&self) -> [f64; 2] {
+        let ratio: f64 = self.configuration.joint.ratio.value();
+        let per_turn = std::f64::consts::TAU * self.inertia / (ratio * ratio);
+        [self.drive.velocity_gain / per_turn, self.drive.integrator_gain / per_turn]
     }
 }
 
@@ -147,16 +175,26 @@ fn parts(rng: &mut StdRng, ratio: Ratio, rotor_inertia: f64, torque: f64) -> Par
     }
 }
 
-/// Gains for a rotor of that inertia, kg m²: a velocity loop of 80 to 200 rad/s by the rotor alone,
-/// which the arm makes softer.
-fn gains(rng: &mut StdRng, rotor_inertia: f64) -> odrive::Config {
+/// Angle of the hub that friction may hold against the position loop if the drive integrates, rad.
+const HELD: f64 = 5e-3;
+
+/// Gains for a rotor of that inertia at the hub, kg m², behind a gear: a velocity loop of 80 to
+/// 200 rad/s by the rotor alone, which the arm makes softer.
+///
+/// An integrator breaks a hub that sticks away again and again, and each time lets it go to the
+/// other side of what friction holds. It hunts, as every such drive does. Where that would be a
+/// turn beyond what counts as rest, the drive has none.
+fn gains(rng: &mut StdRng, rotor_inertia: f64, ratio: f64, breakaway: f64) -> odrive::Config {
     let bandwidth = rng.random_range(80.0..200.0);
-    let velocity_gain = std::f64::consts::TAU * rotor_inertia * bandwidth;
+    let velocity_gain = std::f64::consts::TAU * rotor_inertia / (ratio * ratio) * bandwidth;
     let rate = [1000.0, 2000.0][rng.random_range(0..2)];
+    let position_gain = bandwidth * rng.random_range(0.05..0.1);
+    let integrator_gain = velocity_gain * rng.random_range(0.0..4.0);
+    let held = breakaway / (rotor_inertia * bandwidth * position_gain);
     odrive::Config {
-        position_gain: bandwidth * rng.random_range(0.05..0.1),
+        position_gain,
         velocity_gain,
-        integrator_gain: velocity_gain * rng.random_range(0.0..4.0),
+        integrator_gain: if held < HELD { integrator_gain } else { 0.0 },
         velocity_limit: 1e3,
         // An estimate of 1 rad/s per hertz and more would swing up by itself.
         bandwidth: 0.6 * rate,
