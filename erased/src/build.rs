@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use stillbeam::model::{Model, Rod};
 use stillbeam::select::{Auto, Rung};
-use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
+use stillbeam::stepper::{Elastica, Modal, Newmark, Pointwise, Quality, Rigid};
 use stillbeam::{Error, Scene};
 
 use crate::model::{Mass, ModelVisitor, with_model};
@@ -45,6 +45,8 @@ pub enum Kind {
     Modal { modes: usize, elements: usize, mass: Mass, spin: bool },
     /// Exact kinematics in one to three modes, fitted for a tip angle of `bend` rad.
     Elastica { modes: usize, quality: Quality, bend: f64 },
+    /// Exact kinematics at eight points of the link, in one to three modes.
+    Pointwise { modes: usize },
     /// A rung of `auto`'s ladder, all rungs as one type.
     Rung { rung: Rung, bend: f64 },
 }
@@ -133,7 +135,22 @@ fn in_precision<T: Scalar, V: StepperVisitor>(
             };
             Ok(visited)
         }
+        Kind::Pointwise { modes } => pointwise::<T, V>(scene, tick, modes, visitor),
         Kind::Rung { rung, bend } => Ok(visitor.visit(Auto::<T>::new(scene, tick, rung, bend)?)),
+    }
+}
+
+pub(crate) fn pointwise<T: Scalar, V: StepperVisitor>(
+    scene: &Scene,
+    tick: f64,
+    modes: usize,
+    visitor: V,
+) -> Result<V::Output, Refused> {
+    match modes {
+        1 => Ok(visitor.visit(Pointwise::<T, 1>::new(scene, tick)?)),
+        2 => Ok(visitor.visit(Pointwise::<T, 2>::new(scene, tick)?)),
+        3 => Ok(visitor.visit(Pointwise::<T, 3>::new(scene, tick)?)),
+        _ => Err(Refused::Modes(3)),
     }
 }
 

@@ -6,7 +6,7 @@ use stillbeam::select::{Auto, Rung};
 use stillbeam::stepper::OnCarrier;
 use stillbeam::{Mount, Scene};
 
-use crate::build::{Kind, ModalOf, NewmarkOf, Refused, Spec, StepperVisitor};
+use crate::build::{Kind, ModalOf, NewmarkOf, Refused, Spec, StepperVisitor, pointwise};
 use crate::model::with_model;
 use crate::{Erasable, Scalar};
 
@@ -26,6 +26,9 @@ pub(crate) fn on_carrier<T: Scalar, V: StepperVisitor>(
             1..=3 => visitor.visit(carried(Rung::Elastica(modes, quality), bend)?),
             _ => return Err(Refused::Modes(3)),
         },
+        Kind::Pointwise { modes } => {
+            pointwise::<T, _>(&resting, tick, modes, Carried { scene, visitor })??
+        }
         Kind::Rung { rung, bend } => visitor.visit(carried(rung, bend)?),
         Kind::Newmark { elements, mass, spin } => {
             let visitor = Carried { scene, visitor };

@@ -99,6 +99,7 @@ fn kind(
             let bend = bend(scene, solver, modes, acceleration)?;
             Kind::Elastica { modes, quality: solver.quality.into(), bend }
         }
+        (Method::Pointwise, _) => Kind::Pointwise { modes },
         (Method::Auto, Some(choice)) => Kind::Rung { rung: choice.rung, bend: choice.bend },
         (Method::Auto, None) => {
             let choice = choose(scene, solver)?.map_err(|none| none.error)?;

@@ -134,6 +134,7 @@ impl Type {
             b"newm" if variant == 0 => format!("Newmark<{scalar}, {n}, {w}, false>"),
             b"newm" => format!("Newmark<{scalar}, {n}, {w}>"),
             b"moda" => format!("Modal<{scalar}, {n}>"),
+            b"poin" => format!("Pointwise<{scalar}, {n}>"),
             _ => format!("Elastica<{scalar}, {n}>"),
         };
         if letters[0].is_ascii_uppercase() { format!("OnCarrier<{own}>") } else { own }

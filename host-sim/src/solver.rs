@@ -48,6 +48,8 @@ words! {
         Modal = "modal",
         /// Exact kinematics in up to three modes.
         Elastica = "elastica",
+        /// Exact kinematics at points along the link, in up to three modes.
+        Pointwise = "pointwise",
         /// The cheapest of rigid, modal and elastica that is good enough for the scene's moves.
         Auto = "auto",
     }
@@ -86,7 +88,7 @@ words! {
 /// Numbers of beam elements that a model is built for.
 pub const ELEMENTS: [usize; 4] = [1, 2, 4, 8];
 
-/// Numbers of modes that modal and elastica are built for.
+/// Numbers of modes that modal, elastica and pointwise are built for.
 pub const MODES: RangeInclusive<usize> = 1..=3;
 
 /// A solver with every key resolved.
@@ -98,7 +100,7 @@ pub struct Solver {
     pub elements: usize,
     /// Mass matrix.
     pub mass: Mass,
-    /// Modes of modal and elastica: 1 to 3.
+    /// Modes of modal, elastica and pointwise: 1 to 3.
     pub modes: usize,
     /// Work a tick of elastica.
     pub quality: Quality,
@@ -119,6 +121,11 @@ impl Method {
     /// in set-up.
     fn elements(self) -> usize {
         if self == Self::Modal { 8 } else { 1 }
+    }
+
+    /// Returns the default number of modes. The third is what pointwise is for.
+    fn modes(self) -> usize {
+        if self == Self::Pointwise { 3 } else { Solver::PAPER.modes }
     }
 }
 
@@ -168,6 +175,7 @@ impl Solver {
             Method::Elastica => {
                 format!("{method}, {modes}, {}, {tick} ms, {scalar}", self.quality.name())
             }
+            Method::Pointwise => format!("{method}, {modes}, {tick} ms, {scalar}"),
             Method::Auto => {
                 let tip = short_percent(self.tolerance, 4);
                 let torque = short_percent(self.torque_tolerance, 4);

@@ -6,7 +6,7 @@
 use stillbeam::model::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
 use stillbeam::prepared::Prepared;
 use stillbeam::scene::LinkShape;
-use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
+use stillbeam::stepper::{Elastica, Modal, Newmark, Pointwise, Quality, Rigid};
 use stillbeam::{Error, Scene, Stepper};
 
 /// A stepper with its name in the tables.
@@ -133,6 +133,7 @@ methods! {
         |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fine, BEND);
     Elastica3Fine: "elastica", 3, "fine", "", None, Elastica<f32, 3>,
         |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fine, BEND);
+    Pointwise3: "pointwise", 3, "", "", None, Pointwise<f32, 3>, |s, h| Pointwise::new(s, h);
 }
 
 /// In whose precision the consistent models are set up: a tenth of the instructions of f64, and no

@@ -2,7 +2,7 @@
 
 use proptest::test_runner::TestCaseResult;
 use stillbeam::model::{EightElements, FourElements, Model, OneElement, Rod, TwoElements};
-use stillbeam::stepper::{Elastica, Modal, Newmark, Quality, Rigid};
+use stillbeam::stepper::{Elastica, Modal, Newmark, Pointwise, Quality, Rigid};
 use stillbeam::{Error, Scalar, Scene, Stepper};
 
 use crate::arms::BEND;
@@ -88,4 +88,6 @@ methods! {
         |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fine, FITTED);
     Elastica3: "elastica, 3 modes, fine", false, Elastica<T, 3>,
         |s, h| Elastica::new(&Rod::new(s)?, h, Quality::Fine, FITTED);
+    Pointwise2: "pointwise, 2 modes", false, Pointwise<T, 2>, |s, h| Pointwise::new(s, h);
+    Pointwise3: "pointwise, 3 modes", false, Pointwise<T, 3>, |s, h| Pointwise::new(s, h);
 }

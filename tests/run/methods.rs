@@ -28,7 +28,8 @@ impl Visitor for Compare {
         let keys = SolverKeys {
             method: Some(method),
             elements: size.filter(|_| method == Method::Newmark),
-            modes: size.filter(|_| matches!(method, Method::Modal | Method::Elastica)),
+            modes: size
+                .filter(|_| matches!(method, Method::Modal | Method::Elastica | Method::Pointwise)),
             mass: Mass::ALL.iter().copied().find(|mass| mass.name() == M::QUALITY),
             quality: Quality::ALL.iter().copied().find(|quality| quality.name() == M::QUALITY),
             spin: (M::SKIP == "no-spin").then_some(false),

@@ -5,6 +5,7 @@ use stillbeam_lab::still::campaign;
 use stillbeam_sim::reference::rod;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::solver::{Method, Solver};
+use stillbeam_sim::trajectory::Side;
 use stillbeam_sim::{compare, run, truth};
 
 const SCENE: &str = r#"
@@ -77,6 +78,14 @@ fn a_scene_file_says_what_a_still_move_keeps_least() {
     // In whole ticks a residual need not save any.
     assert!(duration("within = 0.02") <= fastest);
     assert!((duration("least = \"effort\"\nduration = 0.25") - 0.25).abs() < 1e-9);
+    let jump = |words: &str| {
+        let scene = SceneFile::parse("test", &moves(words)).expect("a scene");
+        scene.trajectory(0.001).expect("a motion").at(0.0, Side::Right).acceleration
+    };
+    assert!(jump("least = \"time\"") > 10.0);
+    for words in ["least = \"time\"\neased = true", "within = 0.02\neased = true", "eased = true"] {
+        assert_eq!(jump(words), 0.0, "{words}");
+    }
     for (words, said) in [
         ("least = \"heat\"\nduration = 0.25", "heat"),
         ("least = \"time\"\nduration = 0.25", "move.duration = 0.25"),
@@ -86,9 +95,11 @@ fn a_scene_file_says_what_a_still_move_keeps_least() {
         let error = SceneFile::parse("test", &moves(words)).expect_err(words).to_string();
         assert!(error.contains(said), "{error}");
     }
-    let text = moves("least = \"time\"").replace("still", "cubic");
-    let error = SceneFile::parse("test", &text).expect_err("a cubic").to_string();
-    assert!(error.contains("move.least"), "{error}");
+    for (words, key) in [("least = \"time\"", "move.least"), ("eased = true", "move.eased")] {
+        let text = moves(words).replace("still", "cubic");
+        let error = SceneFile::parse("test", &text).expect_err("a cubic").to_string();
+        assert!(error.contains(key), "{error}");
+    }
 }
 
 /// A few of the moves that `docs/still.md` counts by the ten thousand.

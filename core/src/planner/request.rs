@@ -44,6 +44,10 @@ pub struct Request<T, const K: usize> {
     /// More makes the fastest move shorter, and lets a robust planner plan one. Other moves leave
     /// what they leave without it.
     pub residual: f64,
+    /// True if a move with a piecewise-linear acceleration begins and ends without acceleration
+    /// though no jerk is limited. False by default: then it jumps there, as a cubic's does. A quintic
+    /// with a bulge never jumps from rest to rest.
+    pub eased: bool,
     /// Quantity that the move keeps small.
     pub objective: Objective,
     /// Model that the move is planned by.
@@ -86,6 +90,7 @@ impl<T, const K: usize> Request<T, K> {
             limits: Limits::default(),
             deflection: Some(Prediction::MAX_DEFLECTION),
             residual: 0.0,
+            eased: false,
             objective: Objective::Acceleration,
             kinematics: Kinematics::Exact,
         }
@@ -124,6 +129,11 @@ impl<T, const K: usize> Request<T, K> {
     /// Leaves up to `residual` of L of vibration.
     pub fn residual(self, residual: f64) -> Self {
         Self { residual, ..self }
+    }
+
+    /// Begins and ends without acceleration: see [`Self::eased`](#structfield.eased).
+    pub fn eased(self) -> Self {
+        Self { eased: true, ..self }
     }
 
     /// Keeps something else small than the acceleration.

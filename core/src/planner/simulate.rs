@@ -219,6 +219,16 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         points.load(coordinate, rate, &acceleration, hub)
     }
 
+    /// The same but for rounding, in half the work.
+    pub fn answer(
+        &self,
+        points: &RodPoints<T, K>,
+        flex: &ArmState<T, K>,
+        hub: &HubState<T>,
+    ) -> Load<T> {
+        points.answer(&flex.coordinate, &flex.rate, hub, &self.stiffness, &self.loss)
+    }
+
     /// Amplitude of the tip's deflection about `rest`, m: an upper bound, with all modes in step.
     pub fn ringing(
         &self,

@@ -10,6 +10,7 @@ mod newmark;
 mod on_carrier;
 mod oscillator;
 mod path;
+mod pointwise;
 mod prepared;
 mod rigid;
 mod shaped;
@@ -24,6 +25,7 @@ pub use newmark::{Newmark, NewmarkState};
 pub use on_carrier::OnCarrier;
 pub(crate) use oscillator::{Forcing, LONGEST_TURN, Oscillator};
 pub use path::{AnyMotion, AtRest, FastPaths, HubMotion, KinkMoments, Linear};
+pub use pointwise::{Pointwise, PointwiseState};
 pub use rigid::Rigid;
 
 use crate::Error;

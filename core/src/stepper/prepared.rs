@@ -1,6 +1,6 @@
 //! The steppers as prepared words.
 
-use super::{Elastica, Modal, Newmark, OnCarrier, Rigid, Stepper};
+use super::{Elastica, Modal, Newmark, OnCarrier, Pointwise, Rigid, Stepper};
 use crate::math::{Scalar, Words, mix, named};
 use crate::prepared::{Prepare, Prepared, sizes};
 
@@ -36,6 +36,7 @@ prepared! {
         b"newm", N, W, AXES;
     [T: Scalar, const K: usize] Modal<T, K>: b"moda", K, 0, false;
     [T: Scalar, const K: usize] Elastica<T, K>: b"elas", K, 0, false;
+    [T: Scalar, const K: usize] Pointwise<T, K>: b"poin", K, 0, false;
 }
 
 /// The arm's own kind, the family in capitals.

@@ -311,3 +311,35 @@ fn a_given_duration_is_used_for_the_least_peak_or_effort() {
         }
     }
 }
+
+/// Without a jump at the ends a move within an acceleration takes a fortieth longer at most. A limit
+/// of the jerk asks for it by itself.
+#[test]
+fn an_eased_move_begins_and_ends_without_acceleration() {
+    for arm in [member_a(), member_d()] {
+        let period = first_period(&arm);
+        let planner = Planner::<f64, 2>::new(&arm, period / 2000.0).expect("planner");
+        let plan = |request: Request<f64, 2>| -> FastestMove<24> {
+            planner.fastest(&request).expect("a request").expect("a fastest move")
+        };
+        let of = |limits| Request::from_rest(0.0, PI).limits(limits).any_deflection();
+        let request = of(acceleration_of(Profile::Cubic, 2.0 * period));
+        let (jumping, eased) = (plan(request), plan(request.eased()));
+        assert!(jumping.knots[0] > 1.0 && jumping.peaks.jerk.is_infinite(), "{jumping:?}");
+        assert_eq!(eased.knots[0], 0.0);
+        assert!(eased.peaks.jerk.is_finite(), "{eased:?}");
+        let longer = eased.duration() / jumping.duration();
+        assert!(longer > 1.0 && longer < 1.025, "{longer}");
+        let most = jumping.peaks.acceleration * (1.0 + 1e-9);
+        assert!(eased.peaks.acceleration <= most, "{eased:?}");
+        let limited = of(all_of(Profile::SCurve, 2.0 * period));
+        assert_eq!(plan(limited), plan(limited.eased()));
+        // In a given duration too.
+        let request = Request::from_rest(0.0, PI).duration(2.0 * period).any_deflection();
+        for objective in [Objective::Acceleration, Objective::Effort] {
+            let request = request.objective(objective).eased();
+            let plan = planner.gentlest::<24>(&request).expect("a request").expect("a move");
+            assert_eq!(plan.knots[0], 0.0, "{objective:?}");
+        }
+    }
+}

@@ -64,6 +64,10 @@ pub struct PlanArgs {
     /// squared torque [default: a smooth still move]
     #[arg(long, value_name = "WHAT")]
     least: Option<String>,
+    /// Begin and end without acceleration though no jerk is limited; a fastest move else begins and
+    /// ends with a jump of it
+    #[arg(long)]
+    eased: bool,
     #[command(flatten)]
     tick: TickArgs,
     /// Folder for the page, its pictures and the run
@@ -84,6 +88,7 @@ impl PlanArgs {
             super::mechanism::refuse("--max-moment", self.max_moment.is_some())?;
             super::mechanism::refuse("--within", self.within.is_some())?;
             super::mechanism::refuse("--least", self.least.is_some())?;
+            super::mechanism::refuse("--eased", self.eased)?;
             let scene = self.tick.applied_to_mechanism(scene);
             let limits = self.limits_of_joints(&scene)?;
             let Self { from, to, duration, out, json, open, .. } = self;
@@ -130,6 +135,7 @@ impl PlanArgs {
                     .map(|text| options::residual(text, scene.arm.link.length))
                     .transpose()?,
                 least: self.least.as_deref().map(options::least).transpose()?,
+                eased: self.eased,
             }
             .validate(self.duration)?,
             tick: scene.solver.resolve()?.tick,

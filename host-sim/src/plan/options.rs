@@ -4,17 +4,20 @@ use stillbeam::planner::Objective;
 
 use crate::error::Error;
 
-/// Conditions that moves with a piecewise-linear acceleration alone can meet. None by default.
+/// Conditions on moves with a piecewise-linear acceleration. None by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
     /// Residual vibration that the arm may keep, of L.
     pub residual: Option<f64>,
     /// Quantity that a move of a given duration keeps least.
     pub least: Option<Objective>,
+    /// True if the acceleration is zero at both ends though no jerk is limited. Every still move
+    /// meets it.
+    pub eased: bool,
 }
 
 impl Options {
-    /// True if there is one.
+    /// True if there is one that moves with a piecewise-linear acceleration alone can meet.
     pub fn is_some(&self) -> bool {
         self.residual.is_some() || self.least.is_some()
     }
@@ -102,12 +105,14 @@ mod tests {
 
     #[test]
     fn conditions_go_with_a_duration_or_without() {
-        let within = Options { residual: Some(0.01), least: None };
+        let within = Options { residual: Some(0.01), ..Options::default() };
         assert!(within.validate(None).is_ok() && within.validate(Some(1.0)).is_err());
-        let gentle = Options { residual: None, least: Some(least("effort").expect("a name")) };
+        let gentle =
+            Options { least: Some(least("effort").expect("a name")), ..Options::default() };
         assert!(gentle.validate(Some(1.0)).is_ok() && gentle.validate(None).is_err());
         for residual in [0.0, -0.1, 0.21, f64::NAN] {
-            assert!(Options { residual: Some(residual), least: None }.validate(None).is_err());
+            let within = Options { residual: Some(residual), ..Options::default() };
+            assert!(within.validate(None).is_err());
         }
         assert!(least("heat").is_err());
     }

@@ -49,6 +49,7 @@ impl Asked<'_> {
         let mut residual = self.options.residual.unwrap_or(0.0);
         for _ in 0..ROUNDS {
             let request = Request::from_rest(self.from, self.to).limits(limits).residual(residual);
+            let request = if self.options.eased { request.eased() } else { request };
             let found = match (self.duration, self.options.least) {
                 (Some(duration), Some(least)) => {
                     planner.gentlest(&request.duration(duration).objective(least))?

@@ -29,6 +29,8 @@ pub(super) struct MoveTable {
     least: Option<String>,
     /// Residual that a still move may leave, of L.
     within: Option<f64>,
+    /// True for a still move without a jump of the acceleration at its ends.
+    eased: Option<bool>,
     /// True for a move that passes into the next one.
     #[serde(default)]
     pub(super) blend: bool,
@@ -102,7 +104,8 @@ impl MoveTable {
         if self.profile.as_deref() != Some("still") {
             let least = self.least.as_ref().map(|least| format!("least = \"{least}\""));
             let within = self.within.map(|within| format!("within = {within}"));
-            if let Some(key) = least.or(within) {
+            let eased = self.eased.map(|eased| format!("eased = {eased}"));
+            if let Some(key) = least.or(within).or(eased) {
                 return Err(Error::new(format_args!(
                     "move.{key}: must be absent; only a move with profile = \"still\" has it"
                 )));
@@ -167,7 +170,8 @@ impl MoveTable {
                 "move.duration = {duration}: must be absent beside move.least = \"time\""
             )));
         }
-        let options = Options { residual: self.within, least };
+        let eased = self.eased.unwrap_or(false);
+        let options = Options { residual: self.within, least, eased };
         let asked = Asked { before, limits, from, to, duration, robust, options, settle, count };
         if piecewise {
             let found = asked.plan_piecewise()?;

@@ -91,6 +91,7 @@ impl SolverKeys {
             Method::Newmark => Self { modes: None, quality: None, ..keys },
             Method::Modal => Self { quality: None, ..keys },
             Method::Elastica => meshless,
+            Method::Pointwise => Self { quality: None, ..meshless },
         }
     }
 
@@ -163,7 +164,7 @@ impl SolverKeys {
             }
         };
         let modes = match self.modes {
-            None => default.modes,
+            None => method.modes(),
             Some(n) => usize::try_from(n).ok().filter(|n| MODES.contains(n)).ok_or_else(|| {
                 let [least, most] = [*MODES.start(), *MODES.end()];
                 Error::new(format_args!("solver.modes = {n}: must be {least} to {most}"))

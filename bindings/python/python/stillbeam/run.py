@@ -153,9 +153,10 @@ def run(
 ) -> Run:
     """Run the core on a scene: the setpoints that a firmware would send, a row every tick.
 
-    method: "rigid", "newmark", "modal", "elastica" or "auto"; by default the scene's, else auto.
+    method: "rigid", "newmark", "modal", "elastica", "pointwise" or "auto"; by default the scene's, else
+        auto.
     elements: beam elements, 1, 2, 4 or 8 (newmark, modal). mass: "consistent" or "lumped".
-    modes: 1 to 3 (modal, elastica). quality: "fast" or "fine" (elastica).
+    modes: 1 to 3 (modal, elastica, pointwise). quality: "fast" or "fine" (elastica).
     tolerance: error of the tip that auto may make, fraction of the length.
     torque_tolerance: error of the torque that auto may make, fraction of its peak.
     tick: control period, s. scalar: "f32", as on the target, or "f64".

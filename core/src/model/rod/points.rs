@@ -12,11 +12,11 @@ use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, Each, Scalar, array, cast, dot, words};
 use crate::scene::{LinkShape, Scene, Varied};
 
-/// Gauss points: six follow moves that bend by a radian.
-const POINTS: usize = 6;
+/// Gauss points for the planner: six follow moves that bend by a radian.
+const SIX: usize = 6;
 
 /// `(x, weight)` of the Gauss-Legendre rule on −1..1, upper half.
-const HALF_RULE: [(f64, f64); POINTS / 2] = [
+const HALF_RULE: [(f64, f64); SIX / 2] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
     (0.932_469_514_203_152, 0.171_324_492_379_170_4),
@@ -24,16 +24,16 @@ const HALF_RULE: [(f64, f64); POINTS / 2] = [
 
 /// Constants of a rod in `K` modes that do not depend on its stiffness.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct RodPoints<T, const K: usize> {
+pub(crate) struct RodPoints<T, const K: usize, const P: usize = SIX> {
     /// `W_pq`, `q ≤ p`.
-    pairs: [[T; POINTS]; POINTS],
+    pairs: [[T; P]; P],
     /// `∫I_p dm`, payload included.
-    first: [T; POINTS],
+    first: [T; P],
     /// `ψₖ` at the points, and at the tip.
-    slope: [[T; K]; POINTS],
+    slope: [[T; K]; P],
     tip_slope: [T; K],
     /// `I_p(L)`.
-    to_tip: [T; POINTS],
+    to_tip: [T; P],
     radius: T,
     mass: T,
     gravity: T,
@@ -61,13 +61,13 @@ struct Carrying<T> {
 
 /// A shape and its motion at one instant: sine and cosine at the points, `χ̇ = θ̇ + φ̇`, and the
 /// accelerations that hold no ä.
-struct Points<T> {
-    sin: [T; POINTS],
-    cos: [T; POINTS],
+struct Points<T, const P: usize> {
+    sin: [T; P],
+    cos: [T; P],
     /// `χ̇²`.
-    spin: [T; POINTS],
+    spin: [T; P],
     /// `θ̈ + αχ̇`.
-    turn: [T; POINTS],
+    turn: [T; P],
     /// At the clamp, weight included: hub axes.
     root: [T; 2],
 }
@@ -84,24 +84,23 @@ pub(crate) struct Load<T> {
 }
 
 /// Integrals from the clamp by the values at the points, m, and the modes' slopes there.
-struct Weights<const K: usize> {
+struct Weights<const K: usize, const P: usize> {
     /// To the stations of the link.
-    link: [[f64; POINTS]; LINK_STATIONS],
-    to_tip: [f64; POINTS],
-    to_payload: [f64; POINTS],
-    slope: [[f64; K]; POINTS],
+    link: [[f64; P]; LINK_STATIONS],
+    to_tip: [f64; P],
+    to_payload: [f64; P],
+    slope: [[f64; K]; P],
 }
 
-impl<const K: usize> Weights<K> {
+impl<const K: usize> Weights<K, SIX> {
     /// Of the polynomial through the points.
     fn uniform(rod: &Rod<K>, offset: f64) -> Self {
         let length = rod.scene().link.length;
         let at = places();
         // Of the interpolation through the points: Σ (2j + 1) w_p P_j(ξ_p) ∫₀^ξ P_j.
         let integral = |p: usize, xi: f64| -> f64 {
-            let (here, there) =
-                (legendre::<{ POINTS + 1 }>(at[p].0), legendre::<{ POINTS + 1 }>(xi));
-            let sum: f64 = (0..POINTS)
+            let (here, there) = (legendre::<{ SIX + 1 }>(at[p].0), legendre::<{ SIX + 1 }>(xi));
+            let sum: f64 = (0..SIX)
                 .map(|j| match j {
                     0 => xi,
                     _ => here[j] * 0.5 * (there[j + 1] - there[j - 1]),
@@ -110,14 +109,14 @@ impl<const K: usize> Weights<K> {
             length * at[p].1 * sum
         };
         let end = |p: usize| -> f64 {
-            let here = legendre::<POINTS>(at[p].0);
-            at[p].1 * (0..POINTS).map(|j| (2 * j + 1) as f64 * here[j]).sum::<f64>()
+            let here = legendre::<SIX>(at[p].0);
+            at[p].1 * (0..SIX).map(|j| (2 * j + 1) as f64 * here[j]).sum::<f64>()
         };
-        let mut link = [[0.0; POINTS]; LINK_STATIONS];
+        let mut link = [[0.0; SIX]; LINK_STATIONS];
         for (row, &xi) in link.iter_mut().zip(&rule().0) {
             *row = array(|p| integral(p, xi));
         }
-        let to_tip: [f64; POINTS] = array(|p| integral(p, 1.0));
+        let to_tip: [f64; SIX] = array(|p| integral(p, 1.0));
         Self {
             link,
             to_tip,
@@ -130,10 +129,10 @@ impl<const K: usize> Weights<K> {
     /// what they see in their own.
     fn varied(rod: &Rod<K>, shape: &Varied, mass: f64) -> Self {
         let length = rod.scene().link.length;
-        let link = VariedLink::<{ POINTS - 1 }>::new(shape, mass);
+        let link = VariedLink::<{ SIX - 1 }>::new(shape, mass);
         let (to_points, from_points) = link.coarse(&places().map(|(xi, _)| xi));
         let stations = rod.stations();
-        let row = |fine: &[f64; FINE]| -> [f64; POINTS] {
+        let row = |fine: &[f64; FINE]| -> [f64; SIX] {
             array(|p| length * (0..FINE).map(|q| fine[q] * from_points[q][p]).sum::<f64>())
         };
         Self {
@@ -146,22 +145,54 @@ impl<const K: usize> Weights<K> {
 }
 
 /// `(ξ, weight)` of the points on 0..1.
-fn places() -> [(f64, f64); POINTS] {
+fn places() -> [(f64, f64); SIX] {
     array(|p| {
-        let (x, weight) = HALF_RULE[p % (POINTS / 2)];
-        (0.5 * (1.0 + if p < POINTS / 2 { x } else { -x }), 0.5 * weight)
+        let (x, weight) = HALF_RULE[p % (SIX / 2)];
+        (0.5 * (1.0 + if p < SIX / 2 { x } else { -x }), 0.5 * weight)
     })
 }
 
+impl<const K: usize> Weights<K, FINE> {
+    /// Of the rod's own points.
+    fn fine(rod: &Rod<K>) -> Self {
+        let (length, stations) = (rod.scene().link.length, rod.stations());
+        let row = |row: &[f64; FINE]| row.map(|weight| length * weight);
+        Self {
+            link: stations.running.map(|running| row(&running)),
+            to_tip: row(&stations.to_tip),
+            to_payload: row(&stations.to_payload),
+            slope: core::array::from_fn(|p| core::array::from_fn(|k| rod.slope()[k][p])),
+        }
+    }
+}
+
 impl<T: Scalar, const K: usize> RodPoints<T, K> {
+    /// Six points, which follow moves that bend by a radian in two modes.
     pub fn new<S: LinkShape>(scene: &Scene<f64, S>, rod: &Rod<K>) -> Self {
-        let payload = scene.payload;
-        let stations = rod.stations();
-        let Weights { link, to_tip, to_payload, slope } = match scene.shape.varied() {
-            None => Weights::uniform(rod, payload.offset),
+        let weights = match scene.shape.varied() {
+            None => Weights::uniform(rod, scene.payload.offset),
             Some(shape) => Weights::varied(rod, shape, scene.link.mass),
         };
-        let over_link = |g: &dyn Fn(&[f64; POINTS]) -> f64| -> f64 {
+        Self::weighted(scene, rod, &weights)
+    }
+}
+
+impl<T: Scalar, const K: usize> RodPoints<T, K, FINE> {
+    /// The rod's own eight points, which a third mode of six polynomials needs.
+    pub fn fine<S: LinkShape>(scene: &Scene<f64, S>, rod: &Rod<K>) -> Self {
+        Self::weighted(scene, rod, &Weights::fine(rod))
+    }
+}
+
+impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
+    fn weighted<S: LinkShape>(
+        scene: &Scene<f64, S>,
+        rod: &Rod<K>,
+        weights: &Weights<K, P>,
+    ) -> Self {
+        let (payload, stations) = (scene.payload, rod.stations());
+        let Weights { link, to_tip, to_payload, slope } = weights;
+        let over_link = |g: &dyn Fn(&[f64; P]) -> f64| -> f64 {
             stations.mass
                 * link.iter().zip(&stations.weights).map(|(row, w)| w * g(row)).sum::<f64>()
         };
@@ -174,7 +205,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
             first: array(|p| f(over_link(&|row| row[p]) + payload.mass * to_payload[p])),
             slope: slope.each(|row| cast(&row)),
             tip_slope: cast(rod.tip_slope()),
-            to_tip: cast(&to_tip),
+            to_tip: cast(to_tip),
             radius: f(scene.hub.radius),
             mass: f(stations.mass + payload.mass),
             gravity: f(scene.in_plane_gravity()),
@@ -202,13 +233,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         let (force, mass) = self.forces(&points);
         let turning = self.payload_inertia
             * (carrying.acceleration + self.alpha * (carrying.rate + dot(&self.tip_slope, v)));
-        let right: [T; K] = array(|i| {
-            let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
-            for p in 0..POINTS {
-                sum -= self.slope[p][i] * force[p];
-            }
-            sum
-        });
+        let right = self.pull(a, v, [stiffness, loss], &force, turning);
         mass.factor().solve(&right)
     }
 
@@ -222,7 +247,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
     ) -> Load<T> {
         let carrying = self.carrying(hub);
         let mut points = self.points(a, v, &carrying);
-        for p in 0..POINTS {
+        for p in 0..P {
             points.turn[p] += dot(&self.slope[p], acceleration);
         }
         let (force, _) = self.forces(&points);
@@ -231,26 +256,90 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         let mut moment = self.payload_inertia * (carrying.acceleration + spin);
         let mut shear = self.mass * points.root[1];
         let mut tip = [self.radius, T::ZERO];
-        for p in 0..POINTS {
+        for p in 0..P {
             moment += force[p];
             shear +=
                 self.first[p] * (points.turn[p] * points.cos[p] - points.spin[p] * points.sin[p]);
             tip[0] += self.to_tip[p] * points.cos[p];
             tip[1] += self.to_tip[p] * points.sin[p];
         }
-        let torque = if self.carried {
+        let torque = self.torque(hub, &carrying, moment, shear);
+        Load { torque, moment, tip }
+    }
+
+    /// Torque, bending moment and tip, as [`Self::load`] of [`Self::acceleration`] but for rounding:
+    /// points and forces are computed once for both.
+    pub fn answer(
+        &self,
+        a: &[T; K],
+        v: &[T; K],
+        hub: &HubState<T>,
+        stiffness: &[T; K],
+        loss: &[T; K],
+    ) -> Load<T> {
+        let carrying = self.carrying(hub);
+        let points = self.points(a, v, &carrying);
+        let (force, mass) = self.forces(&points);
+        let drag = self.alpha * (carrying.rate + dot(&self.tip_slope, v));
+        let turning = self.payload_inertia * (carrying.acceleration + drag);
+        let right = self.pull(a, v, [stiffness, loss], &force, turning);
+        let acceleration = mass.factor().solve(&right);
+        let mut moment = turning + self.payload_inertia * dot(&self.tip_slope, &acceleration);
+        let mut shear = self.mass * points.root[1];
+        let mut tip = [self.radius, T::ZERO];
+        for p in 0..P {
+            let (sin, cos) = (points.sin[p], points.cos[p]);
+            let gained = dot(&self.slope[p], &acceleration);
+            // What that adds to the forces at all points together.
+            let [mut along, mut across] = [T::ZERO; 2];
+            for q in 0..P {
+                let pair = self.pairs[p.max(q)][p.min(q)];
+                along += pair * points.cos[q];
+                across += pair * points.sin[q];
+            }
+            moment += force[p] + gained * (cos * along + sin * across);
+            shear += self.first[p] * ((points.turn[p] + gained) * cos - points.spin[p] * sin);
+            tip[0] += self.to_tip[p] * cos;
+            tip[1] += self.to_tip[p] * sin;
+        }
+        let torque = self.torque(hub, &carrying, moment, shear);
+        Load { torque, moment, tip }
+    }
+
+    /// Torque of a moment at the clamp and a force across it.
+    #[inline(always)]
+    fn torque(&self, hub: &HubState<T>, carrying: &Carrying<T>, moment: T, shear: T) -> T {
+        if self.carried {
             shear + self.hub_inertia * (hub.acceleration + carrying.across)
         } else {
             moment + self.radius * shear + self.hub_inertia * hub.acceleration
-        };
-        Load { torque, moment, tip }
+        }
+    }
+
+    /// The right-hand side of `M ä`, `turning` being the payload's own moment but for `ä`.
+    #[inline(always)]
+    fn pull(
+        &self,
+        a: &[T; K],
+        v: &[T; K],
+        [stiffness, loss]: [&[T; K]; 2],
+        force: &[T; P],
+        turning: T,
+    ) -> [T; K] {
+        core::array::from_fn(|i| {
+            let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
+            for p in 0..P {
+                sum -= self.slope[p][i] * force[p];
+            }
+            sum
+        })
     }
 
     /// `∂Y/∂aₖ` of the straight link's tip, m.
     pub fn tip_swing(&self) -> [T; K] {
         array(|k| {
             let mut sum = T::ZERO;
-            for p in 0..POINTS {
+            for p in 0..P {
                 sum += self.to_tip[p] * self.slope[p][k];
             }
             sum
@@ -276,16 +365,16 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
         }
     }
 
-    fn points(&self, a: &[T; K], v: &[T; K], carrying: &Carrying<T>) -> Points<T> {
+    fn points(&self, a: &[T; K], v: &[T; K], carrying: &Carrying<T>) -> Points<T, P> {
         let mut points = Points {
-            sin: [T::ZERO; POINTS],
-            cos: [T::ZERO; POINTS],
-            spin: [T::ZERO; POINTS],
-            turn: [T::ZERO; POINTS],
+            sin: [T::ZERO; P],
+            cos: [T::ZERO; P],
+            spin: [T::ZERO; P],
+            turn: [T::ZERO; P],
             root: carrying.root,
         };
         let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
-        for p in 0..POINTS {
+        for p in 0..P {
             (points.sin[p], points.cos[p]) = (per_radian * dot(&self.slope[p], a)).sin_cos_turns();
             let rate = carrying.rate + dot(&self.slope[p], v);
             points.spin[p] = rate * rate;
@@ -296,7 +385,7 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
 
     /// Returns the force at each point by all the others and the clamp, and the mass matrix.
     #[inline(always)]
-    fn forces(&self, points: &Points<T>) -> ([T; POINTS], Band<T, K, K>) {
+    fn forces(&self, points: &Points<T, P>) -> ([T; P], Band<T, K, K>) {
         let Points { sin, cos, spin, turn, root } = points;
         let mut mass = Band::<T, K, K>::ZERO;
         for i in 0..K {
@@ -304,8 +393,8 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
                 mass.add(i, j, self.payload_inertia * self.tip_slope[i] * self.tip_slope[j]);
             }
         }
-        let mut force = [T::ZERO; POINTS];
-        for p in 0..POINTS {
+        let mut force = [T::ZERO; P];
+        for p in 0..P {
             force[p] +=
                 self.pairs[p][p] * turn[p] + self.first[p] * (cos[p] * root[1] - sin[p] * root[0]);
             for i in 0..K {
@@ -332,6 +421,38 @@ impl<T: Scalar, const K: usize> RodPoints<T, K> {
 }
 
 words! {
-    [T: Scalar, const K: usize] RodPoints<T, K>: pairs, first, slope, tip_slope, to_tip, radius, mass, gravity,
+    [T: Scalar, const K: usize, const P: usize] RodPoints<T, K, P>: pairs, first, slope, tip_slope, to_tip, radius, mass, gravity,
         direction, alpha, payload_inertia, hub_inertia, carried, carrier;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::RodPoints;
+    use crate::hub::{Angle, HubState};
+    use crate::model::Rod;
+    use crate::{Link, Scene};
+
+    /// One evaluation answers what two do, with everything that a scene can hold.
+    #[test]
+    fn an_answer_is_the_load_under_the_acceleration() {
+        let mut scene = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.04 });
+        (scene.payload.mass, scene.payload.inertia, scene.payload.offset) = (0.03, 1e-5, 0.02);
+        (scene.hub.radius, scene.hub.inertia) = (0.05, 2e-4);
+        (scene.damping.alpha, scene.gravity) = (0.3, 2.0);
+        let rod = Rod::<2>::new(&scene).expect("a rod");
+        let points = RodPoints::<f64, 2>::new(&scene, &rod);
+        let mut hub = HubState::turning(Angle::from_radians(0.7), 3.0);
+        hub.acceleration = -20.0;
+        (hub.sin, hub.cos) = hub.angle.sin_cos();
+        let (a, v) = ([0.02, -0.001], [0.3, 0.1]);
+        let stiffness = rod.frequency().map(|omega| omega * omega);
+        let loss = [0.5, 20.0];
+        let acceleration = points.acceleration(&a, &v, &hub, &stiffness, &loss);
+        let apart = points.load(&a, &v, &acceleration, &hub);
+        let once = points.answer(&a, &v, &hub, &stiffness, &loss);
+        let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-12 * y.abs().max(1.0), "{x} {y}");
+        near(once.torque, apart.torque);
+        near(once.moment, apart.moment);
+        assert_eq!(once.tip, apart.tip);
+    }
 }

@@ -45,6 +45,8 @@ pub(super) struct Case<'a, T, const K: usize> {
     pub length: f64,
     /// Residual that may be left; `None`: none.
     pub windows: Option<Windows>,
+    /// True if the acceleration begins and ends at zero.
+    pub smooth: bool,
     /// Quantity to be least where the duration is given.
     pub least: Option<Least>,
     /// Torque by an acceleration of 1 rad/s² on the arm at rest, `J − Σb²`, kg m².
@@ -95,7 +97,8 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
         let ramp = ramp + 0.5 * period;
         // With little time between them, two ramps are better as one curve.
         let cruise = (0.5 * (duration + 0.25 * period) > ramp).then_some(ramp);
-        let (limits, windows, least) = (*limits, None, None);
+        let (smooth, limits) = (limits.jerk.is_some(), *limits);
+        let (windows, least) = (None, None);
         Some(Self {
             arm,
             points,
@@ -105,6 +108,7 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
             cruise,
             rigid: duration,
             length,
+            smooth,
             windows,
             least,
             bare,
@@ -195,7 +199,7 @@ impl<'a, T: Scalar, const K: usize> Case<'a, T, K> {
             weights,
             count: each * self.modes(),
             roughness: T::from_f64(ROUGHNESS * (1.5 * self.period / trial.duration).min(1.0)),
-            smooth: self.limits.jerk.is_some(),
+            smooth: self.smooth,
             rows: self.rows(trial, &responses),
             offsets: trial.offsets,
             turn: T::from_f64(1.0 + BEYOND),

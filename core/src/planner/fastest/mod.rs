@@ -202,6 +202,7 @@ impl<T: Scalar, const K: usize> Planner<T, K> {
             case.limits = limits;
             case = case.lasting(duration, least);
         }
+        case.smooth |= request.eased;
         if residual > 0.0 {
             case.windows = Some(Windows::new(residual, self.spread()));
         }

@@ -2,6 +2,7 @@
 //! input shapers, the still move, the fastest move.
 
 pub mod cases;
+pub mod eased;
 pub mod gentle;
 pub mod interrupted;
 pub mod motions;

@@ -16,7 +16,7 @@ use stillbeam_sim::reference::rod;
 use super::cases::Case;
 
 /// Intervals of half a move on a target.
-const ON_TARGET: usize = 12;
+pub const ON_TARGET: usize = 12;
 
 /// Time for which a planner is run again and again, s.
 const MEASURED: f64 = 0.05;

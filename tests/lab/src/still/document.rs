@@ -8,6 +8,7 @@ use stillbeam::planner::{Planner, Request};
 use stillbeam::{Error as CoreError, Profile, Scene};
 
 use super::duration::durations;
+use crate::fastest::eased;
 use crate::markers::Block;
 use crate::table::aligned;
 use stillbeam_sim::error::Error;
@@ -65,6 +66,7 @@ pub fn compute(done: &(dyn Fn() + Sync)) -> Result<Document, Error> {
     }
     blocks.push(Block::new("robust", robust_table(done)?));
     blocks.push(Block::new("durations", duration_table(&arm, period)?));
+    blocks.push(eased::block()?);
     Ok(Document { blocks, moving })
 }
 

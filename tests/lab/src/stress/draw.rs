@@ -252,6 +252,7 @@ pub fn method_name(solver: &Solver) -> String {
         Method::Newmark => format!("newmark, {} {}", solver.elements, solver.mass.name()),
         Method::Modal => format!("modal, {}", solver.modes),
         Method::Elastica => format!("elastica, {} {}", solver.modes, solver.quality.name()),
+        Method::Pointwise => format!("pointwise, {}", solver.modes),
         Method::Auto => "auto".into(),
     }
 }

@@ -182,6 +182,7 @@ impl Group {
             (Method::Newmark, _) => Colour::Blue,
             (Method::Modal, _) => Colour::Purple,
             (Method::Elastica, _) => Colour::Green,
+            (Method::Pointwise, _) => Colour::Vermilion,
             (Method::Auto, _) => Colour::Sky,
         }
     }
