@@ -62,7 +62,7 @@ fn a_robust_move_leaves_what_it_may_in_the_rod() {
     let before = Case { arm: &arm, from: 0.0, steps: &[], shaper: None, tick: TICK };
     let (duration, robust) = (None, Some(0.2));
     let (from, to, settle, count) = (0.0, PI, 0.0, 1);
-    let options = Options { residual: Some(0.03), least: None };
+    let options = Options { residual: Some(0.03), ..Options::default() };
     let asked = Asked { before, limits, from, to, duration, robust, options, settle, count };
     let (plan, _) = asked.plan_fastest().expect("a search").expect("a move");
     assert!(plan.duration() < 2.0 * period, "{} of {period}", plan.duration());
