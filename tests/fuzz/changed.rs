@@ -75,7 +75,7 @@ impl Kept {
                 insert(bytes, place(at), &other[begin..end]);
             }
             Edit::Word(at, _) if self.words.is_empty() => insert(bytes, place(at), &[0; 4]),
-            Edit::Word(at, word) => insert(bytes, place(at), word.get(&self.words)),
+            Edit::Word(at, word) => insert(bytes, place(at), word.get::<Vec<u8>>(&self.words)),
         }
         bytes.truncate(LENGTH);
     }
