@@ -90,7 +90,7 @@ fn every_scene_runs_with_every_method() {
         cases.insert((case.scene, method));
     })
     .unwrap();
-    assert_eq!(methods.len(), 22);
+    assert_eq!(methods.len(), 23);
     let refused: Vec<_> = SCENES
         .iter()
         .flat_map(|run| methods.iter().map(|method| (run.name, *method)))

@@ -16,6 +16,7 @@ mod pass;
 mod path;
 mod peaks;
 mod plan;
+mod pointwise;
 mod prepared;
 mod remedy;
 mod sequence;

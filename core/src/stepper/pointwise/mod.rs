@@ -263,6 +263,3 @@ words! {
         most, compliance, per_omega, steps, part, length, per_tick, per_step, weighs, asleep, kink,
         kicks, gravity, tip_slope, tick, sag, flexibility;
 }
-
-#[cfg(test)]
-mod tests;

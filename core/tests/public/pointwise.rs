@@ -1,7 +1,8 @@
-use super::Pointwise;
-use crate::model::Rod;
-use crate::stepper::{Elastica, Quality};
-use crate::{Generator, Link, Move, Profile, Scene, Stepper};
+//! What `pointwise` resolves that `elastica` does not.
+
+use stillbeam::model::Rod;
+use stillbeam::stepper::{Elastica, Pointwise, Quality};
+use stillbeam::{Generator, Link, Move, Profile, Scene, Stepper};
 
 const PI: f64 = core::f64::consts::PI;
 
