@@ -115,12 +115,12 @@ fn comes_through(name: &str, body: Body, cases: u32) {
     run.unwrap_or_else(|error| panic!("{name}: {error}"));
 }
 
-/// A few seconds each.
+/// A second or two each.
 fn cases_of(name: &str) -> u32 {
     match name {
-        "scene" => 4_000,
-        "axis" => 20_000,
-        _ => 200_000,
+        "scene" => 2_000,
+        "axis" => 3_000,
+        _ => 20_000,
     }
 }
 
