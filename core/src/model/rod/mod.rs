@@ -8,6 +8,7 @@ mod points;
 mod polynomials;
 mod stations;
 mod varied;
+mod weights;
 
 pub(crate) use expansion::Expansion;
 pub use kinetics::Kinetics;

@@ -5,22 +5,11 @@
 //! two of them over the mass is a sum over pairs of points with constant weights `W_pq = ∫I_p I_q
 //! dm`, the payload included, `I_p` the integrals of the Lagrange polynomials.
 
-use super::polynomials::{legendre, rule};
-use super::varied::VariedLink;
-use super::{LINK_STATIONS, POINTS as FINE, Rod};
+use super::weights::{SIX, Weights};
+use super::{POINTS as FINE, Rod};
 use crate::hub::{GravityDirection, HubState};
 use crate::math::{Band, Each, Scalar, array, cast, dot, words};
-use crate::scene::{LinkShape, Scene, Varied};
-
-/// Gauss points for the planner: six follow moves that bend by a radian.
-const SIX: usize = 6;
-
-/// `(x, weight)` of the Gauss-Legendre rule on −1..1, upper half.
-const HALF_RULE: [(f64, f64); SIX / 2] = [
-    (0.238_619_186_083_196_9, 0.467_913_934_572_691),
-    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (0.932_469_514_203_152, 0.171_324_492_379_170_4),
-];
+use crate::scene::{LinkShape, Scene};
 
 /// Constants of a rod in `K` modes that do not depend on its stiffness.
 #[derive(Clone, Copy, Debug)]
@@ -81,89 +70,6 @@ pub(crate) struct Load<T> {
     pub moment: T,
     /// The tip in the hub frame, m.
     pub tip: [T; 2],
-}
-
-/// Integrals from the clamp by the values at the points, m, and the modes' slopes there.
-struct Weights<const K: usize, const P: usize> {
-    /// To the stations of the link.
-    link: [[f64; P]; LINK_STATIONS],
-    to_tip: [f64; P],
-    to_payload: [f64; P],
-    slope: [[f64; K]; P],
-}
-
-impl<const K: usize> Weights<K, SIX> {
-    /// Of the polynomial through the points.
-    fn uniform(rod: &Rod<K>, offset: f64) -> Self {
-        let length = rod.scene().link.length;
-        let at = places();
-        // Of the interpolation through the points: Σ (2j + 1) w_p P_j(ξ_p) ∫₀^ξ P_j.
-        let integral = |p: usize, xi: f64| -> f64 {
-            let (here, there) = (legendre::<{ SIX + 1 }>(at[p].0), legendre::<{ SIX + 1 }>(xi));
-            let sum: f64 = (0..SIX)
-                .map(|j| match j {
-                    0 => xi,
-                    _ => here[j] * 0.5 * (there[j + 1] - there[j - 1]),
-                })
-                .sum();
-            length * at[p].1 * sum
-        };
-        let end = |p: usize| -> f64 {
-            let here = legendre::<SIX>(at[p].0);
-            at[p].1 * (0..SIX).map(|j| (2 * j + 1) as f64 * here[j]).sum::<f64>()
-        };
-        let mut link = [[0.0; SIX]; LINK_STATIONS];
-        for (row, &xi) in link.iter_mut().zip(&rule().0) {
-            *row = array(|p| integral(p, xi));
-        }
-        let to_tip: [f64; SIX] = array(|p| integral(p, 1.0));
-        Self {
-            link,
-            to_tip,
-            to_payload: array(|p| to_tip[p] + offset * end(p)),
-            slope: at.each(|(xi, _)| rod.slopes_at(xi)),
-        }
-    }
-
-    /// Of the space that a constant and the rod's angles span: the rod's own eight points see in it
-    /// what they see in their own.
-    fn varied(rod: &Rod<K>, shape: &Varied, mass: f64) -> Self {
-        let length = rod.scene().link.length;
-        let link = VariedLink::<{ SIX - 1 }>::new(shape, mass);
-        let (to_points, from_points) = link.coarse(&places().map(|(xi, _)| xi));
-        let stations = rod.stations();
-        let row = |fine: &[f64; FINE]| -> [f64; SIX] {
-            array(|p| length * (0..FINE).map(|q| fine[q] * from_points[q][p]).sum::<f64>())
-        };
-        Self {
-            link: stations.running.each(|fine| row(&fine)),
-            to_tip: row(&stations.to_tip),
-            to_payload: row(&stations.to_payload),
-            slope: to_points.each(|at| array(|k| dot(&at, &rod.slope()[k]))),
-        }
-    }
-}
-
-/// `(ξ, weight)` of the points on 0..1.
-fn places() -> [(f64, f64); SIX] {
-    array(|p| {
-        let (x, weight) = HALF_RULE[p % (SIX / 2)];
-        (0.5 * (1.0 + if p < SIX / 2 { x } else { -x }), 0.5 * weight)
-    })
-}
-
-impl<const K: usize> Weights<K, FINE> {
-    /// Of the rod's own points.
-    fn fine(rod: &Rod<K>) -> Self {
-        let (length, stations) = (rod.scene().link.length, rod.stations());
-        let row = |row: &[f64; FINE]| row.map(|weight| length * weight);
-        Self {
-            link: stations.running.map(|running| row(&running)),
-            to_tip: row(&stations.to_tip),
-            to_payload: row(&stations.to_payload),
-            slope: core::array::from_fn(|p| core::array::from_fn(|k| rod.slope()[k][p])),
-        }
-    }
 }
 
 impl<T: Scalar, const K: usize> RodPoints<T, K> {
@@ -326,7 +232,7 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
         force: &[T; P],
         turning: T,
     ) -> [T; K] {
-        core::array::from_fn(|i| {
+        array(|i| {
             let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
             for p in 0..P {
                 sum -= self.slope[p][i] * force[p];
