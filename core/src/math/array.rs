@@ -10,10 +10,13 @@
 
 use super::{Complex, Scalar};
 
-/// What stands in an array until its elements are computed.
+/// A value for elements that are not computed yet.
 pub(crate) trait Blank: Copy {
     /// Any value.
-    #[cfg_attr(not(any(unix, windows)), allow(dead_code))]
+    #[cfg_attr(
+        not(any(unix, windows)),
+        allow(dead_code, reason = "the standard functions need none")
+    )]
     const BLANK: Self;
 }
 

@@ -126,6 +126,12 @@ fn sleep_floor<T: Scalar>(length: f64, tip: f64) -> T {
     T::from_f64(SLEEP * length / tip.abs())
 }
 
+/// Checks the tip angle, rad, that a move bends a link by.
+pub(crate) fn check_bend(bend: f64, max: f64) -> Result<(), Error> {
+    // The peak of a curve is right to 1e-4, wherever it was computed.
+    if bend <= max * (1.0 + 2e-4) { Ok(()) } else { Err(Error::BendsTooFar { bend, max }) }
+}
+
 /// The tick length if it is one: 1 µs to 1 s.
 pub(crate) fn check_tick(tick: f64) -> Result<f64, Error> {
     Error::check("solver.tick", tick, 1e-6, 1.0, "s")

@@ -203,12 +203,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         let fastest = Self::HELD / self.tick;
         Error::check("move.rate", held, -fastest, fastest, "rad/s")?;
         let bend = self.sag + self.flexibility * peaks.acceleration;
-        // The peak of a curve is right to 1e-4, wherever it was computed.
-        if bend <= self.bend * (1.0 + 2e-4) {
-            Ok(())
-        } else {
-            Err(Error::BendsTooFar { bend, max: self.bend })
-        }
+        super::check_bend(bend, self.bend)
     }
 
     fn equilibrium(&self, hub: &HubState<T>) -> ElasticaState<T, K> {

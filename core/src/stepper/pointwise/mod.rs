@@ -7,7 +7,7 @@ use super::oscillator::kick;
 use super::{FastPaths, HubMotion, KinkMoments, Oscillator, Response, Stepper};
 use crate::Error;
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Scalar, cast, dot, words};
+use crate::math::{Each, Scalar, array, cast, clip, dot, words};
 use crate::model::{POINTS, Rod, RodPoints};
 use crate::motion::Peaks;
 use crate::scene::{LinkShape, Scene};
@@ -114,27 +114,21 @@ impl<T: Scalar, const K: usize> Pointwise<T, K> {
         Ok(Self {
             points,
             modes: core::array::from_fn(|k| Oscillator::new(omega[k], alpha, beta[k], b[k], step)),
-            stiffness: cast(&omega.map(|w| w * w)),
-            loss: core::array::from_fn(|k| f(beta[k] * omega[k] * omega[k])),
+            stiffness: cast(&omega.each(|w| w * w)),
+            loss: array(|k| f(beta[k] * omega[k] * omega[k])),
             coupling: cast(&b),
             alpha: f(alpha),
-            most: core::array::from_fn(
-                |k| f(MOST * omega[k] * omega[k] / rod.tip_slope()[k].abs()),
-            ),
-            compliance: cast(&omega.map(|w| 1.0 / (w * w))),
-            per_omega: cast(&omega.map(|w| 1.0 / w)),
+            most: array(|k| f(MOST * omega[k] * omega[k] / rod.tip_slope()[k].abs())),
+            compliance: cast(&omega.each(|w| 1.0 / (w * w))),
+            per_omega: cast(&omega.each(|w| 1.0 / w)),
             steps: steps as u32,
             part: f(1.0 / steps),
             length: f(tick),
             per_tick: f(1.0 / tick),
             per_step: f(1.0 / step),
             weighs: rod.scene().in_plane_gravity() != 0.0 && !rod.scene().mount.is_linear(),
-            asleep: core::array::from_fn(|k| {
-                super::sleep_floor::<T>(rod.scene().link.length, rod.tip_swing()[k])
-            }),
-            kink: core::array::from_fn(|k| {
-                kick::<f64>(omega[k], alpha, beta[k], b[k], tick).map(f)
-            }),
+            asleep: array(|k| super::sleep_floor::<T>(rod.scene().link.length, rod.tip_swing()[k])),
+            kink: array(|k| kick::<f64>(omega[k], alpha, beta[k], b[k], tick).each(f)),
             kicks: core::array::from_fn(|k| Kicks::new(omega[k], alpha, beta[k], b[k], tick)),
             gravity: rod.scene().gravity_direction(),
             tip_slope: cast(rod.tip_slope()),
@@ -155,11 +149,11 @@ impl<T: Scalar, const K: usize> Pointwise<T, K> {
     fn excess(&self, a: &[T; K], v: &[T; K], hub: &HubState<T>) -> [T; K] {
         let exact = self.points.acceleration(a, v, hub, &self.stiffness, &self.loss);
         let drive = hub.acceleration + self.alpha * hub.rate;
-        core::array::from_fn(|k| {
+        array(|k| {
             let linear = self.stiffness[k] * a[k]
                 + (self.alpha + self.loss[k]) * v[k]
                 + self.coupling[k] * drive;
-            crate::math::clip(exact[k] + linear, self.most[k])
+            clip(exact[k] + linear, self.most[k])
         })
     }
 }
@@ -190,11 +184,7 @@ impl<T: Scalar, const K: usize> Stepper for Pointwise<T, K> {
         let fastest = Self::HELD * f64::from(self.steps) / self.tick;
         Error::check("move.rate", held, -fastest, fastest, "rad/s")?;
         let bend = self.sag + self.flexibility * peaks.acceleration;
-        if bend <= Self::BEND * (1.0 + 2e-4) {
-            Ok(())
-        } else {
-            Err(Error::BendsTooFar { bend, max: Self::BEND })
-        }
+        super::check_bend(bend, Self::BEND)
     }
 
     fn equilibrium(&self, hub: &HubState<T>) -> PointwiseState<T, K> {
