@@ -44,7 +44,7 @@ fn edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// What edits are made from.
+/// Kept inputs of a target, and words for edits.
 struct Kept {
     inputs: Vec<Vec<u8>>,
     words: Vec<Vec<u8>>,

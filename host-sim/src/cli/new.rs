@@ -9,6 +9,7 @@ use dialoguer::{Input, Select};
 use stillbeam::material::MATERIALS;
 use stillbeam_sim::arm::describe;
 use stillbeam_sim::error::Error;
+use stillbeam_sim::number::short_percent;
 use stillbeam_sim::output::write_whole;
 use stillbeam_sim::println;
 use stillbeam_sim::scene_file::SceneFile;
@@ -68,10 +69,10 @@ impl NewArgs {
         super::arm::print(&report);
         for (index, doubt) in doubts.iter().enumerate() {
             println!(
-                "  {:<10} {} moves the first frequency by {} %",
+                "  {:<10} {} moves the first frequency by {}",
                 if index == 0 { "in doubt" } else { "" },
                 doubt.what,
-                significant(100.0 * doubt.shift, 2)
+                short_percent(doubt.shift, 2)
             );
         }
         if !doubts.is_empty() {
