@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use stillbeam::Scene;
-use stillbeam::hub::HubState;
+use stillbeam::hub::{GravityDirection, HubState};
 
 /// Motion of the clamp and load of gravity at one instant, in hub axes.
 ///
@@ -21,19 +21,40 @@ pub(super) struct Carrying {
     pub weight: [f64; 2],
 }
 
-impl Carrying {
-    /// The motion at an instant of a hub whose `sin` and `cos` are those of θ.
-    pub fn of(scene: &Scene, hub: &HubState<f64>) -> Self {
-        let gravity = scene.in_plane_gravity();
-        let (sin, cos) = scene.gravity_direction().seen_from(hub);
-        let weight = [gravity * sin, gravity * cos];
-        let (rate, acceleration) = (hub.rate, hub.acceleration);
-        if scene.mount.is_linear() {
-            let (velocity, push) = (rate, acceleration);
-            return Self { rate: 0.0, acceleration: 0.0, velocity, push, weight };
+/// What carries the link, and gravity: all of a scene that [`Carrying`] takes, looked up once.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Carrier {
+    /// Acceleration of gravity in the plane, m/s², and its direction.
+    gravity: f64,
+    direction: GravityDirection<f64>,
+    /// True of a carriage.
+    is_linear: bool,
+    /// Rate of the carrier that turns the hub's axis along, rad/s.
+    rate: f64,
+}
+
+impl Carrier {
+    /// The carrier of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            gravity: scene.in_plane_gravity(),
+            direction: scene.gravity_direction(),
+            is_linear: scene.mount.is_linear(),
+            rate: scene.mount.carrier,
         }
-        let rate = rate + scene.mount.carrier;
-        Self { rate, acceleration, velocity: 0.0, push: 0.0, weight }
+    }
+
+    /// The motion at an instant of a hub whose `sin` and `cos` are those of θ.
+    pub fn carrying(&self, hub: &HubState<f64>) -> Carrying {
+        let (sin, cos) = self.direction.seen_from(hub);
+        let weight = [self.gravity * sin, self.gravity * cos];
+        let (rate, acceleration) = (hub.rate, hub.acceleration);
+        if self.is_linear {
+            let (velocity, push) = (rate, acceleration);
+            return Carrying { rate: 0.0, acceleration: 0.0, velocity, push, weight };
+        }
+        let rate = rate + self.rate;
+        Carrying { rate, acceleration, velocity: 0.0, push: 0.0, weight }
     }
 }
 

@@ -4,13 +4,14 @@ use nalgebra::{Cholesky, SMatrix, SVector};
 use stillbeam::Scene;
 use stillbeam::hub::HubState;
 
-use super::super::carrying::Carrying;
+use super::super::carrying::{Carrier, Carrying};
 use super::legendre::{Basis, POINTS, STATIONS, VARIED_POINTS, VARIED_STATIONS};
 
 /// A rod with N unknowns: the relative angle is `φ(x, t) = Σ aₖ(t) ψₖ(x)`, a point of the link at
 /// hub-frame `X = r + ∫₀ˣ cos φ`, `Y = ∫₀ˣ sin φ`. P points, S stations.
 pub(super) struct Rod<const N: usize, const P: usize, const S: usize> {
     pub scene: Scene,
+    carrier: Carrier,
     /// Masses at the stations, kg.
     pub masses: [f64; S],
     /// `ψₖ` at the points, and shape by shape; at the tip.
@@ -62,6 +63,7 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         let joint = scene.damping.joint;
         Self {
             scene: *scene,
+            carrier: Carrier::of(scene),
             masses,
             shapes,
             by_shape: transposed(&shapes),
@@ -159,10 +161,9 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
 
     /// Returns the absolute acceleration of a station in hub axes without the part due to ä, m/s².
     /// Drag and weight count as accelerations.
-    fn bias(&self, at: &Configuration<P, S>, s: usize, hub: &HubState<f64>) -> [f64; 2] {
+    fn bias(&self, at: &Configuration<P, S>, s: usize, carrying: &Carrying) -> [f64; 2] {
         let [x, y, xd, yd, cx, cy] = at.stations.map(|quantity| quantity[s]);
-        let Carrying { rate, acceleration, velocity, push, weight } =
-            Carrying::of(&self.scene, hub);
+        let Carrying { rate, acceleration, velocity, push, weight } = *carrying;
         let alpha = self.scene.damping.alpha;
         [
             cx - 2.0 * rate * yd - acceleration * y - rate * rate * x
@@ -199,7 +200,8 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         hub: &HubState<f64>,
     ) -> SVector<f64, N> {
         let tip = &self.tip;
-        let turning = self.turning(v, hub);
+        let carrying = self.carrier.carrying(hub);
+        let turning = self.turning(v, &carrying);
         let beta = self.scene.damping.beta;
         let bent = self.stiffness * (a + beta * v);
         let mut force = SVector::<f64, N>::from_fn(|k, _| {
@@ -211,7 +213,7 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         // What the stations outboard of a point weigh on its angle.
         let (mut along, mut across) = ([0.0; P], [0.0; P]);
         for s in 0..S {
-            let [x, y] = self.bias(at, s, hub).map(|bias| self.masses[s] * bias);
+            let [x, y] = self.bias(at, s, &carrying).map(|bias| self.masses[s] * bias);
             for p in 0..P {
                 along[p] += self.by_station[s][p] * x;
                 across[p] += self.by_station[s][p] * y;
@@ -233,11 +235,10 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
 
     /// Returns `αΣψⱼ(L)ȧⱼ + θ̈ + αθ̇`: the payload's angular acceleration without the part due to
     /// ä, drag included.
-    fn turning(&self, v: &SVector<f64, N>, hub: &HubState<f64>) -> f64 {
+    fn turning(&self, v: &SVector<f64, N>, carrying: &Carrying) -> f64 {
         let alpha = self.scene.damping.alpha;
         let spin: f64 = (0..N).map(|k| self.tip[k] * v[k]).sum();
-        let Carrying { rate, acceleration, .. } = Carrying::of(&self.scene, hub);
-        alpha * (spin + rate) + acceleration
+        alpha * (spin + carrying.rate) + carrying.acceleration
     }
 
     /// Returns the hub torque and the bending moment at the clamp, N m. On a linear axis the first
@@ -253,14 +254,15 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         hub: &HubState<f64>,
     ) -> [f64; 2] {
         let tip = &self.tip;
+        let carrying = self.carrier.carrying(hub);
         let spin: f64 = (0..N).map(|k| tip[k] * acceleration[k]).sum();
-        let mut moment = self.scene.payload.inertia * (spin + self.turning(v, hub));
+        let mut moment = self.scene.payload.inertia * (spin + self.turning(v, &carrying));
         let mut shear = 0.0;
         let bent = self.at_points(acceleration);
         let along = self.integral(&std::array::from_fn(|p| -bent[p] * at.sin[p]));
         let across = self.integral(&std::array::from_fn(|p| bent[p] * at.cos[p]));
         for s in 0..S {
-            let [ax, ay] = self.bias(at, s, hub);
+            let [ax, ay] = self.bias(at, s, &carrying);
             let (ax, ay) = (ax + along[s], ay + across[s]);
             let (x, y) = (at.stations[0][s], at.stations[1][s]);
             moment += self.masses[s] * ((x - self.scene.hub.radius) * ay - y * ax);
@@ -268,7 +270,7 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         }
         let own = self.scene.hub.inertia;
         let torque = if self.scene.mount.is_linear() {
-            shear + own * (hub.acceleration + Carrying::of(&self.scene, hub).weight[1])
+            shear + own * (hub.acceleration + carrying.weight[1])
         } else {
             moment + self.scene.hub.radius * shear + own * hub.acceleration
         };
