@@ -136,6 +136,20 @@ methods! {
     Pointwise3: "pointwise", 3, "", "", None, Pointwise<f32, 3>, |s, h| Pointwise::new(s, h);
 }
 
+/// Shows the visitor one method of each kind, in the order of the list: enough for a processor that
+/// computes in software, where every method is made of the same few routines.
+pub fn visit_some(visitor: &mut impl Visitor) {
+    visitor.visit::<RigidArm>();
+    visitor.visit::<Newmark1>();
+    visitor.visit::<Newmark1Nodal>();
+    visitor.visit::<Newmark4>();
+    visitor.visit::<Lumped2>();
+    visitor.visit::<Modal2>();
+    visitor.visit::<Elastica2>();
+    visitor.visit::<Elastica2Fine>();
+    visitor.visit::<Pointwise3>();
+}
+
 /// In whose precision the consistent models are set up: a tenth of the instructions of f64, and no
 /// less exact than a tick in f32 is anyway. Lumped masses and modes take f64.
 fn single<S: LinkShape>(scene: &Scene<f64, S>) -> Scene<f32, S> {

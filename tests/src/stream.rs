@@ -2,8 +2,9 @@
 
 use std::fmt;
 
+use stillbeam::{Error, Setpoint};
 use stillbeam_golden::record::{self, BYTES, FIELDS};
-use stillbeam_golden::{Case, run};
+use stillbeam_golden::{Case, run, run_some};
 
 /// First difference between host and target.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,6 +57,28 @@ impl fmt::Display for Mismatch {
     }
 }
 
+/// Takes the setpoints of a run.
+pub type Sink<'a> = dyn FnMut(&Case, u32, &Setpoint<f32>) + 'a;
+
+/// The run of the host that a target's is compared with.
+pub type Run = fn(&mut Sink<'_>) -> Result<u32, Error>;
+
+/// The run of every method. With one kind of sink for all: each method is then compiled once.
+///
+/// # Errors
+/// Errors are those of [`run`].
+pub fn every_method(sink: &mut Sink<'_>) -> Result<u32, Error> {
+    run(sink)
+}
+
+/// The run of a processor that computes in software.
+///
+/// # Errors
+/// Errors are those of [`run`].
+pub fn some_methods(sink: &mut Sink<'_>) -> Result<u32, Error> {
+    run_some(sink)
+}
+
 /// Amount that was compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Agreement {
@@ -65,25 +88,12 @@ pub struct Agreement {
     pub setpoints: usize,
 }
 
-/// Returns the host's own stream.
-///
-/// # Panics
-/// Panics if the core refuses an embedded scene.
-pub fn host() -> Vec<u8> {
-    let mut bytes = Vec::new();
-    run(&mut |case, tick, setpoint| {
-        bytes.extend(record::encode(record::stamp(case.index, tick), setpoint));
-    })
-    .expect("every embedded scene is accepted");
-    bytes
-}
-
 /// Steps every case on the host and compares it with the target's stream. The sign of a NaN, which
 /// differs between processors, is left out. Every other bit of every field counts.
 ///
 /// # Errors
 /// An error is returned with the first difference.
-pub fn compare(target: &[u8]) -> Result<Agreement, Mismatch> {
+pub fn compare(target: &[u8], run: Run) -> Result<Agreement, Mismatch> {
     let mut records = target.chunks_exact(BYTES);
     let mut setpoints = 0;
     let mut mismatch = None;

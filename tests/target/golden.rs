@@ -36,12 +36,14 @@ fn the_embedded_scenes_are_those_of_the_scene_files() {
 
 #[test]
 fn every_bit_of_every_setpoint_agrees() {
-    let agreement = stream::compare(target()).unwrap_or_else(|mismatch| panic!("{mismatch}"));
+    let agreement = stream::compare(target(), stream::every_method)
+        .unwrap_or_else(|mismatch| panic!("{mismatch}"));
     println!("{agreement:?}");
     assert!(agreement.setpoints > 50_000, "{agreement:?}");
 }
 
-/// Without floating-point unit the same bits are computed in software.
+/// Without floating-point unit the same bits are computed in software. Here and on the next two
+/// one method of each kind runs: software adds and multiplies alike in all of them.
 #[test]
 fn a_cortex_m3_gives_the_same_bits() {
     every_bit_agrees(Board::An385, firmware::build_soft("golden"));
@@ -63,8 +65,9 @@ fn every_bit_agrees(board: Board, image: Result<PathBuf, String>) {
     let image = image.unwrap_or_else(|error| panic!("{error}"));
     let stream = emulator::run_on(board, &image, Clock::Host, LIMIT);
     let stream = stream.unwrap_or_else(|error| panic!("{error}"));
-    let agreement = stream::compare(&stream).unwrap_or_else(|mismatch| panic!("{mismatch}"));
-    assert!(agreement.setpoints > 50_000, "{agreement:?}");
+    let agreement = stream::compare(&stream, stream::some_methods)
+        .unwrap_or_else(|mismatch| panic!("{mismatch}"));
+    assert!(agreement.setpoints > 20_000, "{agreement:?}");
 }
 
 /// A rotary inertia of the payload asks for another lumped type; whichever it is, each scene runs
@@ -76,7 +79,7 @@ fn every_scene_runs_with_every_method() {
     let mut cases = BTreeSet::new();
     let mut planned = BTreeSet::new();
     let mut motions = [0; MOTIONS.len()];
-    let count = stillbeam_golden::run(&mut |case, tick, _| {
+    let count = stream::every_method(&mut |case, tick, _| {
         if let Some(motion) = MOTIONS.iter().position(|name| *name == case.method) {
             motions[motion] = tick + 1;
             return;
@@ -115,7 +118,7 @@ fn one_flipped_bit_is_found() {
         let mut stream = whole.to_vec();
         let byte = record * BYTES + 4 + 4 * field + bit / 8;
         stream[byte] ^= 1 << (bit % 8);
-        match stream::compare(&stream) {
+        match stream::compare(&stream, stream::every_method) {
             Err(mismatch @ Mismatch::Field { field: found, host, target, .. }) => {
                 assert_eq!(found, FIELDS[field]);
                 assert_eq!(host ^ target, 1 << bit);
@@ -130,7 +133,10 @@ fn one_flipped_bit_is_found() {
 fn a_missing_setpoint_is_found() {
     let whole = target();
     let short = &whole[..whole.len() - BYTES];
-    assert!(matches!(stream::compare(short), Err(Mismatch::Length { .. })));
+    assert!(matches!(stream::compare(short, stream::every_method), Err(Mismatch::Length { .. })));
     let shifted = &whole[BYTES..];
-    assert!(matches!(stream::compare(shifted), Err(Mismatch::OutOfStep { tick: 0, .. })));
+    assert!(matches!(
+        stream::compare(shifted, stream::every_method),
+        Err(Mismatch::OutOfStep { tick: 0, .. })
+    ));
 }

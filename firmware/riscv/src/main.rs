@@ -1,11 +1,11 @@
-//! Steps every scene with every method and streams every setpoint's bits to the host, as the
-//! firmware's program `golden` does, on RV32IMAC: QEMU's machine `virt`.
+//! Steps every scene with one method of each kind and streams every setpoint's bits to the host, as
+//! the firmware's program `golden` does, on RV32IMAC: QEMU's machine `virt`.
 #![no_std]
 #![no_main]
 
 use semihosting::io::{self, Stdout, Write};
 use semihosting::process;
-use stillbeam_golden::{record, run};
+use stillbeam_golden::{record, run_some};
 
 /// Records that are sent at once: a call of the host stops the machine.
 const RECORDS: usize = 512;
@@ -46,7 +46,7 @@ impl Stream {
 fn main() -> ! {
     let out = io::stdout().expect("standard output by semihosting");
     let mut stream = Stream { out, buffer: [0; RECORDS * record::BYTES], filled: 0 };
-    run(&mut |case, tick, setpoint| {
+    run_some(&mut |case, tick, setpoint| {
         stream.put(&record::encode(record::stamp(case.index, tick), setpoint));
     })
     .expect("every embedded scene is accepted");

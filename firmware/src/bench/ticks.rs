@@ -11,7 +11,12 @@ use stillbeam::{
     Stepper, UniformScene,
 };
 use stillbeam_firmware::counter::{Counter, Stopwatch};
-use stillbeam_golden::methods::{Method, Visitor, visit_all};
+#[cfg(target_abi = "eabihf")]
+use stillbeam_golden::methods::visit_all;
+// Without an FPU one of each kind.
+#[cfg(not(target_abi = "eabihf"))]
+use stillbeam_golden::methods::visit_some as visit_all;
+use stillbeam_golden::methods::{Method, Visitor};
 use stillbeam_golden::paths::PATHS;
 
 const TICK: f64 = 0.010;

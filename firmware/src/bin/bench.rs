@@ -11,10 +11,13 @@ use semihosting::process::ExitCode;
 use stillbeam_firmware::counter::{Chosen, Counter, Stopwatch};
 use stillbeam_firmware::output::Output;
 
+// Plans and changes are counted with an FPU only.
+#[cfg(target_abi = "eabihf")]
 #[path = "../bench/changes.rs"]
 mod changes;
 #[path = "../bench/functions.rs"]
 mod functions;
+#[cfg(target_abi = "eabihf")]
 #[path = "../bench/plans.rs"]
 mod plans;
 #[path = "../bench/ticks.rs"]
@@ -29,8 +32,11 @@ fn main() -> ! {
     let watch = Stopwatch::<Chosen>::start();
     writeln!(output, "unit,{}", Chosen::UNIT).expect("the host takes the lines");
     ticks::print(&watch, &mut output);
-    plans::print(&watch, &mut output);
-    changes::print(&watch, &mut output);
+    #[cfg(target_abi = "eabihf")]
+    {
+        plans::print(&watch, &mut output);
+        changes::print(&watch, &mut output);
+    }
     functions::print(&watch, &mut output);
     output.flush().expect("the host takes the lines");
     ExitCode::SUCCESS.exit_process()

@@ -6,7 +6,7 @@ use stillbeam::prepared::{Prepare, Prepared};
 use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Angle, Error, Generator, Setpoint};
 
-use crate::methods::{Method, Visitor, visit_all};
+use crate::methods::{Method, Visitor, visit_all, visit_some};
 use crate::motions::{self, MOTIONS};
 use crate::scenes::{Run, SCENES};
 
@@ -40,22 +40,33 @@ pub struct Case {
 /// is.
 pub fn run<F>(sink: &mut F) -> Result<u32, Error>
 where
-    F: FnMut(&Case, u32, &Setpoint<f32>),
+    F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
 {
     let mut runner = Runner { sink, cases: 0, result: Ok(()) };
     visit_all(&mut runner);
-    runner.stills();
-    runner.motions();
-    runner.result.map(|()| runner.cases)
+    runner.end()
 }
 
-struct Runner<'a, F> {
+/// Runs as [`run`] does one method of each kind, for processors that compute in software.
+///
+/// # Errors
+/// Errors are those of [`run`].
+pub fn run_some<F>(sink: &mut F) -> Result<u32, Error>
+where
+    F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
+{
+    let mut runner = Runner { sink, cases: 0, result: Ok(()) };
+    visit_some(&mut runner);
+    runner.end()
+}
+
+struct Runner<'a, F: ?Sized> {
     sink: &'a mut F,
     cases: u32,
     result: Result<(), Error>,
 }
 
-impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Visitor for Runner<'_, F> {
+impl<F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized> Visitor for Runner<'_, F> {
     fn visit<M: Method>(&mut self) {
         for scene in SCENES.iter().filter(|run| M::fits(&run.scene)) {
             let case = Case {
@@ -107,7 +118,14 @@ pub const MOTION_SCENE: &str = "d-tip30";
 /// Arms whose moves are planned anew, still, and are changed half-way.
 pub const STILL_SCENES: [&str; 4] = ["d-fast", "a-tip30", "b-tip30-damped-hub", "s-gravity"];
 
-impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Runner<'_, F> {
+impl<F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized> Runner<'_, F> {
+    /// What comes behind the methods.
+    fn end(mut self) -> Result<u32, Error> {
+        self.stills();
+        self.motions();
+        self.result.map(|()| self.cases)
+    }
+
     /// Plans made where they run: every bit of them is in the setpoints.
     fn stills(&mut self) {
         for scene in SCENES.iter().filter(|run| STILL_SCENES.contains(&run.name)) {
@@ -124,9 +142,7 @@ impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Runner<'_, F> {
             self.result = self.result.and(result);
         }
     }
-}
 
-impl<F: FnMut(&Case, u32, &Setpoint<f32>)> Runner<'_, F> {
     fn motions(&mut self) {
         for motion in MOTIONS {
             for scene in SCENES.iter().filter(|run| run.name == MOTION_SCENE) {
