@@ -52,15 +52,7 @@ pub const PAGES: [Page; 6] = [
     Page { path: "docs/accuracy.md", blocks: &["accuracy", "torque"], source: Source::Tables },
     Page {
         path: "docs/still.md",
-        blocks: &[
-            "residual",
-            "contest-1.5",
-            "contest-2",
-            "contest-3",
-            "robust",
-            "durations",
-            "fastest-eased",
-        ],
+        blocks: &["residual", "contest-1.5", "contest-2", "robust", "durations", "fastest-eased"],
         source: Source::Still,
     },
     Page {
