@@ -157,7 +157,7 @@ fn intervals() -> impl Strategy<Value = u32> {
 /// with those that were missed, no fewer.
 #[test]
 fn the_path_runs_neither_ahead_of_time_nor_behind_it() {
-    proptest!(ProptestConfig::with_cases(2_000), |(
+    proptest!(ProptestConfig::with_cases(300), |(
         start in any::<u32>(),
         intervals in prop::collection::vec(intervals(), 1..300),
     )| {

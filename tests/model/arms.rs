@@ -42,13 +42,18 @@ struct Featured {
     truth: Vec<Sample>,
 }
 
+/// Features that a slow arm under a heavy payload shows beside those of the other scenes.
+const SLOW: [&str; 3] = ["offset", "all", "all, damped joint"];
+
 /// The scenes with every feature. They are solved once for all tests.
 fn every_feature() -> &'static [Featured] {
     static SOLVED: OnceLock<Vec<Featured>> = OnceLock::new();
     SOLVED.get_or_init(|| {
         let of = |scene| {
             let file = scenes::open(scene).expect("a scene");
-            featured(&file.arm).into_iter().map(move |(feature, arm)| {
+            let shown =
+                move |(feature, _): &(&str, Scene)| scene != "a-tip30" || SLOW.contains(feature);
+            featured(&file.arm).into_iter().filter(shown).map(move |(feature, arm)| {
                 let file = with(&file, arm);
                 let truth = by_rod(&file);
                 Featured { scene, feature, file, truth }
@@ -63,7 +68,7 @@ fn every_feature() -> &'static [Featured] {
 fn rod_and_elements_agree_on_every_feature() {
     for Featured { scene, feature, file, truth } in every_feature() {
         let options = match *scene {
-            "d-fast" => fem::Options::default(),
+            "d-fast" => fem::Options { elements: 16, ..Default::default() },
             _ => fem::Options { elements: 16, step: Some(2e-3), ..Default::default() },
         };
         let trajectory = file.trajectory(TICK).expect("a motion");
