@@ -21,7 +21,7 @@ pub(crate) use gauss::{GAUSS_POINTS, gauss_points, polynomial};
 pub(crate) use jacobi::generalized_eigen;
 pub(crate) use least_squares::LeastSquares;
 pub(crate) use principal::{principal_axes, root};
-pub(crate) use propagator::{Matrix2, phi_functions, product};
+pub(crate) use propagator::{Functions, Matrix2, phi_functions};
 pub use scalar::Scalar;
 pub use words::Words;
 pub(crate) use words::{layout_of, mix, named, words};
