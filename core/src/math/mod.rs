@@ -19,7 +19,7 @@ pub use band::{Band, HalfForm, Ldl};
 pub(crate) use complex::Complex;
 pub(crate) use gauss::{GAUSS_POINTS, gauss_points, polynomial};
 pub(crate) use jacobi::generalized_eigen;
-pub(crate) use least_squares::LeastSquares;
+pub(crate) use least_squares::{LeastSquares, Normal};
 pub(crate) use principal::{principal_axes, root};
 pub(crate) use propagator::{Functions, Matrix2, phi_functions};
 pub use scalar::Scalar;

@@ -76,7 +76,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         let alpha = rod.scene().damping.alpha;
         let beta = rod.stiffness_damping();
         let omega = *rod.frequency();
-        let coupling = rod.kinetics(&[0.0; K]).coupling;
+        let coupling = rod.straight().coupling;
         let tip_per_mode = |k: usize| rod.tip_swing()[k] / rod.scene().link.length;
         let f = T::from_f64;
         Ok(Self {
