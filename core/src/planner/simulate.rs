@@ -214,18 +214,6 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         flex: &ArmState<T, K>,
         hub: &HubState<T>,
     ) -> Load<T> {
-        let ArmState { coordinate, rate } = flex;
-        let acceleration = points.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
-        points.load(coordinate, rate, &acceleration, hub)
-    }
-
-    /// The same but for rounding, in half the work.
-    pub fn answer(
-        &self,
-        points: &RodPoints<T, K>,
-        flex: &ArmState<T, K>,
-        hub: &HubState<T>,
-    ) -> Load<T> {
         points.answer(&flex.coordinate, &flex.rate, hub, &self.stiffness, &self.loss)
     }
 

@@ -265,7 +265,7 @@ fn inverse<const N: usize>(mut a: [[f64; N]; N]) -> [[f64; N]; N] {
 }
 
 /// `B` of `BBᵀ = A`, a lower triangle. What rounding has left of a positive pivot is none.
-fn triangle<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
+pub(super) fn triangle<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
     let mut b = [[0.0; N]; N];
     for j in 0..N {
         let left = a[j][j] - dot(&b[j], &b[j]);
