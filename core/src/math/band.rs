@@ -1,6 +1,6 @@
 //! Symmetric band matrices and their LDLᵀ factors.
 
-use super::{Each, Scalar, dot, words};
+use super::{Each, Scalar, array, dot, words};
 
 /// Symmetric `N × N` matrix with `W − 1` sub-diagonals, row-wise: `rows[i][d] = A[i][i − d]`.
 ///
@@ -244,6 +244,39 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
     /// `Dᵢᵢ`.
     pub(crate) fn pivot(&self, i: usize) -> T {
         self.lower[i][0]
+    }
+
+    /// `1/Dᵢᵢ`.
+    pub(crate) fn inverse_pivots(&self) -> &[T; N] {
+        &self.inverse
+    }
+
+    /// `S⁻¹ b` of `A = S Sᵀ`, given the roots of the inverse pivots. Set-up only.
+    #[inline(never)]
+    pub(crate) fn forth_half(&self, roots: &[T; N], b: &[T; N]) -> [T; N] {
+        let mut x = *b;
+        for i in 0..N {
+            for d in 1..W {
+                if d <= i {
+                    x[i] -= self.lower[i][d] * x[i - d];
+                }
+            }
+        }
+        array(|i| roots[i] * x[i])
+    }
+
+    /// `S⁻ᵀ b`, likewise.
+    #[inline(never)]
+    pub(crate) fn back_half(&self, roots: &[T; N], b: &[T; N]) -> [T; N] {
+        let mut x: [T; N] = array(|i| roots[i] * b[i]);
+        for i in (0..N).rev() {
+            for d in 1..W {
+                if d <= i {
+                    x[i - d] -= self.lower[i][d] * x[i];
+                }
+            }
+        }
+        x
     }
 
     /// True if every pivot is positive and finite, so that `A` is positive definite.

@@ -1,7 +1,5 @@
 //! The Gauss-Legendre rule of eight points, and polynomials by their coefficients.
 
-use super::array;
-
 /// Points of the rule: exact to degree 15.
 pub(crate) const GAUSS_POINTS: usize = 8;
 
@@ -14,15 +12,16 @@ const HALF_RULE: [(f64, f64); GAUSS_POINTS / 2] = [
 ];
 
 /// `(ξ, weight)` of the rule on 0..1, ascending.
-pub(crate) fn gauss_points() -> [(f64, f64); GAUSS_POINTS] {
-    array(|p| {
-        if p < GAUSS_POINTS / 2 {
-            HALF_RULE[p]
-        } else {
-            let (xi, weight) = HALF_RULE[GAUSS_POINTS - 1 - p];
-            (1.0 - xi, weight)
-        }
-    })
+pub(crate) const fn gauss_points() -> [(f64, f64); GAUSS_POINTS] {
+    let mut points = [(0.0, 0.0); GAUSS_POINTS];
+    let mut p = 0;
+    while p < GAUSS_POINTS / 2 {
+        let (xi, weight) = HALF_RULE[p];
+        points[p] = (xi, weight);
+        points[GAUSS_POINTS - 1 - p] = (1.0 - xi, weight);
+        p += 1;
+    }
+    points
 }
 
 /// `Σ cₖ sᵏ`.

@@ -1,65 +1,107 @@
 //! Linear least squares by normal equations, for a few unknowns in a box of unit size. Set-up only.
 
-use super::{Band, Each};
+use super::{Each, Scalar};
 
-/// Fits `Q` quantities as combinations of the same `M` functions. Functions that are zero at every
-/// sample take no part.
-pub(crate) struct LeastSquares<const M: usize, const Q: usize> {
-    normal: Band<f64, M, M>,
-    right: [[f64; Q]; M],
+/// The normal equations of functions at given samples, factored when the program is compiled:
+/// `LDLᵀ`, the triangle `L` without its ones, and `1/D`.
+pub(crate) struct Normal<const M: usize> {
+    lower: [[f64; M]; M],
+    inverse: [f64; M],
 }
 
-impl<const M: usize, const Q: usize> LeastSquares<M, Q> {
+impl<const M: usize> Normal<M> {
+    /// Of the matrix `Σ fᵢfⱼ`. Functions that are zero at every sample take no part.
+    pub(crate) const fn of(mut matrix: [[f64; M]; M]) -> Self {
+        let mut lower = [[0.0; M]; M];
+        let mut inverse = [1.0; M];
+        let mut i = 0;
+        while i < M {
+            if matrix[i][i] != 0.0 {
+                inverse[i] = 1.0 / matrix[i][i];
+                let mut r = i + 1;
+                while r < M {
+                    lower[r][i] = matrix[r][i] * inverse[i];
+                    let mut c = i + 1;
+                    while c < M {
+                        matrix[r][c] -= lower[r][i] * matrix[i][c];
+                        c += 1;
+                    }
+                    r += 1;
+                }
+            }
+            i += 1;
+        }
+        Self { lower, inverse }
+    }
+}
+
+/// Fits `Q` quantities as combinations of the same `M` functions.
+pub(crate) struct LeastSquares<T, const M: usize, const Q: usize> {
+    right: [[T; Q]; M],
+}
+
+impl<T: Scalar, const M: usize, const Q: usize> LeastSquares<T, M, Q> {
     pub(crate) fn new() -> Self {
-        Self { normal: Band::ZERO, right: [[0.0; Q]; M] }
+        Self { right: [[T::ZERO; Q]; M] }
     }
 
     /// Takes in the functions' values at one sample, and the quantities'.
-    pub(crate) fn add(&mut self, functions: &[f64; M], quantities: &[f64; Q]) {
+    pub(crate) fn add(&mut self, functions: &[T; M], quantities: &[T; Q]) {
         for i in 0..M {
-            for j in 0..=i {
-                self.normal.add(i, j, functions[i] * functions[j]);
-            }
             for q in 0..Q {
                 self.right[i][q] += functions[i] * quantities[q];
             }
         }
     }
 
-    /// The coefficients of each function, divided by its `scale`; zero where that is zero.
-    pub(crate) fn solve(mut self, scale: &[f64; M]) -> [[f64; Q]; M] {
+    /// The coefficients of each function.
+    pub(crate) fn solve(self, normal: &Normal<M>) -> [[T; Q]; M] {
+        let lower = normal.lower.each(|row| row.each(T::from_f64));
+        let mut fitted = self.right;
         for i in 0..M {
-            if self.normal.get(i, i) == 0.0 {
-                self.normal.add(i, i, 1.0);
-            }
-        }
-        let factors = self.normal.factor();
-        let mut coefficients = [[0.0; Q]; M];
-        for q in 0..Q {
-            let fitted = factors.solve(&self.right.each(|row| row[q]));
-            for i in 0..M {
-                if scale[i] != 0.0 {
-                    coefficients[i][q] = fitted[i] / scale[i];
+            for j in 0..i {
+                for q in 0..Q {
+                    let part = lower[i][j] * fitted[j][q];
+                    fitted[i][q] -= part;
                 }
             }
         }
-        coefficients
+        for i in 0..M {
+            let inverse = T::from_f64(normal.inverse[i]);
+            fitted[i] = fitted[i].each(|x| inverse * x);
+        }
+        for i in (0..M).rev() {
+            for j in 0..i {
+                for q in 0..Q {
+                    let part = lower[i][j] * fitted[i][q];
+                    fitted[j][q] -= part;
+                }
+            }
+        }
+        fitted
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::LeastSquares;
+    use super::{LeastSquares, Normal};
+
+    /// Over the samples, which are rows of the functions' values.
+    fn normal<const M: usize>(samples: &[[f64; M]]) -> Normal<M> {
+        let sum = |i: usize, j: usize| samples.iter().map(|f| f[i] * f[j]).sum();
+        Normal::of(core::array::from_fn(|i| core::array::from_fn(|j| sum(i, j))))
+    }
 
     /// Samples of a line are fitted by that line; a function that is zero throughout takes no part.
     #[test]
     fn a_line_is_found_among_its_samples() {
-        let mut fit = LeastSquares::<3, 2>::new();
-        for i in 0..5 {
-            let x = f64::from(i) / 4.0;
-            fit.add(&[1.0, x, 0.0], &[2.0 - 3.0 * x, x]);
+        let mut fit = LeastSquares::<f64, 3, 2>::new();
+        let samples = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x| [1.0, x, 0.0]);
+        for sample in &samples {
+            let x = sample[1];
+            fit.add(sample, &[2.0 - 3.0 * x, x]);
         }
-        let found = fit.solve(&[1.0, 1.0, 0.0]);
+        let found = fit.solve(&normal(&samples));
         let expected = [[2.0, 0.0], [-3.0, 1.0], [0.0, 0.0]];
         for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
             assert!((found - expected).abs() < 1e-13, "{found} is not {expected}");
@@ -69,11 +111,11 @@ mod tests {
     /// The normal equations leave what the functions cannot fit: of 0, 0, 1 the mean is a third.
     #[test]
     fn a_constant_is_fitted_by_the_mean() {
-        let mut fit = LeastSquares::<1, 1>::new();
+        let mut fit = LeastSquares::<f64, 1, 1>::new();
         for quantity in [0.0, 0.0, 1.0] {
             fit.add(&[1.0], &[quantity]);
         }
-        let [[mean]] = fit.solve(&[2.0]);
-        assert!((mean - 1.0 / 6.0).abs() < 1e-15, "a third in units of 2: {mean}");
+        let [[mean]] = fit.solve(&normal(&[[1.0]; 3]));
+        assert!((mean - 1.0 / 3.0).abs() < 1e-15, "{mean}");
     }
 }

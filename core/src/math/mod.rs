@@ -8,10 +8,12 @@ mod band;
 mod complex;
 mod gauss;
 mod jacobi;
+mod lanczos;
 mod least_squares;
 mod principal;
 mod propagator;
 mod scalar;
+mod tridiagonal;
 mod words;
 
 pub(crate) use array::{Each, array};
@@ -19,9 +21,10 @@ pub use band::{Band, HalfForm, Ldl};
 pub(crate) use complex::Complex;
 pub(crate) use gauss::{GAUSS_POINTS, gauss_points, polynomial};
 pub(crate) use jacobi::generalized_eigen;
-pub(crate) use least_squares::LeastSquares;
+pub(crate) use lanczos::lowest_eigen;
+pub(crate) use least_squares::{LeastSquares, Normal};
 pub(crate) use principal::{principal_axes, root};
-pub(crate) use propagator::{Matrix2, phi_functions, product};
+pub(crate) use propagator::{Functions, Matrix2, phi_functions};
 pub use scalar::Scalar;
 pub use words::Words;
 pub(crate) use words::{layout_of, mix, named, words};
@@ -29,6 +32,11 @@ pub(crate) use words::{layout_of, mix, named, words};
 /// Square root, correctly rounded, the same bits everywhere. Set-up only.
 pub(crate) fn sqrt(x: f64) -> f64 {
     libm::sqrt(x)
+}
+
+/// Square root to the precision of the scalar, the same bits everywhere. Set-up only.
+pub(crate) fn square_root<T: Scalar>(x: T) -> T {
+    T::from_f64(sqrt(x.to_f64()))
 }
 
 /// `Σ aᵢ bᵢ`.

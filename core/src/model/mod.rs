@@ -7,6 +7,7 @@
 mod fem;
 pub(crate) mod rod;
 
+pub(crate) use fem::LowestModes;
 pub use fem::{EightElements, FourElements, Model, Modes, OneElement, TwoElements};
 pub(crate) use rod::{Expansion, LINK_STATIONS, Load, POINTS, RodPoints};
 pub use rod::{Kinetics, Rod};

@@ -76,7 +76,7 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
         let alpha = rod.scene().damping.alpha;
         let beta = rod.stiffness_damping();
         let omega = *rod.frequency();
-        let coupling = rod.kinetics(&[0.0; K]).coupling;
+        let coupling = rod.straight().coupling;
         let tip_per_mode = |k: usize| rod.tip_swing()[k] / rod.scene().link.length;
         let f = T::from_f64;
         Ok(Self {
@@ -209,18 +209,6 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
 
     /// Torque at the hub (N m), bending moment at the clamp (N m) and position of the tip (m).
     pub fn load(
-        &self,
-        points: &RodPoints<T, K>,
-        flex: &ArmState<T, K>,
-        hub: &HubState<T>,
-    ) -> Load<T> {
-        let ArmState { coordinate, rate } = flex;
-        let acceleration = points.acceleration(coordinate, rate, hub, &self.stiffness, &self.loss);
-        points.load(coordinate, rate, &acceleration, hub)
-    }
-
-    /// The same but for rounding, in half the work.
-    pub fn answer(
         &self,
         points: &RodPoints<T, K>,
         flex: &ArmState<T, K>,

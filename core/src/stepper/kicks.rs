@@ -1,7 +1,7 @@
 //! Response of a mode to a kink of the motion inside a tick.
 
 use super::oscillator::pulled_back;
-use crate::math::{Each, Matrix2, Scalar, Words, array, phi_functions, product};
+use crate::math::{Each, Functions, Matrix2, Scalar, Words, array, dot, phi_functions};
 use crate::motion::{Kink, ORDERS};
 
 /// Changes of a mode's state before a tick, one for each moment of a [`Kink`].
@@ -21,10 +21,11 @@ impl<T: Scalar> Kicks<T> {
     /// over steps of `h` s. The state is `(ωa, ȧ)`.
     pub(super) fn new(omega: f64, alpha: f64, beta: f64, b: f64, h: f64) -> Self {
         let z = [[0.0, omega * h], [-omega * h, -(alpha + beta * omega * omega) * h]];
-        let [whole, ..] = phi_functions(&z);
-        let answers = answers(&z);
+        let [whole, mean, ..] = phi_functions(&z);
+        let answers = answers(&z, mean.each(|row| row[1]));
         Self(array(|k| {
-            let [a, p] = answers[k].each(|row| -b * h * (2 * k + 3) as f64 * row[1]);
+            let scale = -b * h * (2 * k + 3) as f64;
+            let [a, p] = answers[k].each(|x| scale * x);
             pulled_back(&whole, [a, p]).each(T::from_f64)
         }))
     }
@@ -47,33 +48,34 @@ impl<T: Scalar> Kicks<T> {
     }
 }
 
-/// `Gₖ = ∫₀¹ Pₖ(2s − 1) exp((1 − s)Z) ds` for `k = 1..8`.
+/// The second column of `Gₖ = ∫₀¹ Pₖ(2s − 1) exp((1 − s)Z) ds` for `k = 1..8`.
 ///
-/// Integrating by parts, `Z(Gₖ₊₁ − Gₖ₋₁) = 2(2k + 1)Gₖ`: a continued fraction for `Gₖ = RₖGₖ₋₁`,
-/// `Rₖ = −(2(2k + 1) − Z Rₖ₊₁)⁻¹Z`, from where `Rₖ` is nothing down to `k = 1` (Miller's algorithm;
-/// for a rotation these are spherical Bessel functions). Error: 1e-14.
-fn answers(z: &Matrix2) -> [Matrix2; ORDERS] {
-    let mut answers = [[[0.0; 2]; 2]; ORDERS];
+/// `mean` is that of `G₀ = φ₁(Z)`. Integrating by parts, `Z(Gₖ₊₁ − Gₖ₋₁) = 2(2k + 1)Gₖ`: a continued
+/// fraction for `Gₖ = RₖGₖ₋₁`, `Rₖ = −(2(2k + 1) − Z Rₖ₊₁)⁻¹Z`, from where `Rₖ` is nothing down to `k = 1`
+/// (Miller's algorithm; for a rotation these are spherical Bessel functions). Error: 1e-14.
+#[inline(never)]
+fn answers(z: &Matrix2, mean: [f64; 2]) -> [[f64; 2]; ORDERS] {
+    let mut answers = [[0.0; 2]; ORDERS];
     let norm = z[1][0].abs() + z[1][1].abs();
     if norm > LARGEST_NORM {
         return answers;
     }
-    let mut ratio = [[0.0; 2]; 2];
-    for k in (1..=ORDERS + 24 + norm as usize).rev() {
-        let next = product(z, &ratio);
+    let functions = Functions::of(z);
+    let mut ratios = [[[0.0; 2]; 2]; ORDERS];
+    let mut ratio = [0.0; 3];
+    // Each step takes all but `(|Z|/(4k + 2))²` off the error of the ratio before.
+    for k in (1..=ORDERS + 6 + norm as usize).rev() {
+        let [a, b, d] = functions.by_z(&ratio);
         let whole = (2 * (2 * k + 1)) as f64;
-        let [[a, b], [c, d]] =
-            [[whole - next[0][0], -next[0][1]], [-next[1][0], whole - next[1][1]]];
-        let determinant = a * d - b * c;
-        let inverse = [[d, -b], [-c, a]].each(|row| row.each(|x| -x / determinant));
-        ratio = product(&inverse, z);
+        // `−(whole − Z R)⁻¹` is `(Z R − whole)⁻¹`.
+        ratio = functions.by_z(&functions.inverse(&[a - whole, b, d - whole]));
         if k <= ORDERS {
-            answers[k - 1] = ratio;
+            ratios[k - 1] = functions.matrix(&ratio);
         }
     }
-    let [_, mut before, ..] = phi_functions(z);
-    for answer in &mut answers {
-        before = product(answer, &before);
+    let mut before = mean;
+    for (answer, ratio) in answers.iter_mut().zip(&ratios) {
+        before = ratio.each(|row| dot(&row, &before));
         *answer = before;
     }
     answers
@@ -102,8 +104,9 @@ mod tests {
         for (turn, decay) in [(0.01, 0.0), (2.0, 0.0), (12.6, 0.3), (35.0, 1.0), (0.5, 20.0)] {
             let z = [[0.0, turn], [-turn, -decay]];
             let steps = 4000;
-            for (k, answer) in answers(&z).iter().enumerate() {
-                let mut sum = [[0.0; 2]; 2];
+            let [_, mean, ..] = phi_functions(&z);
+            for (k, answer) in answers(&z, mean.map(|row| row[1])).iter().enumerate() {
+                let mut sum = [0.0; 2];
                 for i in 0..=steps {
                     let s = f64::from(i) / f64::from(steps);
                     let weight = match i {
@@ -115,16 +118,12 @@ mod tests {
                     let [exp, ..] = phi_functions(&z.map(|row| row.map(|x| (1.0 - s) * x)));
                     let legendre = polynomial(k + 1, 2.0 * s - 1.0);
                     for r in 0..2 {
-                        for c in 0..2 {
-                            sum[r][c] += weight * legendre * exp[r][c];
-                        }
+                        sum[r] += weight * legendre * exp[r][1];
                     }
                 }
                 for r in 0..2 {
-                    for c in 0..2 {
-                        let error = (sum[r][c] - answer[r][c]).abs();
-                        assert!(error < 1e-8, "{turn} {decay} {k} {r} {c}: {error}");
-                    }
+                    let error = (sum[r] - answer[r]).abs();
+                    assert!(error < 1e-8, "{turn} {decay} {k} {r}: {error}");
                 }
             }
         }

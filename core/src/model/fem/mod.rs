@@ -8,4 +8,5 @@ mod modes;
 mod varied;
 
 pub use model::{EightElements, FourElements, Model, OneElement, TwoElements};
+pub(crate) use modes::LowestModes;
 pub use modes::Modes;

@@ -1,10 +1,10 @@
 //! The angles that the modes of the rod are made of.
 
 use super::POINTS;
-use super::polynomials::{rule, slopes};
-use super::stations::{Stations, end_of_polynomial};
+use super::polynomials::{AT_POINTS, END, rule, slopes};
+use super::stations::Stations;
 use super::varied::VariedLink;
-use crate::math::{Band, Each, array};
+use crate::math::{Band, array};
 use crate::scene::{LinkShape, Scene};
 
 /// `N` angles along the link: those that a bending moment `EI/L P_j(2ξ − 1)` makes, `P_j`
@@ -51,11 +51,12 @@ impl<const N: usize> Basis<N> {
             bending.add(j, j, 1.0 / (2 * j + 1) as f64);
         }
         Self {
-            at_points: points.each(slopes::<N>),
+            at_points: array(|p| slopes(points[p], &AT_POINTS[p])),
             root: [0.0; N],
-            tip: slopes::<N>(1.0),
+            // Every Legendre polynomial is 1 there.
+            tip: slopes(1.0, &[1.0; POINTS + 1]),
             bending,
-            stations: Stations::uniform(mass).with_payload(offset, &end_of_polynomial()),
+            stations: Stations::uniform(mass).with_payload(offset, &END),
         }
     }
 }

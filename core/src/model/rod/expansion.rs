@@ -13,8 +13,9 @@
 //! payload: the polynomials converge up to bends of 1.5 rad.
 
 use super::Rod;
-use super::monomials::{EVEN, MAX_EVEN, MAX_ODD, ODD};
-use crate::math::{Each, LeastSquares, array, dot};
+use super::kinetics::Bent;
+use super::monomials::{EVEN, Exponents, MAX_EVEN, MAX_ODD, ODD, values_of};
+use crate::math::{LeastSquares, Normal, Scalar, array, cast, dot};
 
 /// Even quantities of three modes: `C`, `d`, `e` and two of `X`.
 const MAX_QUANTITIES: usize = 15;
@@ -48,9 +49,10 @@ pub(crate) struct Odd<T> {
     pub tip: T,
 }
 
-/// The expansion; at `a = 0`, `C` is `diag(1, −1, −1)`.
+/// The expansion; at `a = 0`, `C` is `diag(1, −1, −1)`. The monomials are those of `aₖ/range[k]`:
+/// their coefficients are of the size of the quantities, whatever the arm's.
 #[derive(Clone, Debug)]
-pub(crate) struct Expansion<const K: usize> {
+pub(crate) struct Expansion<T, const K: usize> {
     /// `b = d(0)`.
     pub coupling: [f64; K],
     /// `e(0)`.
@@ -60,15 +62,15 @@ pub(crate) struct Expansion<const K: usize> {
     pub tip: f64,
     /// Linear Y parts.
     pub linear: [Odd<f64>; K],
-    pub even: [Even<f64, K>; MAX_EVEN],
-    pub odd: [Odd<f64>; MAX_ODD],
+    pub even: [Even<T, K>; MAX_EVEN],
+    pub odd: [Odd<T>; MAX_ODD],
 }
 
-impl<const K: usize> Even<f64, K> {
+impl<T: Scalar, const K: usize> Even<T, K> {
     /// Returns the coefficients one after the other, for the fit.
-    fn flat(&self) -> [f64; MAX_QUANTITIES] {
+    fn flat(&self) -> [T; MAX_QUANTITIES] {
         let entries = self.c.iter().flatten().chain(&self.d);
-        let mut flat = [0.0; MAX_QUANTITIES];
+        let mut flat = [T::ZERO; MAX_QUANTITIES];
         for (place, &value) in
             flat.iter_mut().zip(entries.chain([&self.e, &self.moment, &self.tip]))
         {
@@ -78,7 +80,7 @@ impl<const K: usize> Even<f64, K> {
     }
 
     /// Inverse of [`Self::flat`].
-    fn from_flat(flat: [f64; MAX_QUANTITIES]) -> Self {
+    fn from_flat(flat: [T; MAX_QUANTITIES]) -> Self {
         let scalars = K * K + K;
         Self {
             c: array(|i| array(|j| flat[K * i + j])),
@@ -91,10 +93,10 @@ impl<const K: usize> Even<f64, K> {
 }
 
 /// Everything that is expanded, at one shape.
-fn sample<const K: usize>(rod: &Rod<K>, a: &[f64; K]) -> (Even<f64, K>, Odd<f64>) {
+fn sample<T: Scalar, const K: usize>(rod: &Bent<T, K>, a: &[T; K]) -> (Even<T, K>, Odd<T>) {
     let kinetics = rod.kinetics(a);
     let (m, h) = (&kinetics.mass, &kinetics.coupling);
-    let inverse = 1.0 / m[0][0];
+    let inverse = T::ONE / m[0][0];
     let even = Even {
         c: array(|i| {
             array(|j| match (i, j) {
@@ -114,58 +116,83 @@ fn sample<const K: usize>(rod: &Rod<K>, a: &[f64; K]) -> (Even<f64, K>, Odd<f64>
     (even, Odd { moment: kinetics.moment[1], tip: kinetics.tip[1] })
 }
 
-impl<const K: usize> Expansion<K> {
+impl<T: Scalar, const K: usize> Expansion<T, K> {
     /// Fits the monomials by least squares over the box `|aₖ| ≤ range[k]`; values and, for Y,
     /// slopes at `a = 0` are exact. `K` is 1 to 3.
+    ///
+    /// Samples and fit are in the scalar of the tick, the values at rest in f64: what rounding
+    /// adds to a change is a rounding of the quantity.
     pub(crate) fn fit(rod: &Rod<K>, range: &[f64; K]) -> Self {
         const { assert!(1 <= K && K <= 3, "1 to 3 modes") }
-        let (rest, _) = sample(rod, &[0.0; K]);
-        let linear: [Odd<f64>; K] = core::array::from_fn(|k| {
-            // Y is odd: a difference of 1e-4 of the range errs by 1e-8 of it, cubically.
-            let mut a = [0.0; K];
-            a[k] = 1e-4 * range[k];
-            let (_, at) = sample(rod, &a);
-            Odd { moment: at.moment / a[k], tip: at.tip / a[k] }
+        let straight = rod.straight();
+        let linear: [Odd<f64>; K] = core::array::from_fn(|k| Odd {
+            moment: straight.moment_slope[k],
+            tip: straight.tip_slope[k],
         });
-        let mut even = LeastSquares::<MAX_EVEN, MAX_QUANTITIES>::new();
-        let mut odd = LeastSquares::<MAX_ODD, 2>::new();
-        let straight = rest.flat();
-        for_each_sample::<K>(|unit| {
-            let a: [f64; K] = array(|k| unit[k] * range[k]);
-            let (at, y) = sample(rod, &a);
-            let mut change = at.flat();
-            for (value, at_rest) in change.iter_mut().zip(&straight) {
-                *value -= at_rest;
-            }
-            even.add(&EVEN.values(unit), &change);
-            let beyond = |y: f64, slope: [f64; K]| y - dot(&slope, &a);
-            let moment = beyond(y.moment, linear.each(|term| term.moment));
-            odd.add(&ODD.values(unit), &[moment, beyond(y.tip, linear.each(|term| term.tip))]);
-        });
+        let slopes: [[T; K]; 2] = [cast(&straight.moment_slope), cast(&straight.tip_slope)];
+        let mut even = LeastSquares::<T, MAX_EVEN, MAX_QUANTITIES>::new();
+        let mut odd = LeastSquares::<T, MAX_ODD, 2>::new();
+        let bent = Bent::new(rod);
+        let at_rest = sample(&bent, &[T::ZERO; K]).0.flat();
+        for place in 0..samples::<K>() {
+            let unit = unit::<K>(place);
+            let a: [T; K] = array(|k| T::from_f64(unit[k] * range[k]));
+            let unit: [T; K] = cast(&unit);
+            let (at, y) = sample(&bent, &a);
+            let at = at.flat();
+            even.add(&EVEN.values(&unit), &array(|q| at[q] - at_rest[q]));
+            let beyond = [y.moment - dot(&slopes[0], &a), y.tip - dot(&slopes[1], &a)];
+            odd.add(&ODD.values(&unit), &beyond);
+        }
+        let coupling = straight.coupling;
         Self {
-            coupling: rest.d,
-            e: rest.e,
-            moment: rest.moment,
-            tip: rest.tip,
+            coupling,
+            e: coupling[0] * coupling[0] - straight.inertia,
+            moment: straight.moment,
+            tip: straight.tip,
             linear,
-            even: even.solve(&EVEN.values(range)).map(Even::from_flat),
-            odd: odd.solve(&ODD.values(range)).map(|[moment, tip]| Odd { moment, tip }),
+            even: even.solve(const { &normal::<K, MAX_EVEN>(EVEN.exponents) }).map(Even::from_flat),
+            odd: odd
+                .solve(const { &normal::<K, MAX_ODD>(ODD.exponents) })
+                .map(|[moment, tip]| Odd { moment, tip }),
         }
     }
 }
 
-/// Calls `f` with every point of the sample grid in the unit box; `a₁ > 0` by symmetry.
-fn for_each_sample<const K: usize>(mut f: impl FnMut(&[f64; K])) {
-    let others = SAMPLES.len().pow(K as u32 - 1);
-    for first in HALF_SAMPLES {
-        for index in 0..others {
-            let mut unit = [first; K];
-            let mut rest = index;
-            for k in 1..K {
-                unit[k] = SAMPLES[rest % SAMPLES.len()];
-                rest /= SAMPLES.len();
-            }
-            f(&unit);
-        }
+/// Number of sample points: `a₁ > 0` by symmetry.
+const fn samples<const K: usize>() -> usize {
+    HALF_SAMPLES.len() * SAMPLES.len().pow(K as u32 - 1)
+}
+
+/// A point of the sample grid in the unit box.
+const fn unit<const K: usize>(place: usize) -> [f64; K] {
+    let mut unit = [HALF_SAMPLES[place % HALF_SAMPLES.len()]; K];
+    let mut rest = place / HALF_SAMPLES.len();
+    let mut k = 1;
+    while k < K {
+        unit[k] = SAMPLES[rest % SAMPLES.len()];
+        rest /= SAMPLES.len();
+        k += 1;
     }
+    unit
+}
+
+/// The normal equations of the monomials over the grid, the same for every arm.
+const fn normal<const K: usize, const M: usize>(monomials: [Exponents; M]) -> Normal<M> {
+    let mut matrix = [[0.0; M]; M];
+    let mut place = 0;
+    while place < samples::<K>() {
+        let values = values_of(&monomials, &unit::<K>(place));
+        let mut i = 0;
+        while i < M {
+            let mut j = 0;
+            while j < M {
+                matrix[i][j] += values[i] * values[j];
+                j += 1;
+            }
+            i += 1;
+        }
+        place += 1;
+    }
+    Normal::of(matrix)
 }

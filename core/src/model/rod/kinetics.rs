@@ -1,25 +1,198 @@
 //! Mass, inertia and first moment of the bent rod, and how far moves bend it.
 
+use super::stations::Stations;
 use super::{LINK_STATIONS, POINTS, Rod};
 use crate::hub::HubState;
-use crate::math::{Each, Scalar, array, dot};
+use crate::math::{Each, Scalar, array, cast, dot};
+use crate::scene::{Scene, Uniform};
 
 /// The rod at modal coordinates `a`, hub-frame axes, nothing moving.
 ///
 /// `ω` is the hub's rate. On a linear axis it is the carriage's velocity `v` along hub-frame Y:
 /// then `h = ∂/∂a (∫ρA Y dx + m_p Y_L)`, and `T_vv` is the mass of link and payload.
 #[derive(Clone, Copy, Debug)]
-pub struct Kinetics<const K: usize> {
+pub struct Kinetics<const K: usize, T = f64> {
     /// `M(a)`: `T = ½ȧᵀMȧ + ω hᵀȧ + ½ω² T_θθ`.
-    pub mass: [[f64; K]; K],
+    pub mass: [[T; K]; K],
     /// `h(a)`.
-    pub coupling: [f64; K],
+    pub coupling: [T; K],
     /// `T_θθ(a)`, the hub's inertia or the carriage's mass left out.
-    pub inertia: f64,
+    pub inertia: T,
     /// `∫(X, Y) dm`, payload included: gravity's potential is `g (x sinχ + y cosχ)`.
-    pub moment: [f64; 2],
+    pub moment: [T; 2],
     /// The tip `(X, Y)`.
-    pub tip: [f64; 2],
+    pub tip: [T; 2],
+}
+
+/// The straight rod: what [`Kinetics`] are at `a = 0`, where `M` is the unit matrix, and how they
+/// change there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Straight<const K: usize> {
+    /// `h`.
+    pub coupling: [f64; K],
+    /// `T_θθ`.
+    pub inertia: f64,
+    /// X parts of the moment and of the tip.
+    pub moment: f64,
+    pub tip: f64,
+    /// Slopes of the Y parts.
+    pub moment_slope: [f64; K],
+    pub tip_slope: [f64; K],
+}
+
+impl<const K: usize> Straight<K> {
+    /// Of a rod whose modes have these slopes at the points and at the tip.
+    pub(super) fn new(
+        scene: &Scene<f64, Uniform>,
+        stations: &Stations,
+        slope: &[[f64; POINTS]; K],
+        tip_slope: &[f64; K],
+    ) -> Self {
+        let length = scene.link.length;
+        let (m_p, j_p, radius) = (scene.payload.mass, scene.payload.inertia, scene.hub.radius);
+        let along = |row: &[f64; POINTS]| radius + length * row.iter().sum::<f64>();
+        let mass: [f64; LINK_STATIONS] = array(|s| stations.mass * stations.weights[s]);
+        let x: [f64; LINK_STATIONS] = array(|s| along(&stations.running[s]));
+        let x_p = along(&stations.to_payload);
+        let carried = scene.mount.is_linear();
+        let mut straight = Self {
+            coupling: [0.0; K],
+            inertia: if carried { stations.mass + m_p } else { m_p * x_p * x_p + j_p },
+            moment: dot(&mass, &x) + m_p * x_p,
+            tip: along(&stations.to_tip),
+            moment_slope: [0.0; K],
+            tip_slope: array(|k| length * dot(&stations.to_tip, &slope[k])),
+        };
+        let moment: [f64; LINK_STATIONS] = array(|s| mass[s] * x[s]);
+        if !carried {
+            straight.inertia += dot(&moment, &x);
+        }
+        for k in 0..K {
+            let across: [f64; LINK_STATIONS] =
+                array(|s| length * dot(&stations.running[s], &slope[k]));
+            let payload = m_p * length * dot(&stations.to_payload, &slope[k]);
+            straight.moment_slope[k] = dot(&mass, &across) + payload;
+            straight.coupling[k] = if carried {
+                straight.moment_slope[k]
+            } else {
+                dot(&moment, &across) + x_p * payload + j_p * tip_slope[k]
+            };
+        }
+        straight
+    }
+}
+
+/// What the kinetics of a rod are made of, in one precision.
+pub(super) struct Bent<T, const K: usize> {
+    slope: [[T; POINTS]; K],
+    tip_slope: [T; K],
+    /// [`Stations`], in m and kg.
+    running: [[T; POINTS]; LINK_STATIONS],
+    to_tip: [T; POINTS],
+    to_payload: [T; POINTS],
+    mass: [T; LINK_STATIONS],
+    payload_mass: T,
+    payload_inertia: T,
+    radius: T,
+    /// Mass of a rod on a carriage.
+    carried: Option<T>,
+}
+
+/// A field over the rod: its values at the stations, and at the payload's centre.
+type Field<T> = ([T; LINK_STATIONS], T);
+
+impl<T: Scalar, const K: usize> Bent<T, K> {
+    pub fn new(rod: &Rod<K>) -> Self {
+        let (scene, stations) = (&rod.scene, &rod.stations);
+        let f = T::from_f64;
+        let scaled = |row: &[f64; POINTS]| row.each(|x| f(scene.link.length * x));
+        Self {
+            slope: rod.slope.each(|row| cast(&row)),
+            tip_slope: cast(&rod.tip_slope),
+            running: stations.running.each(|row| scaled(&row)),
+            to_tip: scaled(&stations.to_tip),
+            to_payload: scaled(&stations.to_payload),
+            mass: stations.weights.each(|w| f(stations.mass * w)),
+            payload_mass: f(scene.payload.mass),
+            payload_inertia: f(scene.payload.inertia),
+            radius: f(scene.hub.radius),
+            carried: match scene.mount.is_linear() {
+                true => Some(f(stations.mass + scene.payload.mass)),
+                false => None,
+            },
+        }
+    }
+
+    /// Everything that depends on the shape alone.
+    #[inline(never)]
+    pub fn kinetics(&self, a: &[T; K]) -> Kinetics<K, T> {
+        let mut sin = [T::ZERO; POINTS];
+        let mut cos = [T::ZERO; POINTS];
+        let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
+        for p in 0..POINTS {
+            let mut phi = self.slope[0][p] * a[0];
+            for k in 1..K {
+                phi += self.slope[k][p] * a[k];
+            }
+            (sin[p], cos[p]) = (per_radian * phi).sin_cos_turns();
+        }
+        let by_slope = |k: usize, f: &[T; POINTS], sign: T| -> [T; POINTS] {
+            array(|p| sign * (self.slope[k][p] * f[p]))
+        };
+        let mut x = self.integral(&cos);
+        for place in &mut x.0 {
+            *place += self.radius;
+        }
+        x.1 += self.radius;
+        let y = self.integral(&sin);
+        let along: [Field<T>; K] = array(|k| self.integral(&by_slope(k, &sin, -T::ONE)));
+        let across: [Field<T>; K] = array(|k| self.integral(&by_slope(k, &cos, T::ONE)));
+        let mut mass = [[T::ZERO; K]; K];
+        for i in 0..K {
+            for j in 0..=i {
+                mass[i][j] = self.pair(&along[i], &along[j])
+                    + self.pair(&across[i], &across[j])
+                    + self.payload_inertia * self.tip_slope[i] * self.tip_slope[j];
+                mass[j][i] = mass[i][j];
+            }
+        }
+        Kinetics {
+            mass,
+            coupling: array(|i| {
+                if self.carried.is_some() {
+                    return self.first(&across[i]);
+                }
+                self.pair(&x, &across[i]) - self.pair(&y, &along[i])
+                    + self.payload_inertia * self.tip_slope[i]
+            }),
+            inertia: self
+                .carried
+                .unwrap_or_else(|| self.pair(&x, &x) + self.pair(&y, &y) + self.payload_inertia),
+            moment: [self.first(&x), self.first(&y)],
+            tip: [dot(&self.to_tip, &cos) + self.radius, dot(&self.to_tip, &sin)],
+        }
+    }
+
+    /// `∫f` from the clamp, `f` by its values at the points.
+    #[inline(never)]
+    fn integral(&self, f: &[T; POINTS]) -> Field<T> {
+        (self.running.each(|row| dot(&row, f)), dot(&self.to_payload, f))
+    }
+
+    /// `∫f g dm`, payload included.
+    #[inline(never)]
+    fn pair(&self, f: &Field<T>, g: &Field<T>) -> T {
+        let mut sum = self.payload_mass * (f.1 * g.1);
+        for s in 0..LINK_STATIONS {
+            sum += self.mass[s] * (f.0[s] * g.0[s]);
+        }
+        sum
+    }
+
+    /// `∫f dm`, payload included.
+    fn first(&self, f: &Field<T>) -> T {
+        dot(&self.mass, &f.0) + self.payload_mass * f.1
+    }
 }
 
 impl<const K: usize> Rod<K> {
@@ -27,10 +200,7 @@ impl<const K: usize> Rod<K> {
     /// many rad/s² (a carriage's: m/s²), rad: twice the quasi-static one, and the sag under
     /// gravity; first mode.
     pub fn bend(&self, acceleration: f64) -> f64 {
-        let rest = self.kinetics(&[0.0; K]);
         let compliance = self.tip_slope[0] / (self.frequency[0] * self.frequency[0]);
-        let mut a = [0.0; K];
-        a[0] = 1e-4 * self.scene.link.length;
         // A hub that turns meets gravity across the link somewhere; a carriage holds it one way.
         let across = if self.scene.mount.is_linear() {
             let mut hub = HubState::ZERO;
@@ -39,14 +209,14 @@ impl<const K: usize> Rod<K> {
         } else {
             1.0
         };
-        let weight = self.scene.in_plane_gravity() * across * self.kinetics(&a).moment[1] / a[0];
-        compliance * (2.0 * rest.coupling[0].abs() * acceleration + weight)
+        let weight = self.scene.in_plane_gravity() * across * self.straight.moment_slope[0];
+        compliance * (2.0 * self.straight.coupling[0].abs() * acceleration + weight)
     }
 
     /// Modal coordinates to expect with tip angles up to `bend` rad: the first mode alone makes the
     /// bend, the others reach six times their quasi-static share.
     pub(crate) fn range(&self, bend: f64) -> [f64; K] {
-        let coupling = self.kinetics(&[0.0; K]).coupling;
+        let coupling = &self.straight.coupling;
         let share: [f64; K] =
             array(|k| (coupling[k] / (self.frequency[k] * self.frequency[k])).abs());
         array(|k| {
@@ -55,63 +225,44 @@ impl<const K: usize> Rod<K> {
         })
     }
 
+    /// The straight rod.
+    pub(crate) fn straight(&self) -> &Straight<K> {
+        &self.straight
+    }
+
     /// Everything that depends on the shape alone.
     pub fn kinetics(&self, a: &[f64; K]) -> Kinetics<K> {
-        let (scene, stations) = (&self.scene, &self.stations);
-        let length = scene.link.length;
-        let mut sin = [0.0; POINTS];
-        let mut cos = [0.0; POINTS];
-        for p in 0..POINTS {
-            let phi: f64 = (0..K).map(|k| self.slope[k][p] * a[k]).sum();
-            (sin[p], cos[p]) = (phi / core::f64::consts::TAU).sin_cos_turns();
-        }
-        // Each as its values at the stations, and last at the payload's centre.
-        let integral = |f: &[f64; POINTS]| -> ([f64; LINK_STATIONS], f64) {
-            let at_payload = length * dot(&stations.to_payload, f);
-            (stations.running.each(|row| length * dot(&row, f)), at_payload)
-        };
-        let times =
-            |f: &[f64; POINTS], g: &[f64; POINTS]| -> [f64; POINTS] { array(|p| f[p] * g[p]) };
-        let (mut x, mut x_p) = integral(&cos);
-        x = x.each(|x| x + scene.hub.radius);
-        x_p += scene.hub.radius;
-        let (y, y_p) = integral(&sin);
-        let along: [_; K] = array(|k| {
-            let (f, end) = integral(&times(&self.slope[k], &sin));
-            (f.each(|f| -f), -end)
-        });
-        let across: [_; K] = array(|k| integral(&times(&self.slope[k], &cos)));
-        let link = |f: [f64; LINK_STATIONS]| stations.mass * dot(&stations.weights, &f);
-        let sum = |f: &dyn Fn(usize) -> f64| link(array(f));
-        let (m_p, j_p) = (scene.payload.mass, scene.payload.inertia);
-        let tip_slope = &self.tip_slope;
-        let carried = scene.mount.is_linear();
-        Kinetics {
-            mass: array(|i| {
-                array(|j| {
-                    sum(&|s| along[i].0[s] * along[j].0[s] + across[i].0[s] * across[j].0[s])
-                        + m_p * (along[i].1 * along[j].1 + across[i].1 * across[j].1)
-                        + j_p * tip_slope[i] * tip_slope[j]
-                })
-            }),
-            coupling: array(|i| {
-                if carried {
-                    return link(across[i].0) + m_p * across[i].1;
-                }
-                sum(&|s| x[s] * across[i].0[s] - y[s] * along[i].0[s])
-                    + m_p * (x_p * across[i].1 - y_p * along[i].1)
-                    + j_p * tip_slope[i]
-            }),
-            inertia: if carried {
-                stations.mass + m_p
-            } else {
-                sum(&|s| x[s] * x[s] + y[s] * y[s]) + m_p * (x_p * x_p + y_p * y_p) + j_p
-            },
-            moment: [link(x) + m_p * x_p, link(y) + m_p * y_p],
-            tip: [
-                length * dot(&stations.to_tip, &cos) + scene.hub.radius,
-                length * dot(&stations.to_tip, &sin),
-            ],
+        Bent::new(self).kinetics(a)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Rod;
+    use crate::scene::{Link, Mount, Scene};
+
+    /// The straight rod is the bent one at `a = 0`, on a hub and on a carriage.
+    #[test]
+    fn a_straight_rod_is_one_that_is_bent_by_nothing() {
+        for mount in [Mount::ROTARY, Mount::LINEAR] {
+            let mut scene = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.04 });
+            (scene.payload.mass, scene.payload.inertia, scene.payload.offset) = (0.03, 1e-5, 0.02);
+            (scene.hub.radius, scene.mount) = (if mount.is_linear() { 0.0 } else { 0.05 }, mount);
+            let rod = Rod::<2>::new(&scene).expect("a rod");
+            let (straight, bent) = (rod.straight(), rod.kinetics(&[0.0; 2]));
+            let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-14 * y.abs(), "{x} is not {y}");
+            near(straight.inertia, bent.inertia);
+            near(straight.moment, bent.moment[0]);
+            near(straight.tip, bent.tip[0]);
+            for k in 0..2 {
+                near(straight.coupling[k], bent.coupling[k]);
+                let mut a = [0.0; 2];
+                a[k] = 1e-7;
+                let bent = rod.kinetics(&a);
+                // Y is odd: the difference errs by the square of the angle.
+                assert!((straight.moment_slope[k] - bent.moment[1] * 1e7).abs() < 1e-9);
+                assert!((straight.tip_slope[k] - bent.tip[1] * 1e7).abs() < 1e-9);
+            }
         }
     }
 }

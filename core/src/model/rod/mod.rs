@@ -12,6 +12,7 @@ mod weights;
 
 pub(crate) use expansion::Expansion;
 pub use kinetics::Kinetics;
+pub(crate) use kinetics::Straight;
 pub(crate) use points::{Load, RodPoints};
 pub(crate) use stations::{LINK_STATIONS, Stations};
 
@@ -46,6 +47,7 @@ pub struct Rod<const K: usize> {
     root: [f64; K],
     tip_slope: [f64; K],
     stations: Stations,
+    straight: Straight<K>,
 }
 
 impl<const K: usize> Rod<K> {
@@ -65,22 +67,19 @@ impl<const K: usize> Rod<K> {
         let Basis { at_points, root, tip, bending, stations } = Basis::<N>::new(&scene);
         let length = scene.link.length;
         let stiffness = bending.map(|share| scene.link.bending_stiffness / length * share);
-        let angle = |basis: usize| -> [f64; POINTS] { at_points.each(|row| row[basis]) };
-        let deflection = |basis: usize| -> [f64; LINK_STATIONS] {
-            let f = angle(basis);
-            stations.running.each(|row| length * dot(&row, &f))
-        };
-        let payload_deflection =
-            |basis: usize| -> f64 { length * dot(&stations.to_payload, &angle(basis)) };
+        // Deflections at the stations, and of the payload.
+        let angle: [[f64; POINTS]; N] = array(|basis| at_points.each(|row| row[basis]));
+        let link: [[f64; LINK_STATIONS]; N] =
+            array(|basis| stations.running.each(|row| length * dot(&row, &angle[basis])));
+        let payload: [f64; N] = array(|basis| length * dot(&stations.to_payload, &angle[basis]));
         let mut mass = Band::<f64, N, N>::ZERO;
         for i in 0..N {
+            let weighed: [f64; LINK_STATIONS] =
+                array(|s| stations.mass * stations.weights[s] * link[i][s]);
+            let (carried, turned) =
+                (scene.payload.mass * payload[i], scene.payload.inertia * tip[i]);
             for j in 0..=i {
-                let (wi, wj) = (deflection(i), deflection(j));
-                let product: [f64; LINK_STATIONS] = array(|s| wi[s] * wj[s]);
-                let value = stations.mass * dot(&stations.weights, &product)
-                    + scene.payload.mass * payload_deflection(i) * payload_deflection(j)
-                    + scene.payload.inertia * tip[i] * tip[j];
-                mass.add(i, j, value);
+                mass.add(i, j, dot(&weighed, &link[j]) + carried * payload[j] + turned * tip[j]);
             }
         }
         let (values, vectors) = generalized_eigen(&stiffness, &mass);
@@ -89,15 +88,17 @@ impl<const K: usize> Rod<K> {
             let sign = if dot(&vectors[k], &tip) < 0.0 { -1.0 } else { 1.0 };
             vectors[k].each(|x| sign * frequency[k] * x)
         };
+        let shapes: [[f64; N]; K] = array(shape);
+        let slope = shapes.each(|shape| at_points.each(|basis| dot(&shape, &basis)));
+        let tip_slope = shapes.each(|shape| dot(&shape, &tip));
+        let scene = scene.shaped(Uniform);
         Ok(Self {
-            scene: scene.shaped(Uniform),
+            scene,
             frequency,
-            slope: array(|k| {
-                let shape = shape(k);
-                at_points.each(|basis| dot(&shape, &basis))
-            }),
-            root: array(|k| dot(&shape(k), &root)),
-            tip_slope: array(|k| dot(&shape(k), &tip)),
+            slope,
+            root: shapes.each(|shape| dot(&shape, &root)),
+            tip_slope,
+            straight: Straight::new(&scene, &stations, &slope, &tip_slope),
             stations,
         })
     }
@@ -143,7 +144,7 @@ impl<const K: usize> Rod<K> {
 
     /// `∂Y/∂aₖ` of the straight link's tip, m.
     pub(crate) fn tip_swing(&self) -> [f64; K] {
-        array(|k| self.scene.link.length * dot(&self.stations.to_tip, &self.slope[k]))
+        self.straight.tip_slope
     }
 
     /// The payload's centre in the hub frame, m, of an arm whose tip is at `tip` there.

@@ -7,7 +7,7 @@ pub(crate) type Exponents = [usize; 3];
 
 /// A list of monomials.
 pub(crate) struct Table<const N: usize> {
-    exponents: [Exponents; N],
+    pub(crate) exponents: [Exponents; N],
 }
 
 /// Monomials of the quantities that are even in `a`.
@@ -32,12 +32,37 @@ impl<const N: usize> Table<N> {
     }
 
     /// The values of the monomials; zero for those that take no part.
-    pub(crate) fn values<const K: usize>(&self, a: &[f64; K]) -> [f64; N] {
+    pub(crate) fn values<T: Scalar, const K: usize>(&self, a: &[T; K]) -> [T; N] {
         let powers = Powers::new(a);
-        let mut values = [0.0; N];
+        let mut values = [T::ZERO; N];
         self.each::<K>(|n, e| values[n] = powers.of(e));
         values
     }
+}
+
+/// [`Table::values`] for constants.
+pub(crate) const fn values_of<const K: usize, const N: usize>(
+    exponents: &[Exponents; N],
+    a: &[f64; K],
+) -> [f64; N] {
+    let mut values = [0.0; N];
+    let mut n = 0;
+    while n < N {
+        if of_modes::<K>(exponents[n]) {
+            values[n] = 1.0;
+            let mut k = 0;
+            while k < K {
+                let mut e = 0;
+                while e < exponents[n][k] {
+                    values[n] *= a[k];
+                    e += 1;
+                }
+                k += 1;
+            }
+        }
+        n += 1;
+    }
+    values
 }
 
 /// Highest exponent.

@@ -2,9 +2,12 @@
 //! scalar of the tick.
 //!
 //! With `φ_p = Σ aₖψₖ(ξ_p)` the position is `r (1, 0) + ∫ (cos φ, sin φ)`, and every integral of
-//! two of them over the mass is a sum over pairs of points with constant weights `W_pq = ∫I_p I_q
-//! dm`, the payload included, `I_p` the integrals of the Lagrange polynomials.
+//! two of them over the mass is a form `fᵀWg` of their values at the points with constant weights
+//! `W_pq = ∫I_p I_q dm`, the payload included, `I_p` the integrals of the Lagrange polynomials.
+//! With `W = R Rᵀ`, factored at set-up, every vector is folded once, `Rᵀf`, at half the cost of
+//! `Wf`, and every form is a scalar product of what was folded.
 
+use super::varied::triangle;
 use super::weights::{SIX, Weights};
 use super::{POINTS as FINE, Rod};
 use crate::hub::{GravityDirection, HubState};
@@ -14,9 +17,9 @@ use crate::scene::{LinkShape, Scene};
 /// Constants of a rod in `K` modes that do not depend on its stiffness.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RodPoints<T, const K: usize, const P: usize = SIX> {
-    /// `W_pq`, `q ≤ p`.
-    pairs: [[T; P]; P],
-    /// `∫I_p dm`, payload included.
+    /// `R_qp`, `q ≥ p`, of `W = R Rᵀ`.
+    fold: [[T; P]; P],
+    /// `R⁻¹f`, `f_p = ∫I_p dm`, payload included.
     first: [T; P],
     /// `ψₖ` at the points, and at the tip.
     slope: [[T; K]; P],
@@ -57,8 +60,15 @@ struct Points<T, const P: usize> {
     spin: [T; P],
     /// `θ̈ + αχ̇`.
     turn: [T; P],
-    /// At the clamp, weight included: hub axes.
-    root: [T; 2],
+}
+
+/// Two vectors over the points, for cosines and for sines, folded.
+type Folded<T, const P: usize> = [[T; P]; 2];
+
+/// `aᵀWb` of both.
+#[inline(always)]
+fn form<T: Scalar, const P: usize>(a: &Folded<T, P>, b: &Folded<T, P>) -> T {
+    dot(&a[0], &b[0]) + dot(&a[1], &b[1])
 }
 
 /// Loads of the arm on its hub, and its tip.
@@ -105,10 +115,19 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
         let pair = |p: usize, q: usize| {
             over_link(&|row| row[p] * row[q]) + payload.mass * to_payload[p] * to_payload[q]
         };
+        let lower: [[f64; P]; P] = triangle(&array(|p| array(|q| pair(p, q))));
+        let mut first: [f64; P] =
+            array(|p| over_link(&|row| row[p]) + payload.mass * to_payload[p]);
+        for p in 0..P {
+            for q in 0..p {
+                first[p] -= lower[p][q] * first[q];
+            }
+            first[p] = if lower[p][p] > 0.0 { first[p] / lower[p][p] } else { 0.0 };
+        }
         let f = T::from_f64;
         Self {
-            pairs: array(|p| array(|q| if q <= p { f(pair(p, q)) } else { T::ZERO })),
-            first: array(|p| f(over_link(&|row| row[p]) + payload.mass * to_payload[p])),
+            fold: array(|p| array(|q| f(lower[q][p]))),
+            first: cast(&first),
             slope: slope.each(|row| cast(&row)),
             tip_slope: cast(rod.tip_slope()),
             to_tip: cast(to_tip),
@@ -136,45 +155,13 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
     ) -> [T; K] {
         let carrying = self.carrying(hub);
         let points = self.points(a, v, &carrying);
-        let (force, mass) = self.forces(&points);
-        let turning = self.payload_inertia
-            * (carrying.acceleration + self.alpha * (carrying.rate + dot(&self.tip_slope, v)));
-        let right = self.pull(a, v, [stiffness, loss], &force, turning);
-        mass.factor().solve(&right)
+        let shapes = self.shapes(&points);
+        let load = self.weighed(self.load_of(&points), &carrying);
+        let turning = self.turning(v, &carrying);
+        self.solved(a, v, [stiffness, loss], &shapes, &load, turning)
     }
 
-    /// Torque, bending moment and tip, `acceleration` being ä.
-    pub fn load(
-        &self,
-        a: &[T; K],
-        v: &[T; K],
-        acceleration: &[T; K],
-        hub: &HubState<T>,
-    ) -> Load<T> {
-        let carrying = self.carrying(hub);
-        let mut points = self.points(a, v, &carrying);
-        for p in 0..P {
-            points.turn[p] += dot(&self.slope[p], acceleration);
-        }
-        let (force, _) = self.forces(&points);
-        let spin = dot(&self.tip_slope, acceleration)
-            + self.alpha * (carrying.rate + dot(&self.tip_slope, v));
-        let mut moment = self.payload_inertia * (carrying.acceleration + spin);
-        let mut shear = self.mass * points.root[1];
-        let mut tip = [self.radius, T::ZERO];
-        for p in 0..P {
-            moment += force[p];
-            shear +=
-                self.first[p] * (points.turn[p] * points.cos[p] - points.spin[p] * points.sin[p]);
-            tip[0] += self.to_tip[p] * points.cos[p];
-            tip[1] += self.to_tip[p] * points.sin[p];
-        }
-        let torque = self.torque(hub, &carrying, moment, shear);
-        Load { torque, moment, tip }
-    }
-
-    /// Torque, bending moment and tip, as [`Self::load`] of [`Self::acceleration`] but for rounding:
-    /// points and forces are computed once for both.
+    /// Torque, bending moment and tip under the acceleration of [`Self::acceleration`].
     pub fn answer(
         &self,
         a: &[T; K],
@@ -185,31 +172,25 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
     ) -> Load<T> {
         let carrying = self.carrying(hub);
         let points = self.points(a, v, &carrying);
-        let (force, mass) = self.forces(&points);
-        let drag = self.alpha * (carrying.rate + dot(&self.tip_slope, v));
-        let turning = self.payload_inertia * (carrying.acceleration + drag);
-        let right = self.pull(a, v, [stiffness, loss], &force, turning);
-        let acceleration = mass.factor().solve(&right);
-        let mut moment = turning + self.payload_inertia * dot(&self.tip_slope, &acceleration);
-        let mut shear = self.mass * points.root[1];
-        let mut tip = [self.radius, T::ZERO];
-        for p in 0..P {
-            let (sin, cos) = (points.sin[p], points.cos[p]);
-            let gained = dot(&self.slope[p], &acceleration);
-            // What that adds to the forces at all points together.
-            let [mut along, mut across] = [T::ZERO; 2];
-            for q in 0..P {
-                let pair = self.pairs[p.max(q)][p.min(q)];
-                along += pair * points.cos[q];
-                across += pair * points.sin[q];
+        let shapes = self.shapes(&points);
+        let mut load = self.load_of(&points);
+        let turning = self.turning(v, &carrying);
+        let weighed = self.weighed(load, &carrying);
+        let acceleration = self.solved(a, v, [stiffness, loss], &shapes, &weighed, turning);
+        for k in 0..K {
+            for r in 0..2 {
+                for p in 0..P {
+                    load[r][p] += acceleration[k] * shapes[k][r][p];
+                }
             }
-            moment += force[p] + gained * (cos * along + sin * across);
-            shear += self.first[p] * ((points.turn[p] + gained) * cos - points.spin[p] * sin);
-            tip[0] += self.to_tip[p] * cos;
-            tip[1] += self.to_tip[p] * sin;
         }
-        let torque = self.torque(hub, &carrying, moment, shear);
-        Load { torque, moment, tip }
+        let shear = self.mass * carrying.root[1] + dot(&self.first, &load[0]);
+        let whole = self.folded(&[points.cos, points.sin]);
+        let moment = turning
+            + self.payload_inertia * dot(&self.tip_slope, &acceleration)
+            + form(&whole, &self.weighed(load, &carrying));
+        let tip = [self.radius + dot(&self.to_tip, &points.cos), dot(&self.to_tip, &points.sin)];
+        Load { torque: self.torque(hub, &carrying, moment, shear), moment, tip }
     }
 
     /// Torque of a moment at the clamp and a force across it.
@@ -222,23 +203,44 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
         }
     }
 
-    /// The right-hand side of `M ä`, `turning` being the payload's own moment but for `ä`.
+    /// `ä` of `M ä = −(…)`, `turning` being the payload's own moment but for what `ä` adds. Every
+    /// folded vector is loaded once for all of its products.
     #[inline(always)]
-    fn pull(
+    fn solved(
         &self,
         a: &[T; K],
         v: &[T; K],
         [stiffness, loss]: [&[T; K]; 2],
-        force: &[T; P],
+        shapes: &[Folded<T, P>; K],
+        load: &Folded<T, P>,
         turning: T,
     ) -> [T; K] {
-        array(|i| {
-            let mut sum = -(turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i]);
-            for p in 0..P {
-                sum -= self.slope[p][i] * force[p];
+        let mut pull = [T::ZERO; K];
+        let mut mass = [[T::ZERO; K]; K];
+        for i in 0..K {
+            pull[i] = turning * self.tip_slope[i] + stiffness[i] * a[i] + loss[i] * v[i];
+            for j in 0..=i {
+                mass[i][j] = self.payload_inertia * self.tip_slope[i] * self.tip_slope[j];
             }
-            sum
-        })
+        }
+        for p in 0..P {
+            for r in 0..2 {
+                for i in 0..K {
+                    pull[i] += shapes[i][r][p] * load[r][p];
+                    for j in 0..=i {
+                        mass[i][j] += shapes[i][r][p] * shapes[j][r][p];
+                    }
+                }
+            }
+        }
+        let mut matrix = Band::<T, K, K>::ZERO;
+        for i in 0..K {
+            pull[i] = -pull[i];
+            for j in 0..=i {
+                matrix.add(i, j, mass[i][j]);
+            }
+        }
+        matrix.factor().solve(&pull)
     }
 
     /// `∂Y/∂aₖ` of the straight link's tip, m.
@@ -272,13 +274,8 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
     }
 
     fn points(&self, a: &[T; K], v: &[T; K], carrying: &Carrying<T>) -> Points<T, P> {
-        let mut points = Points {
-            sin: [T::ZERO; P],
-            cos: [T::ZERO; P],
-            spin: [T::ZERO; P],
-            turn: [T::ZERO; P],
-            root: carrying.root,
-        };
+        let mut points =
+            Points { sin: [T::ZERO; P], cos: [T::ZERO; P], spin: [T::ZERO; P], turn: [T::ZERO; P] };
         let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
         for p in 0..P {
             (points.sin[p], points.cos[p]) = (per_radian * dot(&self.slope[p], a)).sin_cos_turns();
@@ -289,45 +286,68 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
         points
     }
 
-    /// Returns the force at each point by all the others and the clamp, and the mass matrix.
+    /// The payload's own moment but for what `ä` adds.
     #[inline(always)]
-    fn forces(&self, points: &Points<T, P>) -> ([T; P], Band<T, K, K>) {
-        let Points { sin, cos, spin, turn, root } = points;
-        let mut mass = Band::<T, K, K>::ZERO;
-        for i in 0..K {
-            for j in 0..=i {
-                mass.add(i, j, self.payload_inertia * self.tip_slope[i] * self.tip_slope[j]);
-            }
-        }
-        let mut force = [T::ZERO; P];
+    fn turning(&self, v: &[T; K], carrying: &Carrying<T>) -> T {
+        let drag = self.alpha * (carrying.rate + dot(&self.tip_slope, v));
+        self.payload_inertia * (carrying.acceleration + drag)
+    }
+
+    /// `Rᵀf` of two vectors.
+    #[inline(always)]
+    fn folded(&self, f: &Folded<T, P>) -> Folded<T, P> {
+        let mut folded = [[T::ZERO; P]; 2];
         for p in 0..P {
-            force[p] +=
-                self.pairs[p][p] * turn[p] + self.first[p] * (cos[p] * root[1] - sin[p] * root[0]);
-            for i in 0..K {
-                for j in 0..=i {
-                    mass.add(i, j, self.pairs[p][p] * self.slope[p][i] * self.slope[p][j]);
-                }
+            let mut sum = [self.fold[p][p] * f[0][p], self.fold[p][p] * f[1][p]];
+            for q in p + 1..P {
+                sum[0] += self.fold[p][q] * f[0][q];
+                sum[1] += self.fold[p][q] * f[1][q];
             }
-            for q in 0..p {
-                let along = self.pairs[p][q] * (cos[p] * cos[q] + sin[p] * sin[q]);
-                let across = self.pairs[p][q] * (sin[p] * cos[q] - cos[p] * sin[q]);
-                force[p] += along * turn[q] + across * spin[q];
-                force[q] += along * turn[p] - across * spin[p];
-                for i in 0..K {
-                    for j in 0..=i {
-                        let both = self.slope[p][i] * self.slope[q][j]
-                            + self.slope[q][i] * self.slope[p][j];
-                        mass.add(i, j, along * both);
-                    }
-                }
-            }
+            (folded[0][p], folded[1][p]) = (sum[0], sum[1]);
         }
-        (force, mass)
+        folded
+    }
+
+    /// How each mode moves the link.
+    #[inline(always)]
+    fn shapes(&self, points: &Points<T, P>) -> [Folded<T, P>; K] {
+        let mut shapes = [[[T::ZERO; P]; 2]; K];
+        for k in 0..K {
+            let mut across = [[T::ZERO; P]; 2];
+            for p in 0..P {
+                across[0][p] = self.slope[p][k] * points.cos[p];
+                across[1][p] = self.slope[p][k] * points.sin[p];
+            }
+            shapes[k] = self.folded(&across);
+        }
+        shapes
+    }
+
+    /// The accelerations that hold no `ä`, but for the clamp's own.
+    #[inline(always)]
+    fn load_of(&self, points: &Points<T, P>) -> Folded<T, P> {
+        let Points { sin, cos, spin, turn } = points;
+        let mut load = [[T::ZERO; P]; 2];
+        for p in 0..P {
+            load[0][p] = cos[p] * turn[p] - sin[p] * spin[p];
+            load[1][p] = sin[p] * turn[p] + cos[p] * spin[p];
+        }
+        self.folded(&load)
+    }
+
+    /// The same with the clamp's.
+    #[inline(always)]
+    fn weighed(&self, mut load: Folded<T, P>, carrying: &Carrying<T>) -> Folded<T, P> {
+        for p in 0..P {
+            load[0][p] += carrying.root[1] * self.first[p];
+            load[1][p] -= carrying.root[0] * self.first[p];
+        }
+        load
     }
 }
 
 words! {
-    [T: Scalar, const K: usize, const P: usize] RodPoints<T, K, P>: pairs, first, slope, tip_slope, to_tip, radius, mass, gravity,
+    [T: Scalar, const K: usize, const P: usize] RodPoints<T, K, P>: fold, first, slope, tip_slope, to_tip, radius, mass, gravity,
         direction, alpha, payload_inertia, hub_inertia, carried, carrier;
 }
 
@@ -338,27 +358,44 @@ mod tests {
     use crate::model::Rod;
     use crate::{Link, Scene};
 
-    /// One evaluation answers what two do, with everything that a scene can hold.
+    /// Of an arm that does not vibrate on a hub that stands: what the rod's own kinetics make of the
+    /// hub's acceleration and of the weight.
     #[test]
-    fn an_answer_is_the_load_under_the_acceleration() {
+    fn an_answer_is_that_of_the_kinetics() {
         let mut scene = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.04 });
         (scene.payload.mass, scene.payload.inertia, scene.payload.offset) = (0.03, 1e-5, 0.02);
-        (scene.hub.radius, scene.hub.inertia) = (0.05, 2e-4);
-        (scene.damping.alpha, scene.gravity) = (0.3, 2.0);
+        (scene.hub.radius, scene.hub.inertia, scene.gravity) = (0.05, 2e-4, 2.0);
         let rod = Rod::<2>::new(&scene).expect("a rod");
-        let points = RodPoints::<f64, 2>::new(&scene, &rod);
-        let mut hub = HubState::turning(Angle::from_radians(0.7), 3.0);
+        let points = RodPoints::<f64, 2, 8>::fine(&scene, &rod);
+        let mut hub = HubState::turning(Angle::from_radians(0.7), 0.0);
         hub.acceleration = -20.0;
         (hub.sin, hub.cos) = hub.angle.sin_cos();
-        let (a, v) = ([0.02, -0.001], [0.3, 0.1]);
+        let (a, still) = ([0.02, -0.001], [0.0; 2]);
         let stiffness = rod.frequency().map(|omega| omega * omega);
-        let loss = [0.5, 20.0];
-        let acceleration = points.acceleration(&a, &v, &hub, &stiffness, &loss);
-        let apart = points.load(&a, &v, &acceleration, &hub);
-        let once = points.answer(&a, &v, &hub, &stiffness, &loss);
-        let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-12 * y.abs().max(1.0), "{x} {y}");
-        near(once.torque, apart.torque);
-        near(once.moment, apart.moment);
-        assert_eq!(once.tip, apart.tip);
+        let (sin, cos) = points.direction.seen_from(&hub);
+        let kinetics = rod.kinetics(&a);
+        let potential = |a: &[f64; 2]| {
+            let [x, y] = rod.kinetics(a).moment;
+            2.0 * (x * sin + y * cos)
+        };
+        let acceleration = points.acceleration(&a, &still, &hub, &stiffness, &still);
+        for i in 0..2 {
+            let mut beside = [a; 2];
+            beside[0][i] -= 1e-5;
+            beside[1][i] += 1e-5;
+            let slope = (potential(&beside[1]) - potential(&beside[0])) / 2e-5;
+            let inertia = crate::math::dot(&kinetics.mass[i], &acceleration);
+            let rest = inertia + kinetics.coupling[i] * hub.acceleration + stiffness[i] * a[i];
+            assert!((rest + slope).abs() < 1e-7, "mode {i}: {rest} and {slope}");
+        }
+        let answer = points.answer(&a, &still, &hub, &stiffness, &still);
+        let [x, y] = kinetics.moment;
+        let torque = crate::math::dot(&kinetics.coupling, &acceleration)
+            + (kinetics.inertia + 2e-4) * hub.acceleration
+            + 2.0 * (x * cos - y * sin);
+        assert!((answer.torque - torque).abs() < 1e-12, "{} is not {torque}", answer.torque);
+        for r in 0..2 {
+            assert!((answer.tip[r] - kinetics.tip[r]).abs() < 1e-12);
+        }
     }
 }

@@ -2,8 +2,7 @@
 //! points.
 
 use super::POINTS;
-use super::polynomials::{legendre, rule, running_integrals};
-use crate::math::array;
+use super::polynomials::{RUNNING, rule};
 
 /// Stations of the link: one more than there are points, so that the integrals of any distribution
 /// of mass can be had. A uniform link leaves the last without mass.
@@ -26,12 +25,11 @@ pub(crate) struct Stations {
 impl Stations {
     /// Stations at the points themselves: Gauss's rule.
     pub(super) fn uniform(mass: f64) -> Self {
-        let (points, gauss) = rule();
-        let inner = running_integrals(&points, &gauss);
+        let (_, gauss) = rule();
         let mut weights = [0.0; LINK_STATIONS];
         let mut running = [[0.0; POINTS]; LINK_STATIONS];
         weights[..POINTS].copy_from_slice(&gauss);
-        running[..POINTS].copy_from_slice(&inner);
+        running[..POINTS].copy_from_slice(&RUNNING);
         Self { mass, weights, running, to_tip: gauss, to_payload: gauss }
     }
 
@@ -43,13 +41,4 @@ impl Stations {
         }
         self
     }
-}
-
-/// Takes the values at the points to the tip: the polynomial through them.
-pub(super) fn end_of_polynomial() -> [f64; POINTS] {
-    let (points, weights) = rule();
-    array(|p| {
-        let at = legendre::<POINTS>(points[p]);
-        weights[p] * (0..POINTS).map(|j| (2 * j + 1) as f64 * at[j]).sum::<f64>()
-    })
 }

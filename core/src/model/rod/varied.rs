@@ -9,7 +9,7 @@
 
 use super::POINTS;
 use super::basis::Basis;
-use super::polynomials::{legendre, rule, running_integrals};
+use super::polynomials::{RUNNING, legendre, rule};
 use super::stations::{LINK_STATIONS, Stations};
 use crate::math::{Band, Each, array, dot, sqrt};
 use crate::scene::{Piece, Varied};
@@ -163,7 +163,6 @@ impl<'a, const N: usize> VariedLink<'a, N> {
     /// Integrals over the mass of two of `1, ∫v₁, …`, the whole mass being 1; and `∫v` to the tip.
     fn gram(&self) -> ([[f64; LINK_STATIONS]; LINK_STATIONS], [f64; POINTS]) {
         let (points, weights) = rule();
-        let running = running_integrals(&points, &weights);
         let mut gram = [[0.0; LINK_STATIONS]; LINK_STATIONS];
         let mut add = |integral: &[f64; POINTS], mass: f64| {
             let f = |i: usize| if i == 0 { 1.0 } else { integral[i - 1] };
@@ -193,7 +192,7 @@ impl<'a, const N: usize> VariedLink<'a, N> {
                     begin[m] + length * (0..POINTS).map(|p| row[p] * values[p][m]).sum::<f64>()
                 })
             };
-            for (row, point) in running.iter().zip(piece.points()) {
+            for (row, point) in RUNNING.iter().zip(piece.points()) {
                 add(&integral(row), point.weight * point.density * sections / all);
             }
             begin = integral(&weights);
@@ -266,7 +265,7 @@ fn inverse<const N: usize>(mut a: [[f64; N]; N]) -> [[f64; N]; N] {
 }
 
 /// `B` of `BBᵀ = A`, a lower triangle. What rounding has left of a positive pivot is none.
-fn triangle<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
+pub(super) fn triangle<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
     let mut b = [[0.0; N]; N];
     for j in 0..N {
         let left = a[j][j] - dot(&b[j], &b[j]);

@@ -68,7 +68,7 @@ impl<'a, T: Scalar, const K: usize, const N: usize> Flight<'a, T, K, N> {
 
     /// Loads of a state.
     fn load(&self, flex: &ArmState<T, K>, hub: &HubState<T>) -> Load<T> {
-        self.arm.answer(self.points, flex, hub)
+        self.arm.load(self.points, flex, hub)
     }
 
     /// Simulates from rest to the end of the half. `each` sees the arm and the hub after each step.

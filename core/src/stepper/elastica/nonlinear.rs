@@ -77,36 +77,42 @@ struct Flow<T, const K: usize> {
 }
 
 impl<T: Scalar, const K: usize> Nonlinear<T, K> {
-    pub(super) fn new(rod: &Rod<K>, expansion: &Expansion<K>, range: &[f64; K]) -> Self {
+    pub(super) fn new(rod: &Rod<K>, expansion: &Expansion<T, K>, range: &[f64; K]) -> Self {
         let f = T::from_f64;
         let (scene, omega) = (rod.scene(), rod.frequency());
         let g = scene.in_plane_gravity();
         let beta = rod.stiffness_damping();
         let (terms, odd) = (&expansion.even, &expansion.odd);
-        let even = |of: &dyn Fn(usize) -> f64| Even::new(&EVEN, omega, of);
+        let scale: [f64; K] = array(|k| omega[k] * range[k]);
+        let even = |of: &dyn Fn(usize) -> f64| Even::new(&EVEN, &scale, of);
         let linear = &expansion.linear;
         Self {
-            c: core::array::from_fn(|k| even(&|n| terms[n].c[k][0])),
-            d: core::array::from_fn(|k| even(&|n| terms[n].d[k])),
-            e: even(&|n| terms[n].e),
+            c: core::array::from_fn(|k| even(&|n| terms[n].c[k][0].to_f64())),
+            d: core::array::from_fn(|k| even(&|n| terms[n].d[k].to_f64())),
+            e: even(&|n| terms[n].e.to_f64()),
             second: core::array::from_fn(|k| {
-                Axial::of(&even(&|n| if K > 1 { terms[n].c[k][1 % K] } else { 0.0 }))
+                Axial::of(&even(&|n| if K > 1 { terms[n].c[k][1 % K].to_f64() } else { 0.0 }))
             }),
             coupling: cast(&expansion.coupling),
             inertia_at_rest: f(scene.hub.inertia - expansion.e),
             hub_inertia: f(scene.hub.inertia),
             moment_at_rest: f(g * match scene.mount.axis {
                 AxisKind::Rotary => expansion.moment,
-                AxisKind::Linear => rod.kinetics(&[0.0; K]).inertia + scene.hub.inertia,
+                AxisKind::Linear => rod.straight().inertia + scene.hub.inertia,
             }),
             moment: (
-                even(&|n| g * terms[n].moment),
-                Odd::new(&ODD, omega, |k| g * linear[k].moment, |n| g * odd[n].moment),
+                even(&|n| g * terms[n].moment.to_f64()),
+                Odd::new(
+                    &ODD,
+                    &scale,
+                    |k| g * linear[k].moment / omega[k],
+                    |n| g * odd[n].moment.to_f64(),
+                ),
             ),
             tip_at_rest: f(expansion.tip),
             tip: (
-                even(&|n| terms[n].tip),
-                Odd::new(&ODD, omega, |k| linear[k].tip, |n| odd[n].tip),
+                even(&|n| terms[n].tip.to_f64()),
+                Odd::new(&ODD, &scale, |k| linear[k].tip / omega[k], |n| odd[n].tip.to_f64()),
             ),
             omega: cast(omega),
             loss: array(|k| f(beta[k] * omega[k] * omega[k])),

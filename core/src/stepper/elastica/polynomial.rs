@@ -45,15 +45,15 @@ pub(super) struct Local<T, const K: usize> {
 }
 
 impl<T: Scalar, const K: usize> Even<T, K> {
-    /// From the coefficients of the monomials in `a`.
+    /// From the coefficients of the monomials in `xₖ` over its `scale`.
     pub(super) fn new<const N: usize>(
         table: &Table<N>,
-        omega: &[f64; K],
+        scale: &[f64; K],
         coefficient: impl Fn(usize) -> f64,
     ) -> Self {
         let mut even = Self { q: [[T::ZERO; K]; K], q4: T::ZERO };
         table.each::<K>(|n, e| {
-            let scaled = coefficient(n) / power(omega, e);
+            let scaled = coefficient(n) / power(scale, e);
             if e[0] == 4 {
                 even.q4 = T::from_f64(2.0 * scaled);
                 return;
@@ -125,21 +125,21 @@ pub(super) struct Odd<T, const K: usize> {
 }
 
 impl<T: Scalar, const K: usize> Odd<T, K> {
-    /// From the coefficients of `aₖ` and of the monomials.
+    /// From the coefficients of `xₖ`, and of the monomials in it over its `scale`.
     pub(super) fn new<const N: usize>(
         table: &Table<N>,
-        omega: &[f64; K],
+        scale: &[f64; K],
         linear: impl Fn(usize) -> f64,
         coefficient: impl Fn(usize) -> f64,
     ) -> Self {
         let mut odd = Self {
-            linear: array(|k| T::from_f64(linear(k) / omega[k])),
+            linear: array(|k| T::from_f64(linear(k))),
             square: [T::ZERO; K],
             second: [T::ZERO; 2],
             fifth: T::ZERO,
         };
         table.each::<K>(|n, e| {
-            let scaled = T::from_f64(coefficient(n) / power(omega, e));
+            let scaled = T::from_f64(coefficient(n) / power(scale, e));
             match e {
                 [5, 0, 0] => odd.fifth = scaled,
                 [1, 2, 0] => odd.second[0] = scaled,
@@ -186,12 +186,12 @@ impl<T: Scalar, const K: usize> Odd<T, K> {
     }
 }
 
-/// `Π ωₖ^eₖ`.
-fn power<const K: usize>(omega: &[f64; K], exponents: Exponents) -> f64 {
+/// `Π scaleₖ^eₖ`.
+fn power<const K: usize>(scale: &[f64; K], exponents: Exponents) -> f64 {
     let mut product = 1.0;
     for k in 0..K {
         for _ in 0..exponents[k] {
-            product *= omega[k];
+            product *= scale[k];
         }
     }
     product

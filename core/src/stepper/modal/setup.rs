@@ -3,7 +3,7 @@
 use super::Modal;
 use crate::Error;
 use crate::math::{Band, Each, Scalar, array, cast, dot};
-use crate::model::{Model, Modes};
+use crate::model::{LowestModes, Model};
 use crate::stepper::kicks::Kicks;
 use crate::stepper::oscillator::{Oscillator, check_turns, kick};
 use crate::stepper::terms::Terms;
@@ -18,11 +18,9 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
         let tick = Self::admit(model, tick)?;
         let scene = model.scene();
         let (alpha, gravity) = (scene.damping.alpha, scene.in_plane_gravity());
-        let modes = Modes::of(model);
-        let omega: [f64; K] = array(|k| modes.frequency[k]);
-        let beta: [f64; K] = stiffness_damping(model, &modes);
+        let LowestModes { frequency: omega, shape } = LowestModes::<K, N>::of(model);
+        let beta: [f64; K] = stiffness_damping(model, &shape);
         check_turns(&omega, alpha, &beta, tick)?;
-        let shape: [[f64; N]; K] = array(|k| modes.shape[k].each(|x| x / omega[k]));
         let onto = |load: &[f64; N]| -> [f64; K] { shape.each(|shape| dot(&shape, load)) };
         let between =
             |matrix: &Band<f64, N, W>| -> Band<T, K, K> { matrix.onto(&shape).map(T::from_f64) };
@@ -94,13 +92,10 @@ impl<T: Scalar, const K: usize> Modal<T, K> {
 /// `βₖ` of each mode, s: `β`, and the joint's own damping by the mode's share in its strain energy.
 fn stiffness_damping<const K: usize, const N: usize, const W: usize>(
     model: &Model<N, W>,
-    modes: &Modes<N>,
+    shape: &[[f64; N]; K],
 ) -> [f64; K] {
     let joint = model.joint_damping();
-    array(|k| {
-        let shape = modes.shape[k].each(|x| x / modes.frequency[k]);
-        model.scene().damping.beta + dot(&shape, &joint.times(&shape))
-    })
+    shape.each(|shape| model.scene().damping.beta + dot(&shape, &joint.times(&shape)))
 }
 
 /// Weights of the squares of `ωa` and of `ωȧ` of a mode that is settled below the coordinate

@@ -109,7 +109,7 @@ impl<T: Scalar, const K: usize> Pointwise<T, K> {
         let step = tick / steps;
         let alpha = rod.scene().damping.alpha;
         let beta = rod.stiffness_damping();
-        let b = rod.kinetics(&[0.0; K]).coupling;
+        let b = rod.straight().coupling;
         let f = T::from_f64;
         Ok(Self {
             points,
