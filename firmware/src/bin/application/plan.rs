@@ -1,5 +1,5 @@
-//! Plans and changes of arms, below everything else: however long they take, ticks, drives and requests
-//! go on. The tick is masked while their results are handed over, no longer.
+//! Plans and changes of arms, below everything else: however long they take, ticks, drives and
+//! requests go on. The tick is masked while their results are handed over, no longer.
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
