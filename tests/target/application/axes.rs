@@ -69,7 +69,7 @@ fn as_many_axes_fit_as_the_page_says() {
         let count = |i: usize| cells[i].parse().unwrap_or_else(|_| panic!("{row}"));
         let written = Fit { moving: count(2), worst: count(3) };
         assert_eq!(row.to_owned() + "\n", firmware_page::row(name, &written));
-        if ["Newmark1Nodal", "Elastica2"].contains(&id) {
+        if ["RigidArm", "Elastica2"].contains(&id) {
             let counted = firmware_page::fit(id).unwrap_or_else(|error| panic!("{error}"));
             for (was, is) in [(written.moving, counted.moving), (written.worst, counted.worst)] {
                 assert!(was.abs_diff(is) * 50 <= was, "{name}: {counted:?}, write the page anew");
@@ -95,9 +95,10 @@ fn the_image_that_counts_axes_stands_for_the_application() {
     assert!(own <= 2 * TICK, "{own} instructions of two axes");
 }
 
-/// A tick costs what it costs at `opt-level = 3`, to 10 %, though all around it is compiled for
-/// size: its arithmetic is a concrete function in a crate that the profile compiles for speed. What
-/// is around it is the same for every method, and cancels.
+/// A tick costs what it costs at `opt-level = 3`, to 20 %, though all around it is compiled for
+/// size, which makes it four times as dear otherwise: its arithmetic is a concrete function in a
+/// crate that the profile compiles for speed. What is around it is the same for every method, and
+/// cancels.
 #[test]
 fn a_tick_costs_what_it_costs_at_the_highest_level() {
     let table = std::fs::read_to_string(root().join("docs/instructions.csv")).expect("the table");
@@ -106,13 +107,13 @@ fn a_tick_costs_what_it_costs_at_the_highest_level() {
         let counts = row.split(',').filter_map(|cell| cell.parse::<u32>().ok());
         counts.max().expect("counts")
     };
-    let fast = worst("elastica,2,fast,,") - worst("newmark,1,nodal,,");
-    let [elastica, newmark] = ["Elastica2", "Newmark1Nodal"].map(|id| {
+    let fast = worst("elastica,2,fast,,") - worst("rigid,0,,,");
+    let [elastica, rigid] = ["Elastica2", "RigidArm"].map(|id| {
         let fit = firmware_page::fit(id).unwrap_or_else(|error| panic!("{error}"));
         fit.moving / 2
     });
-    println!("{elastica} - {newmark} in the application's profile, {fast} in the table");
-    assert!((elastica - newmark) * 10 <= fast * 11, "{elastica} - {newmark}, {fast}");
+    println!("{elastica} - {rigid} in the application's profile, {fast} in the table");
+    assert!((elastica - rigid) * 10 <= fast * 12, "{elastica} - {rigid}, {fast}");
 }
 
 /// The page says what happens. Instruction counts and sizes may be off by what a change of the code
