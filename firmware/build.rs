@@ -1,6 +1,9 @@
-//! Link arguments, and the prepared arm of the program `prepared`. The arguments stand here because
-//! a member's own `.cargo/config.toml` is not read when cargo runs in the workspace root, and the
-//! image would come out empty.
+//! Link arguments, and the prepared arms of the application and of small programs. The arguments
+//! stand here because a member's own `.cargo/config.toml` is not read when cargo runs in the
+//! workspace root, and the image would come out empty.
+
+#[path = "build/arms.rs"]
+mod arms;
 
 use std::path::Path;
 use std::{env, fs};
@@ -17,6 +20,7 @@ const EXPORTED: &str = "../bindings/c/examples/arm.h";
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=build");
     println!("cargo:rerun-if-changed=../memory.x");
     println!("cargo:rerun-if-changed={BOARDS}");
     // cortex-m-rt's script, which takes in memory.x; no page alignment, so no gaps in the flash.
@@ -32,15 +36,14 @@ fn main() {
     fs::write(folder.join("board.x"), memory).expect("the build folder is writable");
     // The report's level, read where its macros are expanded.
     println!("cargo:rustc-env=DEFMT_LOG=info");
-    // The one method of the program `fit`.
+    // The one method of the program `prepared`.
     println!("cargo:rerun-if-env-changed=STILLBEAM_METHOD");
     let method = env::var("STILLBEAM_METHOD").unwrap_or_else(|_| "Newmark1Nodal".into());
     fs::write(folder.join("prepared.rs"), prepared(&method)).expect("the build folder is writable");
     println!("cargo:rerun-if-changed={EXPORTED}");
     fs::write(folder.join("exported.rs"), exported()).expect("the build folder is writable");
-    let method = format!("pub use stillbeam_golden::methods::{method} as Chosen;\n");
-    fs::write(folder.join("method.rs"), method).expect("the build folder is writable");
     if let Some(board) = &chosen {
+        fs::write(folder.join("arms.rs"), arms::text()).expect("the build folder is writable");
         println!("cargo:rustc-link-arg-bin=application=-Tdefmt.x");
         // The image names its board, so that none is taken for another's: a symbol, no byte.
         println!("cargo:rustc-link-arg-bin=application=--defsym=_board_{board}=0");

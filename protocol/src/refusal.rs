@@ -40,7 +40,7 @@ pub enum Refusal<'a> {
     NotMeasured,
     /// Too many moves and payloads are being planned.
     Busy,
-    /// The firmware has no planner of still moves.
+    /// The firmware has no planner of still moves of this arm.
     NoPlanner,
     /// There are only so many axes.
     Axis(u8),
@@ -60,6 +60,17 @@ pub enum Refusal<'a> {
     DriveFault(u32),
     /// The drive has said nothing of itself for too long.
     DriveSilent,
+    /// The firmware sets no arm up, and none was prepared with this payload.
+    NotPrepared {
+        /// The payload's number that no prepared arm has: `payload.mass`, …
+        parameter: &'a str,
+        /// Value that was given.
+        value: f64,
+        /// Unit of the value.
+        unit: &'a str,
+        /// Payloads that were prepared, in words.
+        prepared: &'a str,
+    },
 }
 
 impl From<Error> for Refusal<'static> {
@@ -145,7 +156,7 @@ impl fmt::Display for Refusal<'_> {
             }
             Self::Busy => write!(f, "planner = busy: wait until it has answered"),
             Self::NoPlanner => {
-                write!(f, "still = no planner: use a firmware with the feature `still`")
+                write!(f, "still = no planner: the firmware has none that takes this arm")
             }
             Self::Axis(axes) => write!(f, "axis: must be 0 to {}", axes.saturating_sub(1)),
             Self::NoSensor => {
@@ -157,6 +168,12 @@ impl fmt::Display for Refusal<'_> {
             Self::DriveFault(code) => {
                 write!(f, "drive.errors = {code:#x}: must be 0; disable the axis, then clear them")
             }
+            Self::NotPrepared { parameter, value, unit, prepared } => write!(
+                f,
+                "{parameter} = {} {unit}: must be one that is prepared: {prepared}; or use a \
+                 firmware with the feature `set-up`",
+                Short(value)
+            ),
             Self::DriveSilent => {
                 write!(f, "drive = silent: its heartbeat must come; check power and bus")
             }

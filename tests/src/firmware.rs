@@ -92,38 +92,44 @@ pub fn build_with(bin: &str, variable: &str, value: &str) -> Built {
 /// # Errors
 /// Errors are those of [`build`].
 pub fn application(features: &str) -> Built {
-    once(application_name(features), |name| as_application("application", features, None, name))
+    once(application_name(features), |name| as_application("application", features, name))
 }
 
 /// Builds two axes with one method, by its name in the list of methods, as the application is
 /// built.
 ///
 /// # Errors
-/// Errors are those of [`build`].
+/// Errors are those of [`changed_application`].
 pub fn fit(method: &str) -> Built {
-    let variable = Some(("STILLBEAM_METHOD", method));
-    once(format!("fit-{method}"), |name| as_application("fit", "mps2", variable, name))
+    let other = format!("stillbeam_methods::{method};");
+    changed("fit", "mps2", format!("fit-{method}"), ["stillbeam_methods::Elastica2;", &other])
 }
 
-/// Builds the application for a board after one change to `axes.rs`, as a user would make it; the
-/// file itself stays. The image's name ends with `name`.
+/// Builds the application of those features after one change to `axes.rs`, as a user would make it;
+/// the file itself stays. The image's name ends with `name`.
 ///
 /// # Errors
 /// Errors are those of [`build`]. An error is also returned if `from` does not stand in `axes.rs`
 /// exactly once.
-pub fn changed_application(board: &str, name: &str, [from, to]: [&str; 2]) -> Built {
+pub fn changed_application(features: &str, name: &str, change: [&str; 2]) -> Built {
+    let name = format!("{}-{name}", application_name(features));
+    changed("application", features, name, change)
+}
+
+/// Builds a program with the application's profile after one change to `axes.rs`.
+fn changed(bin: &str, features: &str, name: String, [from, to]: [&str; 2]) -> Built {
     let path = root().join("wiring/src/axes.rs");
     let axes = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     if axes.matches(from).count() != 1 {
         return Err(format!("{}: \"{from}\" must stand in it once", path.display()));
     }
-    once(format!("{}-{name}", application_name(board)), |name| {
+    once(name, |name| {
         let folder = root().join("target/firmware");
         let other = folder.join("axes.rs");
         fs::create_dir_all(&folder)
             .and_then(|()| fs::write(&other, axes.replace(from, to)))
             .map_err(|error| format!("{}: {error}", other.display()))?;
-        as_application("application", &format!("{board},_other-axes"), None, name)
+        as_application(bin, &format!("{features},_other-axes"), name)
     })
 }
 
@@ -132,7 +138,7 @@ fn application_name(features: &str) -> String {
 }
 
 /// Builds a program with the application's profile and keeps it under the name. For [`once`].
-fn as_application(bin: &str, features: &str, variable: Option<(&str, &str)>, name: &str) -> Built {
+fn as_application(bin: &str, features: &str, name: &str) -> Built {
     require_target(TARGET)?;
     let folder = root().join("target/firmware");
     run(cargo()
@@ -140,8 +146,7 @@ fn as_application(bin: &str, features: &str, variable: Option<(&str, &str)>, nam
         .args(["--features", features, "--profile", "application", "--target", TARGET])
         .arg("--target-dir")
         .arg(&folder)
-        .env_remove("STILLBEAM_METHOD")
-        .envs(variable))?;
+        .env_remove("STILLBEAM_METHOD"))?;
     keep(&folder, TARGET, "application", bin, name)
 }
 

@@ -17,7 +17,7 @@ pub const TICK: f64 = 0.010;
 
 /// The method, the same for every axis: any of the list in `methods/`. The firmware tells the host
 /// its name, and the host runs the same one.
-pub type Method = stillbeam_methods::Newmark1Nodal;
+pub type Method = stillbeam_methods::Elastica2;
 
 /// The method's stepper.
 pub type Stepper = <Method as stillbeam_methods::Method>::Stepper;
@@ -37,13 +37,14 @@ pub type Joint = crate::Joint<Stepper, QUEUE>;
 pub const CONFIGURATIONS: [Configuration; AXES] = [
     Configuration {
         scene: UniformScene {
-            payload: Payload { mass: 0.030, inertia: 0.0, offset: 0.0 },
+            payload: of_mass(0.030),
             ..UniformScene::uniform(Link {
                 length: 0.4,
                 mass: 0.01904,
                 bending_stiffness: 0.042656,
             })
         },
+        payloads: &[of_mass(0.050)],
         policy: policy(5.0, 15.0),
         joint: motor::Joint {
             ratio: Ratio { motor: 6, link: 1 },
@@ -62,11 +63,12 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
             link: Link { length: 0.5, mass: 0.054, bending_stiffness: 0.92 },
             shape: Uniform,
             hub: Hub { radius: 0.03, inertia: 1e-4, stiffness: None },
-            payload: Payload { mass: 0.050, inertia: 0.0, offset: 0.0 },
+            payload: of_mass(0.050),
             damping: Damping { alpha: 0.1, beta: 1e-4, joint: 0.0 },
             gravity: 9.81,
             mount: Mount::ROTARY,
         },
+        payloads: &[of_mass(0.080)],
         policy: policy(8.0, 60.0),
         joint: motor::Joint {
             ratio: Ratio { motor: 1, link: 1 },
@@ -85,6 +87,11 @@ pub const CONFIGURATIONS: [Configuration; AXES] = [
 /// Time without a word from the host after which an axis stops, s.
 pub const PATIENCE: f64 = 0.5;
 
+/// A payload of `mass` kg that is small, at the tip.
+const fn of_mass(mass: f64) -> Payload {
+    Payload { mass, inertia: 0.0, offset: 0.0 }
+}
+
 /// Policy with limits in rad/s and rad/s²; the axis waits for two missed ticks.
 const fn policy(rate: f64, acceleration: f64) -> Policy {
     let limits = Limits {
@@ -98,10 +105,14 @@ const fn policy(rate: f64, acceleration: f64) -> Policy {
     Policy { limits, stop: StopLimits::OF_MOVES, patience: PATIENCE, missed: 2 }
 }
 
-/// Builds the stepper of an arm. This is set-up, never called in the tick.
+/// Builds the stepper of an arm: on the desktop, or on the target with the firmware's feature
+/// `set-up`. Never called in the tick.
 ///
 /// # Errors
 /// The method refuses the scene or the tick.
+// Inline, so that nothing of the stepper is compiled in this crate: what a tick calls has to be
+// compiled in `firmware/tick`, at that crate's level.
+#[inline]
 pub fn stepper(scene: &UniformScene) -> Result<Stepper, Error> {
     Method::stepper(scene, TICK)
 }

@@ -5,7 +5,7 @@ use stillbeam::axis::{Axis, Cause, Mode, Tick, Timing};
 use stillbeam::drive::Condition;
 use stillbeam::drive::odrive::Node;
 use stillbeam::motor::Drivetrain;
-use stillbeam::{Angle, Error, PlannedMove, Stepper, UniformScene};
+use stillbeam::{Angle, Error, Generator, PlannedMove, Setpoint, Stepper, UniformScene};
 use stillbeam_protocol::{Command, Refusal};
 
 use crate::admit::admit;
@@ -44,7 +44,7 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
     /// # Errors
     /// The policy, the gear, the motor or the node id is outside of its range.
     pub fn new(configuration: &Configuration, stepper: S) -> Result<Self, Error> {
-        let Configuration { scene, policy, joint, direction, zero, node } = *configuration;
+        let Configuration { scene, policy, joint, direction, zero, node, .. } = *configuration;
         let origin = Angle { turns: 0, part: 0.0 };
         let watch = Watch::new(stepper.tick());
         // The axis last: what is large then need not wait on the stack for what may be refused.
@@ -96,11 +96,21 @@ impl<S: Stepper<Scalar = f32>, const QUEUE: usize> Joint<S, QUEUE> {
     /// Makes the next tick, before which `missed` ticks did not take place.
     #[inline(always)]
     pub fn tick(&mut self, missed: u32) -> Tick<f32> {
+        self.tick_by(missed, Generator::tick)
+    }
+
+    /// Makes the next tick as [`Self::tick`] does, with `advance` as in [`Axis::tick_by`].
+    #[inline(always)]
+    pub fn tick_by(
+        &mut self,
+        missed: u32,
+        advance: impl FnOnce(&mut Generator<S, QUEUE>) -> Setpoint<f32>,
+    ) -> Tick<f32> {
         if let Some(cause) = self.watch.tick(missed, self.axis.mode()) {
             self.stop(cause);
         }
         self.axis.missed(missed);
-        self.axis.tick()
+        self.axis.tick_by(advance)
     }
 
     /// Stops the axis. After a fault of the drive it is then disabled: the shaft may be anywhere,

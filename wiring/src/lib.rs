@@ -7,9 +7,9 @@
 //! [`Configuration`] is one axis of it. [`Joint`] is an axis at work: arm, policy, gear and
 //! encoder. [`Work`] tells the requests that need a plan from those that are carried out at once,
 //! [`drive`] says what a drive is told at a tick, and [`watch`] what becomes of an axis whose drive
-//! fails. [`Rows`] are a path that comes row by row. [`Recorder`] samples a [`Sensor`] beside the
-//! hub's angle; [`StandIn`] takes the sensor's place where there is none. Nothing here owns a task,
-//! a clock or a device.
+//! fails. [`PreparedArms`] are the arms that the build has set up. [`Rows`] are a path that comes
+//! row by row. [`Recorder`] samples a [`Sensor`] beside the hub's angle; [`StandIn`] takes the
+//! sensor's place where there is none. Nothing here owns a task, a clock or a device.
 
 mod admit;
 #[cfg_attr(feature = "_other-axes", path = "../../target/firmware/axes.rs")]
@@ -21,6 +21,7 @@ mod configuration;
 pub mod drive;
 mod joint;
 mod order;
+mod prepared;
 mod recorder;
 mod rows;
 mod sensor;
@@ -31,6 +32,7 @@ mod work;
 pub use configuration::Configuration;
 pub use joint::{FAR, HOME_RANGE, Joint};
 pub use order::Order;
+pub use prepared::{PreparedArm, PreparedArms};
 pub use recorder::{Recorder, Recording};
 pub use rows::Rows;
 pub use sensor::Sensor;

@@ -170,8 +170,19 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     /// The next setpoint. The tick path: no allocation, no panic, no `Result`.
     #[inline(always)]
     pub fn tick(&mut self) -> Tick<S::Scalar> {
+        self.tick_by(Generator::tick)
+    }
+
+    /// The next setpoint, as [`Axis::tick`] makes it. `advance` is [`Generator::tick`], or a
+    /// function of a user's that calls it: one in a crate of its own can be compiled for speed while
+    /// the policy is compiled for size.
+    #[inline(always)]
+    pub fn tick_by(
+        &mut self,
+        advance: impl FnOnce(&mut Generator<S, QUEUE>) -> Setpoint<S::Scalar>,
+    ) -> Tick<S::Scalar> {
         self.listen();
-        let setpoint = self.generator.tick();
+        let setpoint = advance(&mut self.generator);
         self.done(setpoint)
     }
 

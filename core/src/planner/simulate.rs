@@ -6,7 +6,7 @@ use super::linear::Oscillation;
 use super::{MAX_ARMS, Path};
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Each, Scalar, array, cast, sqrt, words};
+use crate::math::{Each, Scalar, Words, array, cast, mix, named, sqrt, words};
 use crate::model::{Load, Rod, RodPoints};
 use crate::scene::{LinkShape, Scene};
 use crate::stepper::{ArmState, Forcing, LONGEST_TURN, Oscillator};
@@ -252,5 +252,33 @@ impl<T: Scalar, const K: usize> Arm<T, K> {
 words! {
     [T: Scalar, const K: usize] Arm<T, K>: modes, stiffness, loss, coupling, oscillation, alpha,
         tip_per_mode, frequency;
-    [T: Scalar, const K: usize] Resolution<T, K>: arms, steps, per_step;
+}
+
+/// A planner that is not robust has one arm three times, and it is written once.
+impl<T: Scalar, const K: usize> Words for Resolution<T, K> {
+    const LAYOUT: u32 = {
+        let hash = mix(named("own arm, is robust, outer arms, steps, per_step"), T::LAYOUT);
+        mix(hash, Arm::<T, K>::LAYOUT)
+    };
+
+    fn put(&self, sink: &mut dyn FnMut(u32)) {
+        let Self { arms, steps, per_step } = self;
+        let [own, outer @ ..] = arms;
+        own.put(sink);
+        let robust = outer.iter().any(|arm| arm.frequency != own.frequency);
+        robust.put(sink);
+        if robust {
+            outer.iter().for_each(|arm| arm.put(sink));
+        }
+        steps.put(sink);
+        per_step.put(sink);
+    }
+
+    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+        let mut arms = [Words::get(source); MAX_ARMS];
+        if Words::get(source) {
+            arms[1..].iter_mut().for_each(|arm| *arm = Words::get(source));
+        }
+        Self { arms, steps: Words::get(source), per_step: Words::get(source) }
+    }
 }

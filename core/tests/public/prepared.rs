@@ -77,6 +77,7 @@ fn every_method_comes_back_to_the_bit() {
 /// A loaded planner plans the same curve, to the bit.
 #[test]
 fn a_planner_comes_back_to_the_bit() {
+    let mut counts = Vec::new();
     for planner in [Planner::new(&scene(), TICK), Planner::robust(&scene(), TICK, 0.1)] {
         let planner = planner.unwrap().with_load_limits(Some(50.0), None).unwrap();
         let words = words(&planner);
@@ -88,7 +89,10 @@ fn a_planner_comes_back_to_the_bit() {
         assert!(planner.plan(&request).is_ok(), "{:?}", planner.plan(&request));
         let refused = Elastica::<f32, 2>::load(&words, TICK);
         assert!(matches!(refused, Err(Error::NotPrepared { parameter: "arm.method", .. })));
+        counts.push(words.len());
     }
+    // One arm in two resolutions, or three of them.
+    assert!(2 * counts[0] < counts[1], "{counts:?}");
 }
 
 /// The choice of auto is loaded by the type of the stepper that it stands for.

@@ -2,9 +2,9 @@
 //! hand-over of setpoints, one method. Prints the worst tick of a move and the worst of all, a line
 //! of two numbers.
 //!
-//! The method is chosen when this is built, by the environment variable `STILLBEAM_METHOD` (a name
-//! in the list of methods). What the compiler inlines depends on how many steppers an image holds,
-//! so that an image of several methods would count something else.
+//! The method is that of `axes.rs`, of which tests build changed ones. What the compiler inlines
+//! depends on how many steppers an image holds, so that an image of several methods would count
+//! something else.
 #![no_std]
 #![no_main]
 
@@ -21,22 +21,16 @@ use stillbeam::axis::{Axis, Mode};
 use stillbeam::{Angle, Error, PlainMove, Profile};
 use stillbeam_firmware::counter::{Chosen as Counter, Stopwatch};
 use stillbeam_firmware::output::Output;
-use stillbeam_golden::methods::Method;
 use stillbeam_wiring::Configuration;
-use stillbeam_wiring::axes::{CONFIGURATIONS, QUEUE, TICK};
+use stillbeam_wiring::axes::{self, CONFIGURATIONS, QUEUE, Stepper};
 use stillbeam_wiring::drive::Setpoint;
-
-/// `Chosen`, a method: written by build.rs.
-mod method {
-    include!(concat!(env!("OUT_DIR"), "/method.rs"));
-}
 
 stillbeam_firmware::exit_on_panic!();
 stillbeam_firmware::unused_interrupts!();
 
 const AXES: usize = 2;
 
-type Joint = Axis<<method::Chosen as Method>::Stepper, QUEUE>;
+type Joint = Axis<Stepper, QUEUE>;
 
 type Outlet = Channel<CriticalSectionRawMutex, Setpoint, { 2 * AXES }>;
 
@@ -55,7 +49,7 @@ fn set_up() -> Result<(), Error> {
     let Configuration { scene, policy, .. } = &CONFIGURATIONS[1];
     let origin = Angle { turns: 0, part: 0.0 };
     for _ in 0..AXES {
-        let axis = Axis::new(method::Chosen::stepper(scene, TICK)?, origin, *policy)?;
+        let axis = Axis::new(axes::stepper(scene)?, origin, *policy)?;
         with(|joints| {
             // As many as there is room for.
             let _ = joints.push(axis);
@@ -71,7 +65,7 @@ fn tick() -> u32 {
     with(|joints| {
         let mut dropped = 0;
         for (i, axis) in joints.iter_mut().enumerate() {
-            let tick = axis.tick();
+            let tick = axis.tick_by(stillbeam_tick::advance);
             let setpoint = Setpoint { axis: i as u8, tick, cause: axis.cause() };
             for outlet in [&TO_DRIVE, &TO_HOST] {
                 dropped += u32::from(outlet.try_send(setpoint).is_err());

@@ -38,7 +38,10 @@ impl Replica {
         let Description { method, scene, tick, policy, joint, direction, zero, node, .. } =
             *description;
         let policy = if patient { Policy { patience: 0.0, ..policy } } else { policy };
-        let configuration = Configuration { scene, policy, joint, direction, zero: 0.0, node };
+        // The host sets up whatever payload it is told.
+        let payloads = &[];
+        let configuration =
+            Configuration { scene, payloads, policy, joint, direction, zero: 0.0, node };
         let axis = arm::build(method, &configuration, zero, tick)?;
         let (node, switch) = (Node::new(node)?, Switch::default());
         Ok(Self { axis, tick, node, switch, limits: policy.limits, missed: 0, planner: None })

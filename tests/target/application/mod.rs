@@ -5,6 +5,7 @@ mod axes;
 mod conversation;
 mod image;
 mod in_the_loop;
+mod payload;
 mod planning;
 
 /// Lines that hold counts of instructions or bytes, with every number as `#`. How long a plan

@@ -10,7 +10,7 @@ use crate::session::{ON_TIME, begin, run, status, take};
 /// conversation would have ended with an error.
 #[test]
 fn still_moves_are_planned_on_the_target_while_ticks_and_drives_go_on() {
-    let mut session = begin("mps2,still");
+    let mut session = begin("mps2");
     let lines = run(&mut session, &STILL);
     let accepted =
         lines.iter().filter(|line| line.starts_with("still") && line.contains("accepted before"));
@@ -33,7 +33,7 @@ fn still_moves_are_planned_on_the_target_while_ticks_and_drives_go_on() {
 /// that it makes stale is refused.
 #[test]
 fn a_stop_does_not_wait_for_a_plan() {
-    let mut session = begin("mps2,still");
+    let mut session = begin("mps2");
     take(&mut session, "enable 0");
     take(&mut session, "spin 0 0.5 2");
     take(&mut session, "spin 0 0.5 0");
@@ -49,18 +49,10 @@ fn a_stop_does_not_wait_for_a_plan() {
     assert!(later > 1, "the plan was still being made: {later} ticks");
 }
 
-#[test]
-fn a_firmware_without_the_planner_says_so() {
-    let mut session = begin("mps2");
-    take(&mut session, "enable 0");
-    let said = take(&mut session, "still 0 1.0");
-    assert!(said.contains("refused: still = no planner"), "{said}");
-}
-
 /// Requests that the planner has no room for are refused at once.
 #[test]
 fn a_busy_planner_says_so() {
-    let mut session = begin("mps2,still");
+    let mut session = begin("mps2");
     take(&mut session, "enable 0");
     let still = Command::Still { to: 1.0, duration: None };
     let posted: Vec<_> = (0..4).map(|_| session.post(0, still).expect("sent")).collect();

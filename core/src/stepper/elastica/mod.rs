@@ -212,8 +212,13 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         let mut value = self.nonlinear.evaluate_at(&y, &still);
         // Half-way steps to the centre: contracting as long as the link carries its weight.
         for _ in 0..EQUILIBRIUM_STEPS {
+            let before = y;
             for k in 0..K {
                 y[k][0] = T::HALF * (y[k][0] - value.offset[k][0]);
+            }
+            // Every further step would be the same: firmware masks its tick for as long.
+            if y == before {
+                break;
             }
             value = self.nonlinear.evaluate_at(&y, &still);
         }

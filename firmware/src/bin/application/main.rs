@@ -7,12 +7,13 @@
 //! | [`command::run`] | middle | requests of the host: carries out, hands down, answers |
 //! | [`link::setpoints`] | middle | every setpoint, and what [`record`] takes, to the host |
 //! | [`report::run`] | middle | a line a second over defmt |
-//! | [`plan::run`] | lowest | plans moves and rows of paths, sets arms up |
+//! | [`plan::run`] | lowest | plans moves and rows of paths, changes payloads |
 //!
 //! One board, chosen by a feature; everything it differs in is in its file.
 #![no_std]
 #![no_main]
 
+mod arms;
 #[cfg_attr(feature = "mps2", path = "boards/mps2.rs")]
 #[cfg_attr(feature = "nucleo-g474re", path = "boards/nucleo_g474re.rs")]
 #[cfg_attr(feature = "nucleo-g491re", path = "boards/nucleo_g491re.rs")]
@@ -25,7 +26,6 @@ mod plan;
 mod record;
 mod report;
 mod shared;
-mod still;
 mod tick;
 
 use cortex_m_rt::entry;

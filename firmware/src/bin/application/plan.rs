@@ -1,16 +1,16 @@
-//! Planning and set-up, below everything else: however long they take, ticks, drives and requests
-//! go on. The tick is masked while their results are handed over, no longer.
+//! Plans and changes of arms, below everything else: however long they take, ticks, drives and
+//! requests go on. The tick is masked while their results are handed over, no longer.
 
 use embassy_sync::blocking_mutex::raw::CriticalSectionRawMutex;
 use embassy_sync::channel::Channel;
 use stillbeam::{Error, Payload, PlanContext, PlannedMove, UniformScene};
 use stillbeam_protocol::Refusal;
 use stillbeam_wiring::Work;
-use stillbeam_wiring::axes::{self, AXES};
+use stillbeam_wiring::axes::AXES;
 
+use crate::arms::{self, Planner};
 use crate::path::Paths;
 use crate::shared::{self, Outcome, on, scene};
-use crate::still::Planners;
 
 /// Work for one axis.
 #[derive(Clone, Copy)]
@@ -35,19 +35,13 @@ pub static DONE: Channel<CriticalSectionRawMutex, Done, 1> = Channel::new();
 /// Takes jobs one by one.
 #[embassy_executor::task]
 pub async fn run() {
-    let mut planners = Planners::default();
     let mut paths = Paths::default();
     loop {
         let Job { sequence, axis, work } = paths.next_job().await;
         let outcome = match work {
             Work::Move(motion) => follow(axis, |context| context.plan(&motion)),
-            Work::Still { to, duration } => planners
-                .of(axis)
-                .and_then(|planner| follow(axis, |d| planner.plan(d, to, duration))),
-            Work::Payload(payload) => {
-                planners.forget(axis);
-                reload(axis, payload)
-            }
+            Work::Still { to, duration } => still(axis, to, duration),
+            Work::Payload(payload) => reload(axis, payload),
             Work::Path(spline) => paths.begin(axis, spline),
             Work::Row(row, last) => paths.offer(axis, row, last),
         };
@@ -69,9 +63,11 @@ fn follow(
             let joint = s.joints.get(axis).ok_or(Refusal::Axis(AXES as u8))?;
             joint.axis.plan_context().map_err(Refusal::from)
         })?;
-        let planned = plan(&context)?;
+        // Used where it was made: a move is large, and a copy of it needs as much stack.
+        let made = plan(&context);
+        let planned = made.as_ref().map_err(|error| *error)?;
         let taken = shared::with(|s| match s.joints.get_mut(axis) {
-            Some(joint) => joint.take(&planned).map(|_| joint.axis.clock()),
+            Some(joint) => joint.take(planned).map(|_| joint.axis.clock()),
             None => Err(last),
         });
         match taken {
@@ -85,11 +81,32 @@ fn follow(
     Err(last.into())
 }
 
-/// Sets the arm with another payload up and puts it in the place of the old one.
+/// Plans a move that arrives still. The planner is there for as long: loading it takes less than a
+/// hundredth of its plan, and statics for one an axis would be more than the stack that it needs.
+#[inline(never)]
+fn still(axis: usize, to: f64, duration: Option<f64>) -> Outcome<u32> {
+    arms::with_planner(axis, &scene(axis)?, |planner| {
+        follow(axis, |context| search(context, planner, to, duration))
+    })
+}
+
+/// Searches for a still move.
+// Not inlined: what the search needs is off the stack when the move is handed over.
+#[inline(never)]
+fn search(
+    context: &PlanContext,
+    planner: &Planner,
+    to: f64,
+    duration: Option<f64>,
+) -> Result<PlannedMove<f32>, Error> {
+    context.plan_still(planner, to, duration)
+}
+
+/// Puts the arm with another payload in the place of the old one.
 #[inline(never)]
 fn reload(axis: usize, payload: Payload) -> Outcome<u32> {
     let scene = scene(axis)?;
     let changed = UniformScene { payload, ..scene };
-    let stepper = axes::stepper(&changed)?;
+    let stepper = arms::stepper(axis, &changed)?;
     on(axis, |joint| joint.replace(changed, stepper))
 }

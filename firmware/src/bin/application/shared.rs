@@ -8,7 +8,9 @@ use heapless::Vec;
 use stillbeam::{Error, UniformScene};
 use stillbeam_protocol::Refusal;
 use stillbeam_wiring::Configuration;
-use stillbeam_wiring::axes::{self, AXES, CONFIGURATIONS, Joint, Stepper};
+use stillbeam_wiring::axes::{AXES, CONFIGURATIONS, Joint, Stepper};
+
+use crate::arms;
 
 /// Result of a request.
 pub type Outcome<T> = Result<T, Refusal<'static>>;
@@ -71,24 +73,23 @@ pub fn with<R>(look: impl FnOnce(&mut Shared) -> R) -> R {
 
 /// Builds every axis, disabled at angle 0. Set-up, before the tick runs.
 pub fn set_up() -> Result<(), Error> {
-    CONFIGURATIONS.iter().try_for_each(add)
+    (0..AXES).try_for_each(add)
 }
 
 #[inline(never)]
-fn add(configuration: &Configuration) -> Result<(), Error> {
-    place(configuration, axes::stepper(&configuration.scene)?)
+fn add(axis: usize) -> Result<(), Error> {
+    place(&CONFIGURATIONS[axis], arms::at_power_up(axis)?)
 }
 
 /// Builds the axis around its stepper.
 // Apart from the stepper's set-up, whose stack would else lie on top of the axis' own.
 #[inline(never)]
 fn place(configuration: &Configuration, stepper: Stepper) -> Result<(), Error> {
-    let joint = Joint::new(configuration, stepper)?;
+    let made = Joint::new(configuration, stepper);
     with(|shared| {
         // There is room for as many as there are configurations.
-        let _ = shared.joints.push(joint);
-    });
-    Ok(())
+        made.map(|joint| drop(shared.joints.push(joint)))
+    })
 }
 
 /// Changes an axis with the tick masked.

@@ -51,7 +51,7 @@ pub async fn run() {
         }
         shared::with(|shared| {
             for (i, joint) in shared.joints.iter_mut().enumerate() {
-                let Some(tick) = joint.tick_if_due(&timing) else { continue };
+                let tick = joint.tick_by(timing.missed, stillbeam_tick::advance);
                 let setpoint = Setpoint { axis: i as u8, tick, cause: joint.axis.cause() };
                 for outlet in [&TO_DRIVE, &TO_HOST] {
                     shared.counters.dropped += u32::from(!hand_on(outlet, setpoint));

@@ -84,6 +84,7 @@ fn kind(refusal: &Refusal<'_>) -> &'static str {
         Refusal::NoSensor => "no sensor",
         Refusal::DriveFault(_) => "drive fault",
         Refusal::DriveSilent => "drive silent",
+        Refusal::NotPrepared { .. } => "not prepared",
         Refusal::Other => "other",
     }
 }

@@ -69,8 +69,8 @@ impl Case {
         let direction = if rng.random() { Direction::Same } else { Direction::Opposite };
         let joint = parts.joint(rng.random());
         let zero = rng.random_range(-2.0..2.0);
-        let configuration =
-            Configuration { scene, policy, joint, direction, zero, node: rng.random_range(0..64) };
+        let (payloads, node) = (&[][..], rng.random_range(0..64));
+        let configuration = Configuration { scene, payloads, policy, joint, direction, zero, node };
         let drive = gains(rng, rotor, n, parts.friction.breakaway);
         let counts = 1 << rng.random_range(13..18);
         let latency = if rng.random() { 0.0 } else { 1.0 / drive.rate };
