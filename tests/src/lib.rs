@@ -11,6 +11,7 @@ pub mod firmware_page;
 pub mod image;
 pub mod instructions;
 pub mod page;
+pub mod parts;
 pub mod playground;
 pub mod stream;
 

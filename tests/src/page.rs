@@ -6,6 +6,7 @@ use std::fmt::Write;
 use stillbeam_lab::markers::{self, Block};
 
 use crate::instructions::{Bench, Count, Minimal};
+use crate::parts;
 
 /// Method of the rows that count plans.
 const PLAN: &str = "plan";
@@ -40,6 +41,7 @@ pub fn tables(
     soft: &Bench,
     smallest: &Bench,
     minimal: &BTreeMap<String, Minimal>,
+    prepared: &[Minimal; parts::METHODS.len()],
 ) -> String {
     let sections = [
         methods(bench, minimal),
@@ -49,6 +51,7 @@ pub fn tables(
         functions(bench),
         without_fpu(CORTEX_M3, soft),
         without_fpu(CORTEX_M0, smallest),
+        parts::table(bench, soft, smallest, prepared),
     ];
     format!("\n{}", sections.join("\n"))
 }

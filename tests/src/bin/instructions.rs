@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 use std::{env, fs};
 
-use stillbeam_tests::{instructions, page, root};
+use stillbeam_tests::{instructions, page, parts, root};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -34,11 +34,14 @@ fn write() -> Result<(), String> {
             minimal.insert(count.id.clone(), instructions::minimal(&count.id)?);
         }
     }
+    let prepared = parts::METHODS.map(|(_, id)| instructions::prepared(id));
+    let [nodal, elastica] = prepared;
+    let prepared = [nodal?, elastica?];
     let path = root().join("docs/instructions.csv");
     fs::write(&path, instructions::csv(&bench)).map_err(|e| format!("{path:?}: {e}"))?;
     let path = root().join("docs/instructions.md");
     let text = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
-    let text = page::replace(&text, &page::tables(&bench, &soft, &smallest, &minimal))?;
+    let text = page::replace(&text, &page::tables(&bench, &soft, &smallest, &minimal, &prepared))?;
     fs::write(&path, text).map_err(|e| format!("{path:?}: {e}"))
 }
 
