@@ -35,6 +35,15 @@ impl<T: Scalar, const N: usize, const W: usize> Band<T, N, W> {
         self.rows[i.max(j)][i.abs_diff(j)] += value;
     }
 
+    /// Row `i`, beginning with its diagonal: entry `d` is `A[i][i − d]`.
+    ///
+    /// # Panics
+    /// If `i` is not below `N`. Set-up only.
+    #[inline(always)]
+    pub(crate) fn row_mut(&mut self, i: usize) -> &mut [T; W] {
+        &mut self.rows[i]
+    }
+
     /// Applies `f` to each stored entry.
     pub fn map<U: Scalar>(&self, mut f: impl FnMut(T) -> U) -> Band<U, N, W> {
         Band { rows: self.rows.each(|row| row.each(&mut f)) }

@@ -54,10 +54,16 @@ impl<T: Scalar, const N: usize> Point<T, N> {
     #[inline(always)]
     pub fn changes(&self, step: &Step<T, N>, goal: &Goal<T, N>, at: [usize; 3]) -> [T; 2] {
         let [side, kind, i] = at;
-        let sum = self.values[kind][i] + step.along[kind][i];
         let (s, z) = (self.slack[side][kind][i], self.multiplier[side][kind][i]);
-        let slack = T::ONE - s - if side == 0 { sum } else { -sum };
+        let slack = self.slack_change(step, at);
         let left = goal.centred - goal.products[side][kind][i];
         [slack, (left - z * slack) / s - z]
+    }
+
+    /// Change of the slack alone.
+    #[inline(always)]
+    pub fn slack_change(&self, step: &Step<T, N>, [side, kind, i]: [usize; 3]) -> T {
+        let sum = self.values[kind][i] + step.along[kind][i];
+        T::ONE - self.slack[side][kind][i] - if side == 0 { sum } else { -sum }
     }
 }

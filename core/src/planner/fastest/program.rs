@@ -3,7 +3,7 @@
 mod newton;
 
 use super::grid::{Grid, KINDS, zero};
-use super::point::{Ahead, Goal, Point, Step, signs};
+use super::point::{Ahead, Goal, Pair, Point, Step, signs};
 use super::rows::Rows;
 use crate::math::{Scalar, dot};
 
@@ -70,17 +70,17 @@ impl<T: Scalar, const N: usize> Program<T, N> {
             let factors = self.factors(&point);
             let mut goal = Goal { centred: T::ZERO, products: [zero(), zero()] };
             let affine = self.step(&point, &factors, &goal);
-            let ahead = self.ahead(&point, &affine, &goal);
+            let ahead = self.ahead(&point, &affine, &mut goal, |[ds, dz]| ds * dz);
             let ratio = if sum > T::ZERO { ahead.complementarity() / sum } else { T::ZERO };
-            self.set_products(&point, &affine, &mut goal);
             goal.centred = ratio * ratio * ratio * sum / T::from_u32(2 * self.limited().max(1));
             let step = self.step(&point, &factors, &goal);
-            let [primal, dual] = self.ahead(&point, &step, &goal).longest;
+            // The products have done their part, and leave their place to the multipliers' changes.
+            let [primal, dual] = self.ahead(&point, &step, &mut goal, |[_, dz]| dz).longest;
             // A matrix that rounding has made singular: the point before is good enough.
             if !dot(&self.gain, &step.knots).is_finite() || !primal.is_finite() {
                 break;
             }
-            self.advance(&mut point, &step, &goal, [primal, dual]);
+            self.advance(&mut point, &step, &goal.products, [primal, dual]);
             infeasible = infeasible * (T::ONE - primal);
         }
         if self.smooth {
@@ -130,9 +130,16 @@ impl<T: Scalar, const N: usize> Program<T, N> {
         (0..KINDS).filter(|&kind| self.rows.is_limited(kind))
     }
 
-    /// Looks along a step to the boundary.
+    /// Looks along a step to the boundary. In place of the goal's products it keeps what `keep`
+    /// makes of the changes of slack and multiplier, so that these are computed once.
     #[inline(never)]
-    fn ahead(&self, point: &Point<T, N>, step: &Step<T, N>, goal: &Goal<T, N>) -> Ahead<T> {
+    fn ahead(
+        &self,
+        point: &Point<T, N>,
+        step: &Step<T, N>,
+        goal: &mut Goal<T, N>,
+        keep: impl Fn([T; 2]) -> T,
+    ) -> Ahead<T> {
         let within = T::from_f64(WITHIN);
         let mut most = [T::ONE / within; 2];
         let mut sums = [T::ZERO; 4];
@@ -150,18 +157,9 @@ impl<T: Scalar, const N: usize> Program<T, N> {
             sums[1] += z * ds;
             sums[2] += s * dz;
             sums[3] += ds * dz;
+            goal.products[side][kind][i] = keep([ds, dz]);
         });
         Ahead { longest: most.map(|most| within * most), sums }
-    }
-
-    /// Sets the products of the changes that belong to the predictor's step.
-    #[inline(never)]
-    fn set_products(&self, point: &Point<T, N>, affine: &Step<T, N>, goal: &mut Goal<T, N>) {
-        self.each(|at| {
-            let [side, kind, i] = at;
-            let [ds, dz] = point.changes(affine, goal, at);
-            goal.products[side][kind][i] = ds * dz;
-        });
     }
 
     /// Sum of `s z` over the limits.
@@ -173,19 +171,19 @@ impl<T: Scalar, const N: usize> Program<T, N> {
         sum
     }
 
+    /// Goes along a step, whose changes of the multipliers are given.
     #[inline(never)]
     fn advance(
         &self,
         point: &mut Point<T, N>,
         step: &Step<T, N>,
-        goal: &Goal<T, N>,
+        multipliers: &Pair<T, N>,
         [primal, dual]: [T; 2],
     ) {
         self.each(|at| {
             let [side, kind, i] = at;
-            let [s, z] = point.changes(step, goal, at);
-            point.slack[side][kind][i] += primal * s;
-            point.multiplier[side][kind][i] += dual * z;
+            point.slack[side][kind][i] += primal * point.slack_change(step, at);
+            point.multiplier[side][kind][i] += dual * multipliers[side][kind][i];
         });
         for k in 0..N {
             point.knots[k] += primal * step.knots[k];

@@ -1,7 +1,9 @@
 //! Rows of the program: every limited quantity as a linear function of the knots, over its limit.
 
+mod normal;
+
 use super::grid::{ACCELERATION, Grid, JERK, KINDS, Nodes, RATE, TORQUE, WINDOW, zero};
-use crate::math::{Band, Scalar, array, dot};
+use crate::math::{Each, Scalar, array, dot};
 
 /// Largest values that the rows may take; `None` is unlimited. In units of the knots' scale:
 /// acceleration, and jerk, rate and torque per acceleration.
@@ -116,12 +118,10 @@ impl<T: Scalar, const N: usize> Rows<T, N> {
         if self.is_used(TORQUE) {
             for side in 0..2 {
                 let (hat, per) = (&self.hat[side], self.per_limit[TORQUE]);
-                for i in 0..N {
-                    let weight = per * weights[TORQUE + side][i];
-                    sum[0] += weight * self.half[side][i];
-                    for k in 1..(i + 2).min(N) {
-                        sum[k] += weight * hat[i + 1 - k];
-                    }
+                let weight = weights[TORQUE + side].each(|weight| per * weight);
+                sum[0] = added(sum[0], &weight, &self.half[side]);
+                for k in 1..N {
+                    sum[k] = added(sum[k], &weight[k - 1..], hat);
                 }
             }
         }
@@ -134,80 +134,15 @@ impl<T: Scalar, const N: usize> Rows<T, N> {
         }
         sum
     }
+}
 
-    /// Adds `Rᵀ diag(w) R`.
-    pub fn add_normal(&self, weights: &Grid<T, N>, normal: &mut Band<T, N, N>) {
-        let square = |kind: usize| self.per_limit[kind] * self.per_limit[kind];
-        for i in 0..N {
-            let jerk = square(JERK) * weights[JERK][i];
-            normal.add(i, i, square(ACCELERATION) * weights[ACCELERATION][i] + jerk);
-            if i + 1 < N {
-                normal.add(i + 1, i + 1, jerk);
-                normal.add(i + 1, i, -jerk);
-            }
-        }
-        if self.is_limited(RATE) {
-            self.add_rates(square(RATE), weights, normal);
-        }
-        if self.is_used(TORQUE) {
-            self.add_torques(square(TORQUE), weights, normal);
-        }
-        if self.is_used(WINDOW) {
-            for i in 0..N {
-                let row = &self.windows[i];
-                for p in 0..N {
-                    let weighted = weights[WINDOW][i] * row[p];
-                    for q in 0..=p {
-                        normal.add(p, q, weighted * row[q]);
-                    }
-                }
-            }
-        }
+/// `sum + Σ aᵢ bᵢ`.
+#[inline(always)]
+fn added<T: Scalar>(mut sum: T, a: &[T], b: &[T]) -> T {
+    for (a, b) in a.iter().zip(b) {
+        sum += *a * *b;
     }
-
-    /// Adds the rates' part of the normal matrix. A knot's area is the same for all later
-    /// intervals, so those enter by the sum of their weights.
-    fn add_rates(&self, square: T, weights: &Grid<T, N>, normal: &mut Band<T, N, N>) {
-        let mut later = T::ZERO;
-        for p in (0..N).rev() {
-            let here = [weights[RATE][p], weights[RATE + 1][p]];
-            for q in 0..=p {
-                // By interval p − 1, in which the hat of knot p begins, by interval p, and later.
-                let mut sum = full::<T>(p) * full::<T>(q) * later;
-                for side in 0..2 {
-                    let by = |k: usize, at: usize| match at - k {
-                        0 => area::<T>(k, side),
-                        _ => full::<T>(k),
-                    };
-                    sum += here[side] * area::<T>(p, side) * by(q, p);
-                    if p > 0 {
-                        let other = if q == p { begun::<T>(side) } else { by(q, p - 1) };
-                        sum += weights[RATE + side][p - 1] * begun::<T>(side) * other;
-                    }
-                }
-                normal.add(p, q, square * sum);
-            }
-            later += here[0] + here[1];
-        }
-    }
-
-    /// Adds the torques' part of the normal matrix.
-    fn add_torques(&self, square: T, weights: &Grid<T, N>, normal: &mut Band<T, N, N>) {
-        for side in 0..2 {
-            let hat = &self.hat[side];
-            for i in 0..N {
-                let (weight, half) = (square * weights[TORQUE + side][i], self.half[side][i]);
-                normal.add(0, 0, weight * half * half);
-                for p in 1..(i + 2).min(N) {
-                    let weighted = weight * hat[i + 1 - p];
-                    normal.add(p, 0, weighted * half);
-                    for q in 1..=p {
-                        normal.add(p, q, weighted * hat[i + 1 - q]);
-                    }
-                }
-            }
-        }
-    }
+    sum
 }
 
 /// Area of knot `k` behind its hat, in parts of an interval. The first knot has half a hat.
