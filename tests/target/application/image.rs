@@ -9,14 +9,14 @@ use crate::session::{begin, run, status};
 
 /// Whole application on the emulated board, with still moves: flash, and statics with the deepest
 /// stack.
-const FLASH: u64 = 124 * 1024;
+const FLASH: u64 = 125 * 1024;
 const RAM: u64 = 26 * 1024;
 /// Where arms are set up on the target.
 const SET_UP_FLASH: u64 = 161 * 1024;
 const SET_UP_RAM: u64 = 30 * 1024;
 
 /// On the boards that are built and not run: flash, and statics alone.
-const NUCLEO_FLASH: u64 = 142 * 1024;
+const NUCLEO_FLASH: u64 = 143 * 1024;
 const NUCLEO_RAM: u64 = 12 * 1024;
 
 /// Words in the names of functions that set an elastica and a planner up.
