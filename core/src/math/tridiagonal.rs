@@ -74,7 +74,7 @@ fn step<T: Scalar, const N: usize>(
         beside[i + 1] = length;
         if length == T::ZERO {
             // The block is in two parts.
-            diagonal[i + 1] = diagonal[i + 1] - shift;
+            diagonal[i + 1] -= shift;
             beside[last] = T::ZERO;
             return;
         }
@@ -91,7 +91,7 @@ fn step<T: Scalar, const N: usize>(
             vectors[i][n] = cos * x - sin * y;
         }
     }
-    diagonal[first] = diagonal[first] - shift;
+    diagonal[first] -= shift;
     beside[first] = g;
     beside[last] = T::ZERO;
 }
