@@ -66,7 +66,7 @@ pub type Run = fn(&mut Sink<'_>) -> Result<u32, Error>;
 /// The run of every method. With one kind of sink for all: each method is then compiled once.
 ///
 /// # Errors
-/// Errors are those of [`run`].
+/// Errors are those of [`run()`].
 pub fn every_method(sink: &mut Sink<'_>) -> Result<u32, Error> {
     run(sink)
 }
@@ -74,7 +74,7 @@ pub fn every_method(sink: &mut Sink<'_>) -> Result<u32, Error> {
 /// The run of a processor that computes in software.
 ///
 /// # Errors
-/// Errors are those of [`run`].
+/// Errors are those of [`run()`].
 pub fn some_methods(sink: &mut Sink<'_>) -> Result<u32, Error> {
     run_some(sink)
 }
