@@ -150,6 +150,15 @@ pub fn visit_some(visitor: &mut impl Visitor) {
     visitor.visit::<Pointwise3>();
 }
 
+/// Shows the visitor the methods that the processor runs which this is compiled for: every one, or
+/// without a floating-point unit one of each kind.
+pub fn visit_own(visitor: &mut impl Visitor) {
+    #[cfg(any(not(target_os = "none"), target_abi = "eabihf"))]
+    visit_all(visitor);
+    #[cfg(not(any(not(target_os = "none"), target_abi = "eabihf")))]
+    visit_some(visitor);
+}
+
 /// In whose precision the consistent models are set up: a tenth of the instructions of f64, and no
 /// less exact than a tick in f32 is anyway. Lumped masses and modes take f64.
 fn single<S: LinkShape>(scene: &Scene<f64, S>) -> Scene<f32, S> {

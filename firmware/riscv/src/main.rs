@@ -5,7 +5,7 @@
 
 use semihosting::io::{self, Stdout, Write};
 use semihosting::process;
-use stillbeam_golden::{record, run_some};
+use stillbeam_golden::{record, run};
 
 /// Records that are sent at once: a call of the host stops the machine.
 const RECORDS: usize = 512;
@@ -46,7 +46,7 @@ impl Stream {
 fn main() -> ! {
     let out = io::stdout().expect("standard output by semihosting");
     let mut stream = Stream { out, buffer: [0; RECORDS * record::BYTES], filled: 0 };
-    run_some(&mut |case, tick, setpoint| {
+    run(&mut |case, tick, setpoint| {
         stream.put(&record::encode(record::stamp(case.index, tick), setpoint));
     })
     .expect("every embedded scene is accepted");

@@ -11,12 +11,7 @@ use stillbeam::{
     Stepper, UniformScene,
 };
 use stillbeam_firmware::counter::{Counter, Stopwatch};
-#[cfg(target_abi = "eabihf")]
-use stillbeam_golden::methods::visit_all;
-// Without an FPU one of each kind.
-#[cfg(not(target_abi = "eabihf"))]
-use stillbeam_golden::methods::visit_some as visit_all;
-use stillbeam_golden::methods::{Method, Visitor};
+use stillbeam_golden::methods::{Method, Visitor, visit_own};
 use stillbeam_golden::paths::PATHS;
 
 const TICK: f64 = 0.010;
@@ -74,7 +69,7 @@ const MOTIONS: [(&str, &[Move]); 4] = [
 /// Prints the table's lines.
 pub fn print<C: Counter>(watch: &Stopwatch<C>, output: &mut impl Write) {
     let mut bench = Bench { watch, output };
-    visit_all(&mut bench);
+    visit_own(&mut bench);
 }
 
 struct Bench<'a, C, W> {

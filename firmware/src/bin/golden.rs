@@ -1,16 +1,12 @@
-//! Steps every scene with every method and streams every setpoint's bits to the host. Without an FPU
-//! one method of each kind.
+//! Steps every scene with every method, or without an FPU one of each kind, and streams every
+//! setpoint's bits to the host.
 #![no_std]
 #![no_main]
 
 use cortex_m_rt::entry;
 use semihosting::process::ExitCode;
 use stillbeam_firmware::output::Output;
-use stillbeam_golden::record;
-#[cfg(target_abi = "eabihf")]
-use stillbeam_golden::run;
-#[cfg(not(target_abi = "eabihf"))]
-use stillbeam_golden::run_some as run;
+use stillbeam_golden::{record, run};
 
 stillbeam_firmware::exit_on_panic!();
 stillbeam_firmware::unused_interrupts!();

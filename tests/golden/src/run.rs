@@ -6,7 +6,7 @@ use stillbeam::prepared::{Prepare, Prepared};
 use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Angle, Error, Generator, Setpoint};
 
-use crate::methods::{Method, Visitor, visit_all, visit_some};
+use crate::methods::{Method, Visitor, visit_own, visit_some};
 use crate::motions::{self, MOTIONS};
 use crate::scenes::{Run, SCENES};
 
@@ -31,7 +31,8 @@ pub struct Case {
 }
 
 /// Steps every case through its moves and the time after them, and hands every setpoint to `sink`
-/// with its tick, from 0. Returns the cases that ran.
+/// with its tick, from 0. Takes the methods that this processor runs ([`visit_own`]). Returns the
+/// cases that ran.
 ///
 /// A method that does not carry the rate of a scene has no setpoints of it.
 ///
@@ -42,22 +43,30 @@ pub fn run<F>(sink: &mut F) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
 {
-    let mut runner = Runner { sink, cases: 0, result: Ok(()) };
-    visit_all(&mut runner);
-    runner.end()
+    run_by(sink, visit_own)
 }
 
-/// Runs as [`run`] does one method of each kind, for processors that compute in software.
+/// Runs as [`run()`] does what processors without a floating-point unit run, on any processor.
 ///
 /// # Errors
-/// Errors are those of [`run`].
+/// Errors are those of [`run()`].
 pub fn run_some<F>(sink: &mut F) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
 {
+    run_by(sink, visit_some)
+}
+
+/// The methods that `visit` shows, then still moves and the motions that no scene has.
+fn run_by<'a, F>(sink: &'a mut F, visit: fn(&mut Runner<'a, F>)) -> Result<u32, Error>
+where
+    F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
+{
     let mut runner = Runner { sink, cases: 0, result: Ok(()) };
-    visit_some(&mut runner);
-    runner.end()
+    visit(&mut runner);
+    runner.stills();
+    runner.motions();
+    runner.result.map(|()| runner.cases)
 }
 
 struct Runner<'a, F: ?Sized> {
@@ -119,13 +128,6 @@ pub const MOTION_SCENE: &str = "d-tip30";
 pub const STILL_SCENES: [&str; 4] = ["d-fast", "a-tip30", "b-tip30-damped-hub", "s-gravity"];
 
 impl<F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized> Runner<'_, F> {
-    /// What comes behind the methods.
-    fn end(mut self) -> Result<u32, Error> {
-        self.stills();
-        self.motions();
-        self.result.map(|()| self.cases)
-    }
-
     /// Plans made where they run: every bit of them is in the setpoints.
     fn stills(&mut self) {
         for scene in SCENES.iter().filter(|run| STILL_SCENES.contains(&run.name)) {
