@@ -264,27 +264,15 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
     #[inline(never)]
     pub(crate) fn forth_half(&self, roots: &[T; N], b: &[T; N]) -> [T; N] {
         let mut x = *b;
-        for i in 0..N {
-            for d in 1..W {
-                if d <= i {
-                    x[i] -= self.lower[i][d] * x[i - d];
-                }
-            }
-        }
+        self.substitute_forth(&mut x);
         array(|i| roots[i] * x[i])
     }
 
     /// `S⁻ᵀ b`, likewise.
     #[inline(never)]
     pub(crate) fn back_half(&self, roots: &[T; N], b: &[T; N]) -> [T; N] {
-        let mut x: [T; N] = array(|i| roots[i] * b[i]);
-        for i in (0..N).rev() {
-            for d in 1..W {
-                if d <= i {
-                    x[i - d] -= self.lower[i][d] * x[i];
-                }
-            }
-        }
+        let mut x = array(|i| roots[i] * b[i]);
+        self.substitute_back(&mut x);
         x
     }
 
@@ -297,6 +285,17 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
     #[inline(always)]
     pub fn solve(&self, b: &[T; N]) -> [T; N] {
         let mut x = *b;
+        self.substitute_forth(&mut x);
+        for i in 0..N {
+            x[i] = x[i] * self.inverse[i];
+        }
+        self.substitute_back(&mut x);
+        x
+    }
+
+    /// `x ← L⁻¹ x`.
+    #[inline(always)]
+    fn substitute_forth(&self, x: &mut [T; N]) {
         for i in 0..N {
             for d in 1..W {
                 if d <= i {
@@ -304,9 +303,11 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
                 }
             }
         }
-        for i in 0..N {
-            x[i] = x[i] * self.inverse[i];
-        }
+    }
+
+    /// `x ← L⁻ᵀ x`.
+    #[inline(always)]
+    fn substitute_back(&self, x: &mut [T; N]) {
         for i in (0..N).rev() {
             for d in 1..W {
                 if d <= i {
@@ -314,7 +315,6 @@ impl<T: Scalar, const N: usize, const W: usize> Ldl<T, N, W> {
                 }
             }
         }
-        x
     }
 }
 

@@ -39,6 +39,12 @@ pub(crate) fn square_root<T: Scalar>(x: T) -> T {
     T::from_f64(sqrt(x.to_f64()))
 }
 
+/// Sine and cosine of an angle in radians, by [`Scalar::sin_cos_turns`].
+#[inline(always)]
+pub(crate) fn sin_cos<T: Scalar>(radians: T) -> (T, T) {
+    (T::from_f64(0.5 / core::f64::consts::PI) * radians).sin_cos_turns()
+}
+
 /// `Σ aᵢ bᵢ`.
 #[inline(always)]
 pub(crate) fn dot<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {

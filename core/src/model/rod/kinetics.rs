@@ -3,7 +3,7 @@
 use super::stations::Stations;
 use super::{LINK_STATIONS, POINTS, Rod};
 use crate::hub::HubState;
-use crate::math::{Each, Scalar, array, cast, dot};
+use crate::math::{Each, Scalar, array, cast, dot, sin_cos};
 use crate::scene::{Scene, Uniform};
 
 /// The rod at modal coordinates `a`, hub-frame axes, nothing moving.
@@ -82,7 +82,7 @@ impl<const K: usize> Straight<K> {
     }
 }
 
-/// What the kinetics of a rod are made of, in one precision.
+/// Constants that the kinetics of a rod are made of, in one precision.
 pub(super) struct Bent<T, const K: usize> {
     slope: [[T; POINTS]; K],
     tip_slope: [T; K],
@@ -128,13 +128,12 @@ impl<T: Scalar, const K: usize> Bent<T, K> {
     pub fn kinetics(&self, a: &[T; K]) -> Kinetics<K, T> {
         let mut sin = [T::ZERO; POINTS];
         let mut cos = [T::ZERO; POINTS];
-        let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
         for p in 0..POINTS {
             let mut phi = self.slope[0][p] * a[0];
             for k in 1..K {
                 phi += self.slope[k][p] * a[k];
             }
-            (sin[p], cos[p]) = (per_radian * phi).sin_cos_turns();
+            (sin[p], cos[p]) = sin_cos(phi);
         }
         let by_slope = |k: usize, f: &[T; POINTS], sign: T| -> [T; POINTS] {
             array(|p| sign * (self.slope[k][p] * f[p]))

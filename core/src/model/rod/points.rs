@@ -11,7 +11,7 @@ use super::varied::triangle;
 use super::weights::{SIX, Weights};
 use super::{POINTS as FINE, Rod};
 use crate::hub::{GravityDirection, HubState};
-use crate::math::{Band, Each, Scalar, array, cast, dot, words};
+use crate::math::{Band, Each, Scalar, array, cast, dot, sin_cos, words};
 use crate::scene::{LinkShape, Scene};
 
 /// Constants of a rod in `K` modes that do not depend on its stiffness.
@@ -276,9 +276,8 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
     fn points(&self, a: &[T; K], v: &[T; K], carrying: &Carrying<T>) -> Points<T, P> {
         let mut points =
             Points { sin: [T::ZERO; P], cos: [T::ZERO; P], spin: [T::ZERO; P], turn: [T::ZERO; P] };
-        let per_radian = T::from_f64(0.5 / core::f64::consts::PI);
         for p in 0..P {
-            (points.sin[p], points.cos[p]) = (per_radian * dot(&self.slope[p], a)).sin_cos_turns();
+            (points.sin[p], points.cos[p]) = sin_cos(dot(&self.slope[p], a));
             let rate = carrying.rate + dot(&self.slope[p], v);
             points.spin[p] = rate * rate;
             points.turn[p] = carrying.acceleration + self.alpha * rate;
@@ -308,7 +307,7 @@ impl<T: Scalar, const K: usize, const P: usize> RodPoints<T, K, P> {
         folded
     }
 
-    /// How each mode moves the link.
+    /// Motion of the link in each mode.
     #[inline(always)]
     fn shapes(&self, points: &Points<T, P>) -> [Folded<T, P>; K] {
         let mut shapes = [[[T::ZERO; P]; 2]; K];
@@ -358,8 +357,8 @@ mod tests {
     use crate::model::Rod;
     use crate::{Link, Scene};
 
-    /// Of an arm that does not vibrate on a hub that stands: what the rod's own kinetics make of the
-    /// hub's acceleration and of the weight.
+    /// Of an arm that does not vibrate on a hub that stands: the answer to the hub's acceleration and
+    /// to the weight is that of the rod's own kinetics.
     #[test]
     fn an_answer_is_that_of_the_kinetics() {
         let mut scene = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.04 });
