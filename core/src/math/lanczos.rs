@@ -9,8 +9,8 @@ const ENOUGH: f64 = 1e-11;
 /// Most times that the method begins anew with the vectors that it found. Beams need none or one.
 const MOST_ROUNDS: usize = 12;
 
-/// Solves `K φ = λ M φ` for the lowest `P` pairs, `K` positive definite, `M` positive semi-definite,
-/// by `S ≥ P` steps.
+/// Solves `K φ = λ M φ` for the lowest `P` pairs by `S ≥ P` steps, `K` positive definite, `M`
+/// positive semi-definite.
 ///
 /// Steps with `A = S⁻¹ M S⁻ᵀ`, `K = S Sᵀ`, whose eigenvalues are `μ = 1/λ`, each made orthogonal to
 /// all before. A beam's `μ` fall so fast that four steps more than pairs find the lowest to
@@ -54,21 +54,12 @@ fn round<const P: usize, const S: usize, const N: usize, const W: usize>(
         basis[s] = next;
         next = factors.forth_half(root, &mass.times(&factors.back_half(root, &next)));
         let whole = dot(&next, &next);
-        let mut square = whole;
-        for pass in 0..2 {
-            // Where little is left of it, rounding has turned it back to those before.
-            if pass == 1 && square > 1e-6 * whole {
-                break;
-            }
-            for i in (0..=s).rev() {
-                let along = dot(&basis[i], &next);
-                if i == s {
-                    diagonal[s] += along;
-                }
-                next = array(|n| next[n] - along * basis[i][n]);
-            }
-            square = dot(&next, &next);
+        diagonal[s] = take_off(&basis[..=s], &mut next);
+        // Where little is left of it, rounding has turned it back to those before.
+        if dot(&next, &next) <= 1e-6 * whole {
+            diagonal[s] += take_off(&basis[..=s], &mut next);
         }
+        let square = dot(&next, &next);
         // What is but rounding is no direction: the steps so far hold all there is.
         if square <= 1e-28 * whole {
             left = 0.0;
@@ -92,6 +83,19 @@ fn round<const P: usize, const S: usize, const N: usize, const W: usize>(
         array(|n| (0..S).map(|s| weights[s] * basis[s][n]).sum())
     };
     (array(|p| diagonal[order[p]]), array(combined), residual)
+}
+
+/// Takes its parts along the vectors of a basis off `x`, the last one's first. Returns that part.
+fn take_off<const N: usize>(basis: &[[f64; N]], x: &mut [f64; N]) -> f64 {
+    let mut last = 0.0;
+    for (i, vector) in basis.iter().rev().enumerate() {
+        let along = dot(vector, x);
+        if i == 0 {
+            last = along;
+        }
+        *x = array(|n| x[n] - along * vector[n]);
+    }
+    last
 }
 
 fn scaled<const N: usize>(x: &[f64; N], by: f64) -> [f64; N] {
