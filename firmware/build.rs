@@ -8,7 +8,6 @@ mod arms;
 use std::path::Path;
 use std::{env, fs};
 
-use stillbeam::prepared::Prepare;
 use stillbeam_golden::methods::{Method, Visitor, visit_all};
 use stillbeam_golden::scenes::SCENES;
 
@@ -74,8 +73,7 @@ fn prepared(method: &str) -> String {
             }
             let run = SCENES.iter().find(|run| run.name == "b-tip30").expect("the paper's arm");
             let stepper = M::stepper(&run.scene, run.tick).expect("every method takes this arm");
-            let mut words = Vec::new();
-            stepper.prepare(&mut |word| words.push(word));
+            let words = arms::words(&stepper);
             self.text = Some(format!(
                 "use stillbeam_golden::methods::{} as Chosen;\n\
                  const TICK: f64 = {:?};\n\

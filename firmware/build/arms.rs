@@ -51,7 +51,8 @@ fn of(axis: usize, configuration: &Configuration) -> String {
     format!("PreparedArms {{ payloads: {:?}, arms: &[{arms}] }},", listed(&payloads))
 }
 
-fn words(prepared: &impl Prepare) -> Vec<u32> {
+/// The words that load it.
+pub fn words(prepared: &impl Prepare) -> Vec<u32> {
     let mut words = Vec::new();
     prepared.prepare(&mut |word| words.push(word));
     words
