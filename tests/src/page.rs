@@ -41,7 +41,7 @@ pub fn tables(
     soft: &Bench,
     smallest: &Bench,
     minimal: &BTreeMap<String, Minimal>,
-    prepared: &[Minimal; parts::METHODS.len()],
+    prepared: &[Minimal],
 ) -> String {
     let sections = [
         methods(bench, minimal),

@@ -34,9 +34,8 @@ fn write() -> Result<(), String> {
             minimal.insert(count.id.clone(), instructions::minimal(&count.id)?);
         }
     }
-    let prepared = parts::METHODS.map(|(_, id)| instructions::prepared(id));
-    let [nodal, elastica] = prepared;
-    let prepared = [nodal?, elastica?];
+    let prepared = parts::METHODS.iter().map(|(_, id)| instructions::prepared(id));
+    let prepared = prepared.collect::<Result<Vec<_>, _>>()?;
     let path = root().join("docs/instructions.csv");
     fs::write(&path, instructions::csv(&bench)).map_err(|e| format!("{path:?}: {e}"))?;
     let path = root().join("docs/instructions.md");

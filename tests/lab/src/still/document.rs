@@ -32,7 +32,7 @@ const CONTEST: [f64; 2] = [1.5, 2.0];
 /// Duration of the picture that moves, first periods: one of the comparison.
 const SHOWN: f64 = CONTEST[1];
 
-/// Bands of the table of robust moves.
+/// Bands of the table of robust moves, each in all of [`RATIOS`] but the shortest.
 const SPREADS: [f64; 2] = [0.05, 0.15];
 
 /// Steps of [`compute`], for a progress bar.
@@ -139,7 +139,7 @@ fn robust_table(done: &(dyn Fn() + Sync)) -> Result<String, Error> {
     let cases: Vec<_> = arms
         .iter()
         .flat_map(|(_, arm)| SPREADS.map(|spread| (arm, spread)))
-        .flat_map(|(arm, spread)| [1.5, 2.0, 3.0].map(|ratio| (arm, spread, ratio)))
+        .flat_map(|(arm, spread)| RATIOS[1..].iter().map(move |&ratio| (arm, spread, ratio)))
         .collect();
     let rows = cases
         .into_par_iter()
