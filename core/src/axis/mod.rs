@@ -174,8 +174,8 @@ impl<S: Stepper, const QUEUE: usize> Axis<S, QUEUE> {
     }
 
     /// The next setpoint, as [`Axis::tick`] makes it. `advance` is [`Generator::tick`], or a
-    /// function of a user's that calls it: one in a crate of its own can be compiled for speed while
-    /// the policy is compiled for size.
+    /// function of a user's that calls it: one in a crate of its own can be compiled for speed
+    /// while the policy is compiled for size.
     #[inline(always)]
     pub fn tick_by(
         &mut self,

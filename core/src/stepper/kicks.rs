@@ -50,9 +50,10 @@ impl<T: Scalar> Kicks<T> {
 
 /// The second column of `Gₖ = ∫₀¹ Pₖ(2s − 1) exp((1 − s)Z) ds` for `k = 1..8`.
 ///
-/// `mean` is that of `G₀ = φ₁(Z)`. Integrating by parts, `Z(Gₖ₊₁ − Gₖ₋₁) = 2(2k + 1)Gₖ`: a continued
-/// fraction for `Gₖ = RₖGₖ₋₁`, `Rₖ = −(2(2k + 1) − Z Rₖ₊₁)⁻¹Z`, from where `Rₖ` is nothing down to `k = 1`
-/// (Miller's algorithm; for a rotation these are spherical Bessel functions). Error: 1e-14.
+/// `mean` is that of `G₀ = φ₁(Z)`. Integrating by parts, `Z(Gₖ₊₁ − Gₖ₋₁) = 2(2k + 1)Gₖ`: a
+/// continued fraction for `Gₖ = RₖGₖ₋₁`, `Rₖ = −(2(2k + 1) − Z Rₖ₊₁)⁻¹Z`, from where `Rₖ` is
+/// nothing down to `k = 1` (Miller's algorithm; for a rotation these are spherical Bessel
+/// functions). Error: 1e-14.
 #[inline(never)]
 fn answers(z: &Matrix2, mean: [f64; 2]) -> [[f64; 2]; ORDERS] {
     let mut answers = [[0.0; 2]; ORDERS];

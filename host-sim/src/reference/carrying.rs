@@ -21,7 +21,7 @@ pub(super) struct Carrying {
     pub weight: [f64; 2],
 }
 
-/// What carries the link, and gravity: all of a scene that [`Carrying`] takes, looked up once.
+/// The mount of the link, and gravity: all of a scene that [`Carrying`] takes, looked up once.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carrier {
     /// Acceleration of gravity in the plane, m/s², and its direction.

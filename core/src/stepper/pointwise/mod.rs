@@ -38,7 +38,7 @@ const EQUILIBRIUM_STEPS: usize = 60;
 /// `Elastica` does.
 ///
 /// Error against the exact rod with three modes, fraction of L: 2e-5 where `Elastica` errs by 1e-4.
-/// What floors that is the third mode, which its expansion takes to be that of the straight link.
+/// The third mode floors that, which its expansion takes to be that of the straight link.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Pointwise<T, const K: usize> {

@@ -1,5 +1,5 @@
-//! The normal matrix of the rows, `Rᵀ diag(w) R`. It is formed anew in every round of a program, row
-//! by row, so that a loop runs along slices and sums in a register.
+//! The normal matrix of the rows, `Rᵀ diag(w) R`. It is formed anew in every round of a program,
+//! row by row, so that a loop runs along slices and sums in a register.
 
 use super::{Rows, added, area, begun, full};
 use crate::math::{Band, Each, Scalar};
