@@ -1,13 +1,13 @@
 //! The rod on a hub that a torque drives, and its energy.
 //!
-//! The rod's equations are affine in the hub's acceleration. Solved for an acceleration of 0 and
-//! of 1 with the same factors, they say what inertia the hub feels and how the link answers to it.
+//! The rod's equations are affine in the hub's acceleration, and the inertia by which the hub turns
+//! the link is the one by which the link turns the hub: `M ä = f − c θ̈`, `τ = τ₀ + c·ä + J θ̈`.
 
-use nalgebra::{Cholesky, SVector};
+use nalgebra::{Cholesky, SMatrix, SVector};
 use stillbeam::Scene;
 use stillbeam::hub::{Angle, HubState};
 
-use super::equations::{Configuration, Rod, UniformRod, VariedRod};
+use super::equations::{Configuration, Rod, UniformRod, VariedRod, dot};
 use super::march::choose;
 use super::{Integrator, ReferenceError};
 
@@ -66,33 +66,28 @@ impl<const N: usize, const P: usize, const S: usize> Driven for Rod<N, P, S> {
     }
 
     fn equilibrium(&self, angle: f64) -> Option<Unknowns> {
-        Rod::equilibrium(self, &hub(angle, 0.0, 0.0)).map(|a| widened(&a))
+        Rod::equilibrium(self, &hub(angle, 0.0)).map(|a| widened(&a))
     }
 
     fn respond(&self, a: &Unknowns, v: &Unknowns, angle: f64, rate: f64) -> Response {
         let (a, v) = (narrowed::<N>(a), narrowed::<N>(v));
         let at = self.configuration(&a, &v);
-        let (even, pushed) = (hub(angle, rate, 0.0), hub(angle, rate, 1.0));
-        let Some(factor) = Cholesky::new(self.mass_matrix(&at)) else {
-            let none = Unknowns::repeat(f64::NAN);
-            return Response {
-                free: none,
-                per_acceleration: none,
-                bias: f64::NAN,
-                inertia: 1.0,
-                lost: f64::NAN,
-            };
+        let mass = self.mass_matrix(&at);
+        let Some(factor) = Cholesky::new(mass) else {
+            return Response::not_finite();
         };
-        let free = factor.solve(&self.force(&at, &a, &v, &even));
-        let with = factor.solve(&self.force(&at, &a, &v, &pushed));
-        let bias = self.loads(&at, &v, &free, &even)[0];
-        let inertia = self.loads(&at, &v, &with, &pushed)[0] - bias;
+        let even = self.inertia(&at, &v, &SVector::zeros(), &hub(angle, rate));
+        let free = factor.solve(&self.force(&a, &v, &even));
+        let turning = Turning::of(self, &at);
+        let per_acceleration = -factor.solve(&turning.coupling);
         Response {
             free: widened(&free),
-            per_acceleration: widened(&(with - free)),
-            bias,
-            inertia,
-            lost: self.lost_power(&at, &v, rate),
+            per_acceleration: widened(&per_acceleration),
+            bias: self.about_axis(&even) + turning.coupling.dot(&free),
+            inertia: turning.inertia
+                + self.scene.hub.inertia
+                + turning.coupling.dot(&per_acceleration),
+            lost: self.lost_power(&v, || turning.motion(&mass, &v, rate)),
         }
     }
 
@@ -100,14 +95,12 @@ impl<const N: usize, const P: usize, const S: usize> Driven for Rod<N, P, S> {
         let (a, v) = (narrowed::<N>(a), narrowed::<N>(v));
         let at = self.configuration(&a, &v);
         let gravity = self.scene.in_plane_gravity();
-        let (sin, cos) = self.scene.gravity_direction().seen_from(&hub(angle, rate, 0.0));
-        let [x, y] = [&at.stations[0], &at.stations[1]];
-        let height = |s: usize| x[s] * sin + y[s] * cos;
-        let of =
-            |s: usize| self.masses[s] * (0.5 * speed_squared(&at, s, rate) + gravity * height(s));
-        let turning = self.tip_rate(&v) + rate;
-        (0..S).map(of).sum::<f64>()
-            + 0.5 * self.scene.payload.inertia * turning * turning
+        let (sin, cos) = self.scene.gravity_direction().seen_from(&hub(angle, rate));
+        // First moments of the mass, kg m: the mean height times the mass.
+        let along = self.mass * self.scene.hub.radius + dot(&self.outboard, &at.cos);
+        let across = dot(&self.outboard, &at.sin);
+        gravity * (along * sin + across * cos)
+            + 0.5 * Turning::of(self, &at).motion(&self.mass_matrix(&at), &v, rate)
             + 0.5 * self.scene.hub.inertia * rate * rate
             + 0.5 * a.dot(&(self.stiffness * a))
     }
@@ -119,41 +112,50 @@ impl<const N: usize, const P: usize, const S: usize> Driven for Rod<N, P, S> {
 }
 
 impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
-    /// Returns the power that damping takes out of the arm on a hub that turns at `rate` rad/s, W.
-    fn lost_power(&self, at: &Configuration<P, S>, v: &SVector<f64, N>, rate: f64) -> f64 {
+    /// Returns the power that damping takes out of the arm, W. `motion` is twice its kinetic energy,
+    /// J.
+    fn lost_power(&self, v: &SVector<f64, N>, motion: impl FnOnce() -> f64) -> f64 {
         let damping = self.scene.damping;
         let mut power = damping.beta * v.dot(&(self.stiffness * v));
         if let Some(joint) = &self.joint {
             power += v.dot(&(joint * v));
         }
-        if damping.alpha > 0.0 {
-            let moving: f64 = (0..S).map(|s| self.masses[s] * speed_squared(at, s, rate)).sum();
-            let turning = self.tip_rate(v) + rate;
-            power += damping.alpha * (moving + self.scene.payload.inertia * turning * turning);
-        }
-        power
-    }
-
-    /// Returns the rate of the tip's angle relative to the hub, rad/s.
-    fn tip_rate(&self, v: &SVector<f64, N>) -> f64 {
-        (0..N).map(|k| self.tip[k] * v[k]).sum()
+        if damping.alpha > 0.0 { power + damping.alpha * motion() } else { power }
     }
 }
 
-/// Returns the square of a station's speed, m²/s², on a hub that turns at `rate` rad/s.
-fn speed_squared<const P: usize, const S: usize>(
-    at: &Configuration<P, S>,
-    s: usize,
-    rate: f64,
-) -> f64 {
-    let [x, y, xd, yd] = [0, 1, 2, 3].map(|quantity| at.stations[quantity][s]);
-    let (along, across) = (xd - rate * y, yd + rate * x);
-    along * along + across * across
+/// The inertia of the whole arm's turn about its hub.
+struct Turning<const N: usize> {
+    /// The part that the unknowns feel, c, kg m².
+    coupling: SVector<f64, N>,
+    /// The part about the hub's axis, without the hub's own, kg m².
+    inertia: f64,
 }
 
-fn hub(angle: f64, rate: f64, acceleration: f64) -> HubState<f64> {
+impl<const N: usize> Turning<N> {
+    fn of<const P: usize, const S: usize>(rod: &Rod<N, P, S>, at: &Configuration<P>) -> Self {
+        let inertia = rod.inertia_of_turn(at);
+        Self { coupling: rod.projected(&inertia), inertia: rod.about_axis(&inertia) }
+    }
+
+    /// Returns twice the kinetic energy of link and payload, J, on a hub that turns at `rate` rad/s.
+    fn motion(&self, mass: &SMatrix<f64, N, N>, v: &SVector<f64, N>, rate: f64) -> f64 {
+        v.dot(&(mass * v)) + rate * (2.0 * self.coupling.dot(v) + self.inertia * rate)
+    }
+}
+
+impl Response {
+    /// The answer of a state that is not finite.
+    fn not_finite() -> Self {
+        let none = Unknowns::repeat(f64::NAN);
+        Self { free: none, per_acceleration: none, bias: f64::NAN, inertia: 1.0, lost: f64::NAN }
+    }
+}
+
+/// The hub at `angle`, rad, and `rate`, rad/s, without acceleration.
+fn hub(angle: f64, rate: f64) -> HubState<f64> {
     let (sin, cos) = angle.sin_cos();
-    HubState { angle: Angle::from_radians(angle), rate, acceleration, sin, cos }
+    HubState { angle: Angle::from_radians(angle), rate, acceleration: 0.0, sin, cos }
 }
 
 fn narrowed<const N: usize>(all: &Unknowns) -> SVector<f64, N> {

@@ -4,29 +4,33 @@ use nalgebra::{Cholesky, SMatrix, SVector};
 use stillbeam::Scene;
 use stillbeam::hub::HubState;
 
-use super::super::carrying::{Carrier, Carrying};
+use super::super::carrying::Carrier;
+use super::inertia::Inertia;
 use super::legendre::{Basis, POINTS, STATIONS, VARIED_POINTS, VARIED_STATIONS};
 
 /// A rod with N unknowns: the relative angle is `φ(x, t) = Σ aₖ(t) ψₖ(x)`, a point of the link at
-/// hub-frame `X = r + ∫₀ˣ cos φ`, `Y = ∫₀ˣ sin φ`. P points, S stations.
+/// hub-frame `X = r + ∫₀ˣ cos φ`, `Y = ∫₀ˣ sin φ`. P points of quadrature, at which the link turns;
+/// S stations, at which it has its masses.
+///
+/// Each station is the sum of what the points inboard of it contribute, so that all sums over the
+/// masses are sums over points: `Rₛₚ` integrates values at the points from the clamp to the station.
 pub(super) struct Rod<const N: usize, const P: usize, const S: usize> {
     pub scene: Scene,
-    carrier: Carrier,
-    /// Masses at the stations, kg.
-    pub masses: [f64; S],
+    pub carrier: Carrier,
+    /// `Σₛ mₛ`, link and payload, kg.
+    pub mass: f64,
     /// `ψₖ` at the points, and shape by shape; at the tip.
     pub shapes: [[f64; N]; P],
-    by_shape: [[f64; P]; N],
+    pub by_shape: [[f64; P]; N],
     pub tip: [f64; N],
-    /// Matrix R, which integrates values at the points from the clamp to each station, m: station
-    /// by station, and the same point by point.
-    pub by_station: [[f64; P]; S],
-    by_point: [[f64; S]; P],
-    /// The same to the tip.
+    /// Row of R, m, that leads to the tip, and the one to the payload's centre.
     to_tip: [f64; P],
+    to_payload: [f64; P],
+    /// `Σₛ mₛ Rₛₚ`, kg m: what a point's angle moves of the masses outboard of it.
+    pub outboard: [f64; P],
     /// `Σₛ mₛ Rₛₚ Rₛ_q`, kg m²: the inertia that the angles at the points p and q share, without
     /// the cosine of their difference.
-    shared: [[f64; P]; P],
+    pub shared: [[f64; P]; P],
     /// Stiffness of link and joint, `∫EI ψᵢ'ψⱼ' dx + k ψᵢ(0)ψⱼ(0)`, N m.
     pub stiffness: SMatrix<f64, N, N>,
     /// The joint's own damping, `β_J k ψᵢ(0)ψⱼ(0)`, N m s, if it has any.
@@ -38,14 +42,14 @@ pub(super) type UniformRod<const N: usize> = Rod<N, POINTS, STATIONS>;
 /// The rod of any other link.
 pub(super) type VariedRod<const N: usize> = Rod<N, VARIED_POINTS, VARIED_STATIONS>;
 
-/// Position and motion of the link in hub axes. Each quantity has its own array, so that the loops
-/// over points and stations run through memory in order, several at a time.
-pub(super) struct Configuration<const P: usize, const S: usize> {
-    /// Cosine and sine of φ, point by point.
-    cos: [f64; P],
-    sin: [f64; P],
-    /// X, Y (m), their rates (m/s) and the part of Ẍ, Ÿ that holds no ä (m/s²), station by station.
-    pub stations: [[f64; S]; 6],
+/// Directions of the link in hub axes, point by point. Each quantity has its own array, so that the
+/// loops over points run through memory in order, several at a time.
+pub(super) struct Configuration<const P: usize> {
+    /// Cosine and sine of φ.
+    pub cos: [f64; P],
+    pub sin: [f64; P],
+    /// φ̇, rad/s.
+    pub rate: [f64; P],
 }
 
 impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
@@ -54,23 +58,23 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
             Basis::<N, P, S>::new(scene);
         let length = scene.link.length;
         let by_station = running.map(|row| row.map(|weight| length * weight));
-        let by_point = transposed(&by_station);
         let of = |p: usize, q: usize| -> f64 {
-            (0..S).map(|s| masses[s] * by_point[p][s] * by_point[q][s]).sum()
+            (0..S).map(|s| masses[s] * by_station[s][p] * by_station[s][q]).sum()
         };
+        let outboard = |p: usize| (0..S).map(|s| masses[s] * by_station[s][p]).sum();
         let stiffness = scene.hub.stiffness.unwrap_or(0.0);
         let hinge = SMatrix::<f64, N, N>::from_fn(|i, j| stiffness * root[i] * root[j]);
         let joint = scene.damping.joint;
         Self {
             scene: *scene,
             carrier: Carrier::of(scene),
-            masses,
+            mass: masses.iter().sum(),
             shapes,
-            by_shape: transposed(&shapes),
+            by_shape: std::array::from_fn(|k| std::array::from_fn(|p| shapes[p][k])),
             tip,
-            by_station,
-            by_point,
             to_tip: to_tip.map(|weight| length * weight),
+            to_payload: by_station[S - 1],
+            outboard: std::array::from_fn(outboard),
             shared: std::array::from_fn(|p| std::array::from_fn(|q| of(p, q))),
             stiffness: bending * (scene.link.bending_stiffness / length) + hinge,
             joint: (joint > 0.0 && scene.hub.stiffness.is_some()).then(|| hinge * joint),
@@ -78,39 +82,30 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
     }
 
     /// Returns the configuration at unknowns `a` (rad) and rates `v` (rad/s).
-    pub fn configuration(&self, a: &SVector<f64, N>, v: &SVector<f64, N>) -> Configuration<P, S> {
-        let (angle, rate) = (self.at_points(a), self.at_points(v));
+    pub fn configuration(&self, a: &SVector<f64, N>, v: &SVector<f64, N>) -> Configuration<P> {
         let (mut cos, mut sin) = ([0.0; P], [0.0; P]);
-        for p in 0..P {
-            (sin[p], cos[p]) = angle[p].sin_cos();
+        for (p, angle) in self.at_points(a).into_iter().enumerate() {
+            (sin[p], cos[p]) = angle.sin_cos();
         }
-        // (cos φ)˙ = −φ̇ sin φ, (sin φ)˙ = φ̇ cos φ, and once more with φ̈ left out.
-        let product =
-            |x: &[f64; P], y: &[f64; P]| -> [f64; P] { std::array::from_fn(|p| x[p] * y[p]) };
-        let (across, along) = (product(&rate, &sin), product(&rate, &cos));
-        let slopes = [
-            cos,
-            sin,
-            across.map(|x| -x),
-            along,
-            product(&rate, &along).map(|x| -x),
-            product(&rate, &across).map(|x| -x),
-        ];
-        let mut stations = slopes.map(|slope| self.integral(&slope));
-        for x in &mut stations[0] {
-            *x += self.scene.hub.radius;
-        }
-        Configuration { cos, sin, stations }
+        Configuration { cos, sin, rate: self.at_points(v) }
     }
 
     /// Returns hub-frame X and Y of the tip, m.
-    pub fn tip(&self, at: &Configuration<P, S>) -> [f64; 2] {
-        let to_tip = |f: &[f64; P]| -> f64 { (0..P).map(|p| f[p] * self.to_tip[p]).sum() };
-        [to_tip(&at.cos) + self.scene.hub.radius, to_tip(&at.sin)]
+    pub fn tip(&self, at: &Configuration<P>) -> [f64; 2] {
+        self.place(at, &self.to_tip)
+    }
+
+    /// Returns hub-frame X and Y of the payload's centre, m.
+    pub fn payload(&self, at: &Configuration<P>) -> [f64; 2] {
+        self.place(at, &self.to_payload)
+    }
+
+    fn place(&self, at: &Configuration<P>, row: &[f64; P]) -> [f64; 2] {
+        [dot(&at.cos, row) + self.scene.hub.radius, dot(&at.sin, row)]
     }
 
     /// Returns `Σ aₖ ψₖ` at the points.
-    fn at_points(&self, a: &SVector<f64, N>) -> [f64; P] {
+    pub fn at_points(&self, a: &SVector<f64, N>) -> [f64; P] {
         let mut sum = [0.0; P];
         for k in 0..N {
             for p in 0..P {
@@ -120,20 +115,14 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         sum
     }
 
-    /// Integrates `slope`, given at the points, from the clamp to each station.
-    fn integral(&self, slope: &[f64; P]) -> [f64; S] {
-        let mut sum = [0.0; S];
-        for (q, slope) in slope.iter().enumerate() {
-            for s in 0..S {
-                sum[s] += slope * self.by_point[q][s];
-            }
-        }
-        sum
+    /// Returns `Σ aₖ ψₖ` at the tip.
+    pub fn at_tip(&self, a: &SVector<f64, N>) -> f64 {
+        (0..N).map(|k| self.tip[k] * a[k]).sum()
     }
 
     /// Returns `M(a)`, kg m²: `Mᵢⱼ = Σ ψᵢ(p) ψⱼ(q) cos(φₚ − φ_q)` times the inertia that the points
     /// share.
-    pub fn mass_matrix(&self, at: &Configuration<P, S>) -> SMatrix<f64, N, N> {
+    pub fn mass_matrix(&self, at: &Configuration<P>) -> SMatrix<f64, N, N> {
         let mut moved = [[0.0; P]; N];
         for q in 0..P {
             let (cos, sin) = (at.cos[q], at.sin[q]);
@@ -159,86 +148,43 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         mass
     }
 
-    /// Returns the absolute acceleration of a station in hub axes without the part due to ä, m/s².
-    /// Drag and weight count as accelerations.
-    fn bias(&self, at: &Configuration<P, S>, s: usize, carrying: &Carrying) -> [f64; 2] {
-        let [x, y, xd, yd, cx, cy] = at.stations.map(|quantity| quantity[s]);
-        let Carrying { rate, acceleration, velocity, push, weight } = *carrying;
-        let alpha = self.scene.damping.alpha;
-        [
-            cx - 2.0 * rate * yd - acceleration * y - rate * rate * x
-                + alpha * (xd - rate * y)
-                + weight[0],
-            cy + 2.0 * rate * xd + acceleration * x - rate * rate * y
-                + alpha * (yd + rate * x)
-                + (push + alpha * velocity)
-                + weight[1],
-        ]
-    }
-
     /// Returns `ä` (rad/s²) from `∫ρA Aᵢ·a dx + m_p Aᵢ·a(L) + J_p ψᵢ(L)(…) + EI-terms = 0`. The
     /// result is not a number if the state is not.
     pub fn acceleration(
         &self,
-        at: &Configuration<P, S>,
+        at: &Configuration<P>,
         a: &SVector<f64, N>,
         v: &SVector<f64, N>,
         hub: &HubState<f64>,
     ) -> SVector<f64, N> {
         match Cholesky::new(self.mass_matrix(at)) {
-            Some(factor) => factor.solve(&self.force(at, a, v, hub)),
+            Some(factor) => {
+                factor.solve(&self.force(a, v, &self.inertia(at, v, &SVector::zeros(), hub)))
+            }
             None => SVector::repeat(f64::NAN),
         }
     }
 
-    /// Returns `M(a) ä`, N m: everything but the part of the inertia forces that is due to ä.
+    /// Returns `M(a) ä`, N m, of an `inertia` without ä: what bends back, what damps, and the
+    /// inertia.
     pub fn force(
         &self,
-        at: &Configuration<P, S>,
         a: &SVector<f64, N>,
         v: &SVector<f64, N>,
-        hub: &HubState<f64>,
+        inertia: &Inertia<P>,
     ) -> SVector<f64, N> {
-        let tip = &self.tip;
-        let carrying = self.carrier.carrying(hub);
-        let turning = self.turning(v, &carrying);
-        let beta = self.scene.damping.beta;
-        let bent = self.stiffness * (a + beta * v);
-        let mut force = SVector::<f64, N>::from_fn(|k, _| {
-            -bent[k] - self.scene.payload.inertia * tip[k] * turning
-        });
-        if let Some(joint) = &self.joint {
-            force -= joint * v;
+        let bent = self.stiffness * (a + self.scene.damping.beta * v);
+        let force = -bent - self.projected(inertia);
+        match &self.joint {
+            Some(joint) => force - joint * v,
+            None => force,
         }
-        // What the stations outboard of a point weigh on its angle.
-        let (mut along, mut across) = ([0.0; P], [0.0; P]);
-        for s in 0..S {
-            let [x, y] = self.bias(at, s, &carrying).map(|bias| self.masses[s] * bias);
-            for p in 0..P {
-                along[p] += self.by_station[s][p] * x;
-                across[p] += self.by_station[s][p] * y;
-            }
-        }
-        let moment: [f64; P] =
-            std::array::from_fn(|p| at.cos[p] * across[p] - at.sin[p] * along[p]);
-        for k in 0..N {
-            force[k] -= dot(&self.by_shape[k], &moment);
-        }
-        force
     }
 
     /// Returns the largest factor of stiffness-proportional damping, s.
     pub fn loss(&self) -> f64 {
         let damping = self.scene.damping;
         damping.beta + self.joint.map_or(0.0, |_| damping.joint)
-    }
-
-    /// Returns `αΣψⱼ(L)ȧⱼ + θ̈ + αθ̇`: the payload's angular acceleration without the part due to
-    /// ä, drag included.
-    fn turning(&self, v: &SVector<f64, N>, carrying: &Carrying) -> f64 {
-        let alpha = self.scene.damping.alpha;
-        let spin: f64 = (0..N).map(|k| self.tip[k] * v[k]).sum();
-        alpha * (spin + carrying.rate) + carrying.acceleration
     }
 
     /// Returns the hub torque and the bending moment at the clamp, N m. On a linear axis the first
@@ -248,52 +194,27 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
     /// a_Y − Y a_X) dm`. Moment: the same about the clamp at `(r, 0)`, without the hub's own.
     pub fn loads(
         &self,
-        at: &Configuration<P, S>,
+        at: &Configuration<P>,
         v: &SVector<f64, N>,
         acceleration: &SVector<f64, N>,
         hub: &HubState<f64>,
     ) -> [f64; 2] {
-        let tip = &self.tip;
-        let carrying = self.carrier.carrying(hub);
-        let spin: f64 = (0..N).map(|k| tip[k] * acceleration[k]).sum();
-        let mut moment = self.scene.payload.inertia * (spin + self.turning(v, &carrying));
-        let mut shear = 0.0;
-        let bent = self.at_points(acceleration);
-        let along = self.integral(&std::array::from_fn(|p| -bent[p] * at.sin[p]));
-        let across = self.integral(&std::array::from_fn(|p| bent[p] * at.cos[p]));
-        for s in 0..S {
-            let [ax, ay] = self.bias(at, s, &carrying);
-            let (ax, ay) = (ax + along[s], ay + across[s]);
-            let (x, y) = (at.stations[0][s], at.stations[1][s]);
-            moment += self.masses[s] * ((x - self.scene.hub.radius) * ay - y * ax);
-            shear += self.masses[s] * ay;
-        }
+        let inertia = self.inertia(at, v, acceleration, hub);
         let own = self.scene.hub.inertia;
         let torque = if self.scene.mount.is_linear() {
-            shear + own * (hub.acceleration + carrying.weight[1])
+            inertia.shear + own * (hub.acceleration + self.carrier.carrying(hub).weight[1])
         } else {
-            moment + self.scene.hub.radius * shear + own * hub.acceleration
+            self.about_axis(&inertia) + own * hub.acceleration
         };
-        [torque, moment]
-    }
-}
-
-impl<const P: usize, const S: usize> Configuration<P, S> {
-    /// Returns hub-frame X and Y of the payload's centre, m.
-    pub fn payload(&self) -> [f64; 2] {
-        [self.stations[0][S - 1], self.stations[1][S - 1]]
+        [torque, inertia.about_clamp()]
     }
 }
 
 /// Returns the sum of the products, in four partial sums that do not wait for each other.
-fn dot<const P: usize>(x: &[f64; P], y: &[f64; P]) -> f64 {
+pub(super) fn dot<const P: usize>(x: &[f64; P], y: &[f64; P]) -> f64 {
     let mut sum = [0.0; 4];
     for p in 0..P {
         sum[p % 4] += x[p] * y[p];
     }
     (sum[0] + sum[1]) + (sum[2] + sum[3])
-}
-
-fn transposed<const R: usize, const C: usize>(rows: &[[f64; C]; R]) -> [[f64; R]; C] {
-    std::array::from_fn(|c| std::array::from_fn(|r| rows[r][c]))
 }

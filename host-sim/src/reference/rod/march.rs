@@ -186,7 +186,7 @@ fn sample<const N: usize, const P: usize, const S: usize>(
         rate: hub.rate,
         acceleration: hub.acceleration,
         tip: global(&rod.scene, &hub, [x, deflection]),
-        payload: global(&rod.scene, &hub, at.payload()),
+        payload: global(&rod.scene, &hub, rod.payload(&at)),
         deflection,
         torque: rod.loads(&at, &v, &acceleration, &hub)[0],
     }

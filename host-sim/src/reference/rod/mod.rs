@@ -28,6 +28,7 @@ macro_rules! with_rod {
 
 mod driven;
 mod equations;
+mod inertia;
 pub(super) mod legendre;
 mod march;
 mod statics;

@@ -54,8 +54,7 @@ impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
         for (p, shapes) in self.shapes.iter().enumerate() {
             let shapes = SVector::from(*shapes);
             let (s, c) = shapes.dot(a).sin_cos();
-            let outboard: f64 = (0..S).map(|s| self.masses[s] * self.by_station[s][p]).sum();
-            let weight = gravity * outboard;
+            let weight = gravity * self.outboard[p];
             gradient += shapes * (weight * (cos * c - sin * s));
             hessian -= shapes * shapes.transpose() * (weight * (sin * c + cos * s));
         }
