@@ -4,6 +4,10 @@
 
 #[path = "build/arms.rs"]
 mod arms;
+#[path = "src/bench/scenes.rs"]
+mod scenes;
+#[path = "build/traced.rs"]
+mod traced;
 
 use std::path::Path;
 use std::{env, fs};
@@ -39,6 +43,8 @@ fn main() {
     println!("cargo:rerun-if-env-changed=STILLBEAM_METHOD");
     let method = env::var("STILLBEAM_METHOD").unwrap_or_else(|_| "Newmark1Nodal".into());
     fs::write(folder.join("prepared.rs"), prepared(&method)).expect("the build folder is writable");
+    println!("cargo:rerun-if-changed=src/bench/scenes.rs");
+    fs::write(folder.join("traced.rs"), traced::text()).expect("the build folder is writable");
     println!("cargo:rerun-if-changed={EXPORTED}");
     fs::write(folder.join("exported.rs"), exported()).expect("the build folder is writable");
     if let Some(board) = &chosen {

@@ -1,21 +1,6 @@
-//! Counts what a piece of code costs: instructions under QEMU, cycles on a board.
+//! The counters of a Cortex-M: instructions under QEMU, cycles on a board.
 
-use cortex_m::asm;
-
-/// A free-running counter.
-pub trait Counter {
-    /// Unit of its counts, as printed in the tables.
-    const UNIT: &'static str;
-
-    /// Starts it.
-    fn start() -> Self;
-
-    /// Raw reading; wraps.
-    fn read(&self) -> u32;
-
-    /// Raw readings `from` to `to` as counts.
-    fn between(&self, from: u32, to: u32) -> u32;
-}
+use crate::stopwatch::Counter;
 
 /// The counter of this build.
 #[cfg(not(feature = "dwt"))]
@@ -51,6 +36,11 @@ impl Counter for Instructions {
     }
 
     #[inline(always)]
+    fn barrier() {
+        cortex_m::asm::dmb();
+    }
+
+    #[inline(always)]
     fn read(&self) -> u32 {
         // SAFETY: as above; reading has no side effect.
         unsafe { Self::TIMER0.add(1).read_volatile() }
@@ -80,37 +70,16 @@ impl Counter for Cycles {
     }
 
     #[inline(always)]
+    fn barrier() {
+        cortex_m::asm::dmb();
+    }
+
+    #[inline(always)]
     fn read(&self) -> u32 {
         cortex_m::peripheral::DWT::cycle_count()
     }
 
     fn between(&self, from: u32, to: u32) -> u32 {
         to.wrapping_sub(from)
-    }
-}
-
-/// Counts pieces of code, less what the counting itself costs.
-pub struct Stopwatch<C> {
-    counter: C,
-    overhead: u32,
-}
-
-impl<C: Counter> Stopwatch<C> {
-    /// Starts the counter and measures an empty piece of code.
-    pub fn start() -> Self {
-        let mut watch = Self { counter: C::start(), overhead: 0 };
-        watch.overhead = watch.count(|| ()).1;
-        watch
-    }
-
-    /// Returns the result of `work`, and its cost.
-    #[inline(always)]
-    pub fn count<R>(&self, work: impl FnOnce() -> R) -> (R, u32) {
-        let from = self.counter.read();
-        asm::dmb();
-        let result = work();
-        asm::dmb();
-        let to = self.counter.read();
-        (result, self.counter.between(from, to).saturating_sub(self.overhead))
     }
 }

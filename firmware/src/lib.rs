@@ -1,5 +1,5 @@
 #![no_std]
-//! Shared parts of the programs on the target: counter, stack paint, the way out. No arithmetic of
+//! Shared parts of the programs on the target: counters, stack paint, the way out. No arithmetic of
 //! its own.
 
 pub mod counter;
@@ -8,4 +8,5 @@ pub mod exit;
 #[cfg(not(feature = "_no-host"))]
 pub mod output;
 pub mod stack;
+pub mod stopwatch;
 mod vectors;

@@ -1,5 +1,6 @@
 //! Runs images in QEMU, under a time limit.
 
+use std::ffi::OsStr;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -66,15 +67,35 @@ pub fn run_on(
     clock: Clock,
     limit: Duration,
 ) -> Result<Vec<u8>, String> {
+    let arguments: &[&str] = match clock {
+        Clock::Host => &[],
+        Clock::Instructions => &["-icount", "shift=10,sleep=off"],
+    };
+    run_with(board, image, arguments.iter().map(OsStr::new), limit)
+}
+
+/// Runs `image` on the Cortex-M4F, writes every instruction that it executes to `log`, and returns
+/// what it printed. The log takes some 120 bytes an instruction.
+///
+/// # Errors
+/// Errors are those of [`run`].
+pub fn trace(image: &Path, log: &Path, limit: Duration) -> Result<Vec<u8>, String> {
+    let arguments = ["-singlestep", "-d", "in_asm,exec,nochain", "-D"].map(OsStr::new);
+    run_with(Board::An386, image, arguments.into_iter().chain([log.as_os_str()]), limit)
+}
+
+fn run_with<'a>(
+    board: Board,
+    image: &Path,
+    arguments: impl Iterator<Item = &'a OsStr>,
+    limit: Duration,
+) -> Result<Vec<u8>, String> {
     let (program, package, machine) = board.qemu();
     let mut qemu = Command::new(program);
     qemu.args(machine)
         .args(["-nographic", "-monitor", "none", "-serial", "none"])
         .args(["-semihosting-config", "enable=on,target=native"])
-        .args(match clock {
-            Clock::Host => &[][..],
-            Clock::Instructions => &["-icount", "shift=10,sleep=off"],
-        })
+        .args(arguments)
         .arg("-kernel")
         .arg(image)
         .stdin(Stdio::null())

@@ -63,19 +63,20 @@ pub fn build_smallest(bin: &str) -> Built {
     build_variant(SMALLEST_TARGET, bin, None)
 }
 
-/// Builds the golden run for RISC-V.
+/// Builds the program `bin` for RISC-V: `golden` or `bench`.
 ///
 /// # Errors
 /// Errors are those of [`build`].
-pub fn build_riscv() -> Built {
-    once("golden-riscv".to_owned(), |name| {
+pub fn build_riscv(bin: &str) -> Built {
+    once(format!("{bin}-riscv"), |name| {
         require_target(RISCV_TARGET)?;
         let folder = root().join("target/firmware");
+        let bin = format!("{bin}_riscv");
         run(cargo()
-            .args(["build", "--quiet", "--package", "stillbeam-riscv", "--profile", "firmware"])
-            .args(["--target", RISCV_TARGET, "--target-dir"])
+            .args(["build", "--quiet", "--package", "stillbeam-riscv", "--bin", &bin])
+            .args(["--profile", "firmware", "--target", RISCV_TARGET, "--target-dir"])
             .arg(&folder))?;
-        keep(&folder, RISCV_TARGET, "firmware", "golden_riscv", name)
+        keep(&folder, RISCV_TARGET, "firmware", &bin, name)
     })
 }
 

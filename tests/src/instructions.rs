@@ -95,6 +95,16 @@ pub fn count_smallest() -> Result<Bench, String> {
     parse(&String::from_utf8_lossy(&printed))
 }
 
+/// Builds the bench for RV32IMAC and runs it there.
+///
+/// # Errors
+/// Errors are those of [`count`].
+pub fn count_riscv() -> Result<Bench, String> {
+    let image = firmware::build_riscv("bench")?;
+    let printed = emulator::run_on(Board::RiscV, &image, Clock::Instructions, LIMIT)?;
+    parse(&String::from_utf8_lossy(&printed))
+}
+
 /// Builds and runs the minimal image of one method, by its name in the list of methods.
 ///
 /// # Errors

@@ -3,6 +3,7 @@
 //! QEMU, comparing its stream, the table of instructions.
 
 pub mod browser;
+pub mod cycles;
 pub mod embedded;
 pub mod emulator;
 pub mod features;
@@ -14,6 +15,8 @@ pub mod page;
 pub mod parts;
 pub mod playground;
 pub mod stream;
+pub mod timing;
+pub mod trace;
 
 use std::path::PathBuf;
 

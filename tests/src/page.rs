@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use stillbeam_lab::markers::{self, Block};
 
+use crate::cycles::{self, Estimate};
 use crate::instructions::{Bench, Count, Minimal};
 use crate::parts;
 
@@ -26,6 +27,17 @@ const COLUMNS: [(&str, &[&str]); 8] = [
     ("neither, landing", &["no-damping", "no-gravity", "landing", "still"]),
 ];
 
+/// Counts on processors without floating-point unit.
+#[derive(Debug)]
+pub struct Soft {
+    /// On a Cortex-M3.
+    pub cortex_m3: Bench,
+    /// Of Armv6-M's instructions.
+    pub cortex_m0: Bench,
+    /// On RV32IMAC.
+    pub riscv: Bench,
+}
+
 /// Returns the page with its tables replaced.
 ///
 /// # Errors
@@ -35,23 +47,25 @@ pub fn replace(page: &str, tables: &str) -> Result<String, String> {
     markers::fill(page, &[block]).map_err(|error| format!("docs/instructions.md: {error}"))
 }
 
-/// Returns the tables of the processor with an FPU and of one without.
+/// Returns the tables of the processor with an FPU and of those without.
 pub fn tables(
     bench: &Bench,
-    soft: &Bench,
-    smallest: &Bench,
+    soft: &Soft,
     minimal: &BTreeMap<String, Minimal>,
     prepared: &[Minimal],
+    estimates: &[Estimate],
 ) -> String {
     let sections = [
         methods(bench, minimal),
+        cycles::table(bench, estimates),
         motions(bench),
         plans(bench, minimal),
         changes(bench),
         functions(bench),
-        without_fpu(CORTEX_M3, soft),
-        without_fpu(CORTEX_M0, smallest),
-        parts::table(bench, soft, smallest, prepared),
+        without_fpu(CORTEX_M3, &soft.cortex_m3),
+        without_fpu(CORTEX_M0, &soft.cortex_m0),
+        without_fpu(RISCV, &soft.riscv),
+        parts::table(bench, soft, prepared),
     ];
     format!("\n{}", sections.join("\n"))
 }
@@ -159,6 +173,8 @@ fn functions(bench: &Bench) -> String {
 pub const CORTEX_M3: &str = "Cortex-M3";
 /// Armv6-M: 16-bit instructions, no division, no long multiplication.
 pub const CORTEX_M0: &str = "Cortex-M0 and M0+";
+/// RISC-V, 32 bits, with multiplication and division of integers.
+pub const RISCV: &str = "RV32IMAC";
 
 /// Returns the ticks inside of a move, with every term and with none, without an FPU. There
 /// arithmetic is a call whose cost depends on its operands.
@@ -168,7 +184,7 @@ pub fn without_fpu(processor: &str, soft: &Bench) -> String {
          | method | size | terms | least | worst | spread |\n|---|---|---|---|---|---|\n"
     );
     for count in &soft.counts {
-        let [method, size, quality, skip] = &count.key;
+        let [method, size, _, skip] = &count.key;
         let terms = match skip.as_str() {
             "" => "all",
             "no-damping no-gravity" => "neither",
@@ -179,12 +195,17 @@ pub fn without_fpu(processor: &str, soft: &Bench) -> String {
         }
         let Count { least, worst, .. } = count;
         let spread = 100.0 * (f64::from(*worst) / f64::from(*least) - 1.0);
-        let name = [method.as_str(), quality].join(" ");
-        let name = name.trim();
+        let name = name(count);
         writeln!(text, "| {name} | {size} | {terms} | {least} | {worst} | {spread:.0} % |")
             .expect("a string");
     }
     text
+}
+
+/// Returns the method of a row as the tables name it.
+pub fn name(count: &Count) -> String {
+    let [method, _, quality, _] = &count.key;
+    [method.as_str(), quality].join(" ").trim().to_owned()
 }
 
 fn skips(count: &Count) -> Vec<&str> {

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::instructions::{Bench, Minimal};
+use crate::page::Soft;
 
 /// Cycles that an instruction takes at most on average: loads, taken branches and a flash that lags
 /// behind the core are in it.
@@ -17,8 +18,7 @@ enum Core {
     WithFpu,
     CortexM3,
     CortexM0,
-    /// Runs golden, and its ticks are not counted.
-    Uncounted,
+    RiscV,
 }
 
 /// A microcontroller: name, processor, flash and RAM in KiB, clock in MHz, as its data sheet says.
@@ -29,7 +29,7 @@ const PARTS: [(&str, &str, Core, u32, u32, f64); 6] = [
     ("STM32F446RE", "Cortex-M4F", Core::WithFpu, 512, 128, 180.0),
     ("STM32G474RE", "Cortex-M4F", Core::WithFpu, 512, 128, 170.0),
     ("RP2040", "Cortex-M0+", Core::CortexM0, 2048, 264, 133.0),
-    ("ESP32-C3", "RV32IMC", Core::Uncounted, 4096, 400, 160.0),
+    ("ESP32-C3", "RV32IMC", Core::RiscV, 4096, 400, 160.0),
 ];
 
 /// Methods of the table: heading, name in the list of methods.
@@ -37,7 +37,7 @@ pub const METHODS: [(&str, &str); 2] =
     [("newmark, 1 element", "Newmark1Nodal"), ("elastica, 2 modes, fast", "Elastica2")];
 
 /// Returns the table, with the sizes of the programs that load a prepared arm, one of each of [`METHODS`].
-pub fn table(bench: &Bench, soft: &Bench, smallest: &Bench, prepared: &[Minimal]) -> String {
+pub fn table(bench: &Bench, soft: &Soft, prepared: &[Minimal]) -> String {
     let mut text = "### Which part takes which method\n\n".to_owned();
     for ((name, _), size) in METHODS.iter().zip(prepared) {
         let Minimal { flash, ram, stack } = size;
@@ -59,17 +59,17 @@ pub fn table(bench: &Bench, soft: &Bench, smallest: &Bench, prepared: &[Minimal]
         for ((_, id), size) in METHODS.iter().zip(prepared) {
             let fits = size.flash <= u64::from(flash) * 1024
                 && size.ram + u64::from(size.stack) <= u64::from(ram) * 1024;
-            let counted = match core {
-                Core::WithFpu => worst(bench, id),
-                Core::CortexM3 => worst(soft, id),
-                Core::CortexM0 => worst(smallest, id),
-                Core::Uncounted => None,
+            let counts = match core {
+                Core::WithFpu => bench,
+                Core::CortexM3 => &soft.cortex_m3,
+                Core::CortexM0 => &soft.cortex_m0,
+                Core::RiscV => &soft.riscv,
             };
             let share = |count: u32| 100.0 * CYCLES * f64::from(count) / (clock * 1e6 * TICK);
-            let cell = match (fits, counted) {
-                (false, _) => "does not fit".to_owned(),
-                (true, Some(count)) => format!("{:.2} %", share(count)),
-                (true, None) => "fits, not counted".to_owned(),
+            let cell = if fits {
+                format!("{:.2} %", share(worst(counts, id)))
+            } else {
+                "does not fit".to_owned()
             };
             write!(text, " {cell} |").expect("a string");
         }
@@ -79,7 +79,8 @@ pub fn table(bench: &Bench, soft: &Bench, smallest: &Bench, prepared: &[Minimal]
 }
 
 /// Instructions of the worst tick inside of a move, with every term.
-fn worst(bench: &Bench, id: &str) -> Option<u32> {
+fn worst(bench: &Bench, id: &str) -> u32 {
     let counts = bench.counts.iter();
-    counts.filter(|count| count.id == id && count.key[3].is_empty()).map(|count| count.worst).max()
+    let all_terms = counts.filter(|count| count.id == id && count.key[3].is_empty());
+    all_terms.map(|count| count.worst).max().unwrap_or_else(|| panic!("{id}: not counted"))
 }

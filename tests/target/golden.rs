@@ -58,7 +58,7 @@ fn the_smallest_processors_give_the_same_bits() {
 /// Another architecture, whose soft floats are other code.
 #[test]
 fn a_riscv_core_gives_the_same_bits() {
-    every_bit_agrees(Board::RiscV, firmware::build_riscv());
+    every_bit_agrees(Board::RiscV, firmware::build_riscv("golden"));
 }
 
 fn every_bit_agrees(board: Board, image: Result<PathBuf, String>) {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use stillbeam_tests::instructions::{self, Bench, Count};
-use stillbeam_tests::{page, root};
+use stillbeam_tests::{cycles, page, root};
 
 fn bench() -> &'static Bench {
     static BENCH: OnceLock<Bench> = OnceLock::new();
@@ -158,6 +158,29 @@ fn the_page_is_right_about_processors_without_an_fpu() {
 #[test]
 fn the_page_is_right_about_the_smallest_processors() {
     the_page_is_right(page::CORTEX_M0, instructions::count_smallest());
+}
+
+/// And on RISC-V.
+#[test]
+fn the_page_is_right_about_riscv() {
+    the_page_is_right(page::RISCV, instructions::count_riscv());
+}
+
+/// What is traced is what is counted, an instruction takes at least a cycle, and the page has the
+/// estimates.
+#[test]
+fn cycles_are_estimated_of_what_is_counted() {
+    let estimates = cycles::estimate().unwrap_or_else(|error| panic!("{error}"));
+    for estimate in &estimates {
+        let count = cycles::counted(bench(), estimate).expect("a row of the bench");
+        assert_eq!(estimate.instructions, count.worst, "{estimate:?}");
+        assert!(estimate.cycles > estimate.instructions, "{estimate:?}");
+        assert!(estimate.cycles < 3 * estimate.instructions, "{estimate:?}");
+    }
+    let page = std::fs::read_to_string(root().join("docs/instructions.md")).unwrap();
+    let table = cycles::table(bench(), &estimates);
+    assert_eq!(estimates.len(), 10);
+    assert!(page.contains(&table), "write the page anew:\n{table}");
 }
 
 fn the_page_is_right(processor: &str, soft: Result<Bench, String>) {

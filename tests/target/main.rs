@@ -15,3 +15,4 @@ mod paths;
 mod portability;
 mod record;
 mod session;
+mod timing;

@@ -7,7 +7,8 @@ use stillbeam::motion::optimal::Bounds;
 use stillbeam::motion::{Path, Spline, Waypoint};
 use stillbeam::stepper::Rigid;
 use stillbeam::{Angle, Error, Generator, HubState, Link, Move, Profile, Scene};
-use stillbeam_firmware::counter::{Counter, Stopwatch};
+
+use crate::stopwatch::{Counter, Stopwatch};
 
 const TICK: f64 = 0.010;
 

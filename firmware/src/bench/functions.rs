@@ -6,7 +6,8 @@ use core::hint::black_box;
 
 use micromath::F32Ext;
 use stillbeam::Scalar;
-use stillbeam_firmware::counter::{Counter, Stopwatch};
+
+use crate::stopwatch::{Counter, Stopwatch};
 
 /// Angles over `−½ ..= ½` turn, where the hub's angle lies.
 const POINTS: i32 = 256;

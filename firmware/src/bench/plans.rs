@@ -9,7 +9,8 @@ use stillbeam::stepper::ArmState;
 use stillbeam::{
     Angle, Damping, Error, Hub, HubState, Limits, Link, Payload, Profile, UniformScene,
 };
-use stillbeam_firmware::counter::{Counter, Stopwatch};
+
+use crate::stopwatch::{Counter, Stopwatch};
 
 const TICK: f64 = 0.010;
 const TURN: f64 = core::f64::consts::PI;

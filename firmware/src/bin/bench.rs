@@ -8,8 +8,9 @@ use core::fmt::Write;
 
 use cortex_m_rt::entry;
 use semihosting::process::ExitCode;
-use stillbeam_firmware::counter::{Chosen, Counter, Stopwatch};
+use stillbeam_firmware::counter::Chosen;
 use stillbeam_firmware::output::Output;
+use stillbeam_firmware::stopwatch::{self, Counter, Stopwatch};
 
 // Plans and changes are counted with an FPU only.
 #[cfg(target_abi = "eabihf")]
@@ -20,6 +21,10 @@ mod functions;
 #[cfg(target_abi = "eabihf")]
 #[path = "../bench/plans.rs"]
 mod plans;
+#[path = "../bench/scenes.rs"]
+mod scenes;
+#[path = "../bench/tick.rs"]
+mod tick;
 #[path = "../bench/ticks.rs"]
 mod ticks;
 

@@ -10,8 +10,9 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use semihosting::process::ExitCode;
 use stillbeam::chain::ChainSetpoint;
-use stillbeam_firmware::counter::{Chosen, Counter, Stopwatch};
+use stillbeam_firmware::counter::Chosen;
 use stillbeam_firmware::output::Output;
+use stillbeam_firmware::stopwatch::{Counter, Stopwatch};
 use stillbeam_golden::{mechanisms, record};
 
 stillbeam_firmware::exit_on_panic!();

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 use std::{env, fs};
 
-use stillbeam_tests::{instructions, page, parts, root};
+use stillbeam_tests::{cycles, instructions, page, parts, root};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -26,8 +26,12 @@ fn main() -> ExitCode {
 }
 
 fn write() -> Result<(), String> {
-    let (bench, soft) = (instructions::count()?, instructions::count_soft()?);
-    let smallest = instructions::count_smallest()?;
+    let bench = instructions::count()?;
+    let soft = page::Soft {
+        cortex_m3: instructions::count_soft()?,
+        cortex_m0: instructions::count_smallest()?,
+        riscv: instructions::count_riscv()?,
+    };
     let mut minimal = BTreeMap::new();
     for count in &bench.counts {
         if !minimal.contains_key(&count.id) {
@@ -40,7 +44,9 @@ fn write() -> Result<(), String> {
     fs::write(&path, instructions::csv(&bench)).map_err(|e| format!("{path:?}: {e}"))?;
     let path = root().join("docs/instructions.md");
     let text = fs::read_to_string(&path).map_err(|e| format!("{path:?}: {e}"))?;
-    let text = page::replace(&text, &page::tables(&bench, &soft, &smallest, &minimal, &prepared))?;
+    let estimates = cycles::estimate()?;
+    let tables = page::tables(&bench, &soft, &minimal, &prepared, &estimates);
+    let text = page::replace(&text, &tables)?;
     fs::write(&path, text).map_err(|e| format!("{path:?}: {e}"))
 }
 
