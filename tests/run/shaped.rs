@@ -53,8 +53,9 @@ fn worst(profile: &str, shaper: &str, method: Method, truth: &[Row], tick: f64) 
 /// and 17 %.
 #[test]
 fn jumps_inside_a_tick_reach_modal_and_elastica() {
-    for profile in PROFILES {
-        for shaper in SHAPERS {
+    for (k, profile) in PROFILES.into_iter().enumerate() {
+        // Three of the shapers each, so that every one meets two profiles.
+        for shaper in SHAPERS.into_iter().cycle().skip(3 * k).take(3) {
             let coarse = TICKS[2];
             let truth = rod(&scene(profile, shaper, coarse), coarse);
             for method in [Method::Modal, Method::Elastica] {
