@@ -148,8 +148,15 @@ impl Inertias {
         let (strip, link) = (&chain.links[index], &chain.mechanism.links[index]);
         let pieces: Vec<Piece<'_>> =
             chain.shapes.iter().map(|shapes| Piece::of(strip, shapes, motion, &root)).collect();
-        let along = |weights: &[f64]| {
-            let (mut frame, mut normals) = (root.clone(), Vector2::zeros());
+        // The same memory for every point: there are as many frames as points of mass.
+        let mut frame = root.clone();
+        let mut columns = vec![Vector2::zeros(); strip.order];
+        let mut go_to = |frame: &mut Frame, weights: &[f64]| {
+            frame.place = root.place;
+            frame.velocity = root.velocity;
+            frame.acceleration = root.acceleration;
+            let mut normals = Vector2::zeros();
+            columns.fill(Vector2::zeros());
             for (piece, weight) in pieces.iter().zip(weights) {
                 let length = weight * link.length;
                 frame.place += length * piece.tangent;
@@ -157,23 +164,27 @@ impl Inertias {
                 frame.acceleration += length * piece.acceleration;
                 let normal = length * Vector2::new(-piece.tangent.y, piece.tangent.x);
                 normals += normal;
-                for (coordinate, shape) in strip.curvatures().zip(piece.shapes) {
-                    let mut column = frame.jacobian.column_mut(coordinate);
-                    column += *shape * normal;
+                for (column, shape) in columns.iter_mut().zip(piece.shapes) {
+                    *column += *shape * normal;
                 }
             }
-            frame.jacobian += normals * &root.row;
-            frame
+            frame.jacobian.copy_from(&root.jacobian);
+            frame.jacobian.ger(1.0, &normals, &root.row.transpose(), 1.0);
+            for (coordinate, column) in strip.curvatures().zip(&columns) {
+                let mut own = frame.jacobian.column_mut(coordinate);
+                own += column;
+            }
         };
         for (weights, share) in chain.running.iter().zip(&chain.rule.weights) {
-            self.add_mass(share * link.mass, &along(weights));
+            go_to(&mut frame, weights);
+            self.add_mass(share * link.mass, &frame);
         }
-        let mut end = along(&chain.rule.weights);
+        go_to(&mut frame, &chain.rule.weights);
         // Only the first shape is not zero at the end, where it is 1.
         if let Some(first) = strip.curvatures().next() {
-            end.turn(motion, first, 1.0);
+            frame.turn(motion, first, 1.0);
         }
-        end
+        frame
     }
 
     fn add_mass(&mut self, mass: f64, frame: &Frame) {
@@ -215,8 +226,8 @@ impl Inertias {
 
     fn weighted(&self) -> DMatrix<f64> {
         let mut rows = self.jacobian.clone();
-        for (mut row, weight) in rows.row_iter_mut().zip(self.weights.iter()) {
-            row *= *weight;
+        for mut column in rows.column_iter_mut() {
+            column.component_mul_assign(&self.weights);
         }
         rows
     }
