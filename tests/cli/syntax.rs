@@ -174,8 +174,8 @@ fn mangled_scenes_are_read_or_refused_in_a_line() {
 #[test]
 fn mangled_arms_are_read_or_refused_in_a_line() {
     SceneFile::parse_arm("arm.toml", ARM).expect("an arm");
-    let refused = mangled(ARM, 400, SceneFile::parse_arm);
-    assert!((100..398).contains(&refused), "{refused}");
+    let refused = mangled(ARM, 150, SceneFile::parse_arm);
+    assert!((40..148).contains(&refused), "{refused}");
 }
 
 /// Reads a text `count` times with other mistakes and returns how often it is refused.
