@@ -47,6 +47,9 @@ impl Run<'_> {
         if energy > ENERGY {
             fail(format!("the energy balance is off by {energy:.1e}"));
         }
+        if let Some(refusal) = self.board.answers.iter().find_map(|answer| answer.as_ref().err()) {
+            fail(format!("a request was refused: {refusal:?}"));
+        }
         let (axis, wanted) = (self.board.axis(), self.fault.cause());
         if axis.cause() != wanted || self.stopped_from.is_some() != wanted.is_some() {
             fail(format!("stopped for {:?}, not {wanted:?}", axis.cause()));
