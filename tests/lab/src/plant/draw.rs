@@ -36,9 +36,6 @@ pub struct Case {
     pub settling: f64,
 }
 
-/// Largest torque of a move at the drive's shaft, N m: with room to what a frame holds, 32.767.
-const FRAME: f64 = 30.0;
-
 /// Returns a number between two positive ones, evenly in its logarithm.
 fn spread(rng: &mut StdRng, least: f64, most: f64) -> f64 {
     least * (most / least).powf(rng.random::<f64>())
@@ -58,10 +55,7 @@ impl Case {
         let at_tip = (arm.hub.radius + arm.link.length).powi(2);
         let load = second + arm.payload.mass * at_tip + arm.hub.inertia;
         let rotor = load * rng.random_range(0.02..0.3);
-        let per_turn = (load + rotor) * 6.0 / (duration * duration);
-        // A move whose torque its frame does not hold is refused.
-        let turn = turn.signum() * turn.abs().min(FRAME * n / per_turn);
-        let torque = per_turn * turn.abs();
+        let torque = (load + rotor) * 6.0 * turn.abs() / (duration * duration);
         let parts = parts(rng, ratio, rotor / (n * n), torque);
         let inertia = load + rotor;
         let drag = scene.damping.alpha * (load - arm.hub.inertia) / inertia;

@@ -9,6 +9,8 @@ pub struct Outcome {
     pub injected: u64,
     /// Setpoints that were judged.
     pub setpoints: u64,
+    /// Moves that were refused because the drive's frame does not hold their torque.
+    pub refused: u64,
     /// Setpoints whose torque was cut to its frame.
     pub cut: u64,
     /// Stops on the way.
@@ -33,6 +35,7 @@ impl Outcome {
         self.runs += other.runs;
         self.injected += other.injected;
         self.setpoints += other.setpoints;
+        self.refused += other.refused;
         self.cut += other.cut;
         self.stops += other.stops;
         self.way = self.way.max(other.way);

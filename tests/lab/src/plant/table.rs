@@ -10,6 +10,7 @@ pub fn markdown(rows: &[(&str, Outcome)]) -> String {
         "runs",
         "times",
         "setpoints",
+        "moves refused",
         "torques cut",
         "stops",
         "way of a stop, of its bound",
@@ -21,8 +22,8 @@ pub fn markdown(rows: &[(&str, Outcome)]) -> String {
     ];
     let mut lines = vec![header.map(str::to_owned).to_vec()];
     for (name, outcome) in rows {
-        let counts =
-            [outcome.runs, outcome.injected, outcome.setpoints, outcome.cut, outcome.stops];
+        let Outcome { runs, injected, setpoints, refused, cut, stops, .. } = *outcome;
+        let counts = [runs, injected, setpoints, refused, cut, stops];
         let mut line = vec![(*name).to_owned()];
         line.extend(counts.map(grouped));
         line.push(format!("{:.3}", outcome.way));

@@ -2,6 +2,7 @@
 
 use stillbeam::axis::Mode;
 use stillbeam_board::machine::TICK;
+use stillbeam_protocol::Refusal;
 
 use super::Run;
 use crate::plant::{Fault, Outcome};
@@ -15,6 +16,11 @@ const WAY: f64 = 1.4357;
 
 /// Error of the energy balance over work and losses that a run may have.
 const ENERGY: f64 = 1e-4;
+
+/// True if a move was refused because the drive's frame does not hold the torque that it takes.
+fn is_beyond_frame(refusal: &Refusal<'_>) -> bool {
+    matches!(refusal, Refusal::Range { parameter: "drive.torque", .. })
+}
 
 impl Run<'_> {
     /// Returns the stop's way over the greatest that the brake may take.
@@ -47,11 +53,14 @@ impl Run<'_> {
         if energy > ENERGY {
             fail(format!("the energy balance is off by {energy:.1e}"));
         }
-        if let Some(refusal) = self.board.answers.iter().find_map(|answer| answer.as_ref().err()) {
+        let refusals = || self.board.answers.iter().filter_map(|answer| answer.as_ref().err());
+        for refusal in refusals().filter(|refusal| !is_beyond_frame(refusal)) {
             fail(format!("a request was refused: {refusal:?}"));
         }
         let (axis, wanted) = (self.board.axis(), self.fault.cause());
-        if axis.cause() != wanted || self.stopped_from.is_some() != wanted.is_some() {
+        // A hub that rests because its move was refused need not be stopped.
+        let stops = self.stopped_from.is_some() == wanted.is_some() || refusals().next().is_some();
+        if axis.cause() != wanted || !stops {
             fail(format!("stopped for {:?}, not {wanted:?}", axis.cause()));
         }
         let end = match self.fault {
@@ -75,6 +84,7 @@ impl Run<'_> {
             runs: 1,
             injected: self.injected,
             setpoints: self.watch.setpoints,
+            refused: self.board.answers.iter().filter(|answer| answer.is_err()).count() as u64,
             cut: self.cut,
             stops: u64::from(self.stopped_from.is_some()),
             way,
