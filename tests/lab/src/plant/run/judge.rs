@@ -33,9 +33,15 @@ impl Run<'_> {
         })
     }
 
-    /// Judges what was promised of the run.
-    fn judge(&mut self, way: f64, energy: f64) {
-        let mut fail = |broken: String| self.broken.push(broken);
+    /// Refusals among the board's answers.
+    fn refusals(&self) -> impl Iterator<Item = &Refusal<'static>> {
+        self.board.answers.iter().filter_map(|answer| answer.as_ref().err())
+    }
+
+    /// Returns what was promised of the run and does not hold.
+    fn judge(&self, way: f64, energy: f64) -> Vec<String> {
+        let mut broken = self.broken.clone();
+        let mut fail = |promise: String| broken.push(promise);
         let length = self.case.configuration.scene.link.length;
         let [turn, swing] = [self.rest.turn(), self.rest.swing() / length];
         if !self.rest.finite() {
@@ -53,13 +59,13 @@ impl Run<'_> {
         if energy > ENERGY {
             fail(format!("the energy balance is off by {energy:.1e}"));
         }
-        let refusals = || self.board.answers.iter().filter_map(|answer| answer.as_ref().err());
-        for refusal in refusals().filter(|refusal| !is_beyond_frame(refusal)) {
+        for refusal in self.refusals().filter(|refusal| !is_beyond_frame(refusal)) {
             fail(format!("a request was refused: {refusal:?}"));
         }
         let (axis, wanted) = (self.board.axis(), self.fault.cause());
         // A hub that rests because its move was refused need not be stopped.
-        let stops = self.stopped_from.is_some() == wanted.is_some() || refusals().next().is_some();
+        let stops =
+            self.stopped_from.is_some() == wanted.is_some() || self.refusals().next().is_some();
         if axis.cause() != wanted || !stops {
             fail(format!("stopped for {:?}, not {wanted:?}", axis.cause()));
         }
@@ -71,20 +77,20 @@ impl Run<'_> {
         if axis.mode() != end || !axis.rests() {
             fail(format!("ends {:?}, not {end:?}, at rest", axis.mode()));
         }
-        self.broken.extend(self.watch.broken.clone());
+        broken.extend(self.watch.broken.iter().cloned());
+        broken
     }
 
-    pub(super) fn outcome(mut self) -> Outcome {
+    pub(super) fn outcome(&self) -> Outcome {
         let exchanged = self.plant.work().abs() + self.plant.lost().abs();
         let energy = self.plant.energy_error().abs() / exchanged.max(1e-9);
         let way = self.way();
-        self.judge(way, energy);
         let length = self.case.configuration.scene.link.length;
         Outcome {
             runs: 1,
             injected: self.injected,
             setpoints: self.watch.setpoints,
-            refused: self.board.answers.iter().filter(|answer| answer.is_err()).count() as u64,
+            refused: self.refusals().count() as u64,
             cut: self.cut,
             stops: u64::from(self.stopped_from.is_some()),
             way,
@@ -92,7 +98,7 @@ impl Run<'_> {
             turn: self.rest.turn(),
             swing: self.rest.swing() / length,
             energy,
-            broken: self.broken,
+            broken: self.judge(way, energy),
         }
     }
 }
