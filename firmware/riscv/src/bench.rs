@@ -10,6 +10,7 @@ use stopwatch::{Counter, Stopwatch};
 
 #[path = "../../src/output.rs"]
 mod output;
+mod panic;
 #[path = "../../src/bench/scenes.rs"]
 mod scenes;
 #[path = "../../src/stopwatch.rs"]
@@ -18,15 +19,6 @@ mod stopwatch;
 mod tick;
 #[path = "../../src/bench/ticks.rs"]
 mod ticks;
-
-/// Exit code of a panic, that of the firmware's programs.
-const PANICKED: i32 = 101;
-
-#[panic_handler]
-fn panic(info: &core::panic::PanicInfo<'_>) -> ! {
-    semihosting::eprintln!("{info}");
-    process::exit(PANICKED)
-}
 
 /// Instructions retired, by the core's own counter. QEMU's counts the time of its clock in ns: it
 /// must run with `-icount shift=10`, so that an instruction takes 1,024 of them.
