@@ -69,10 +69,7 @@ impl<C: Counter, W: Write> Visitor for Bench<'_, C, W> {
     fn visit<M: Method>(&mut self) {
         // Without an FPU two of the scenes: a tick takes twenty times as long there.
         let counted = |name| cfg!(target_abi = "eabihf") || ["", NEITHER].contains(&name);
-        for (name, scene) in SCENES.iter().filter(|(name, _)| counted(*name)) {
-            if !M::fits(scene) {
-                continue;
-            }
+        for (name, scene) in SCENES.iter().filter(|(name, s)| counted(*name) && M::fits(s)) {
             self.rows::<M>(M::QUALITY, &[M::SKIP, name], scene, &MOVES);
         }
         if M::METHOD == "rigid" {
