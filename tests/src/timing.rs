@@ -2,19 +2,21 @@
 //!
 //! Source: Arm DDI 0439, Cortex-M4 Technical Reference Manual, "Instruction set summary" and "FPU
 //! instruction set". Where it gives a range, the most is taken: three cycles to fill the pipeline
-//! behind a branch that is taken, and twelve to divide integers. An instruction whose condition does
-//! not hold is taken to be executed.
+//! behind a branch that is taken, and twelve to divide integers. An instruction whose condition
+//! does not hold is taken to be executed.
 
 use crate::trace::{Executed, Instruction};
 
 /// Cycles to fill the pipeline again.
 const REFILL: u32 = 3;
 
-/// What an instruction is to the pipeline.
+/// The use that an instruction makes of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Integer arithmetic, moves, comparisons.
+    /// Integer arithmetic and moves.
     Data,
+    /// Instructions that write no register: comparisons, conditions of the next instructions.
+    Compare,
     Divide,
     Branch,
     Load,
@@ -39,12 +41,13 @@ const KINDS: &[(Kind, &[&str])] = &[
     (
         Kind::Data,
         &[
-            "adc", "add", "addw", "adr", "and", "asr", "bfc", "bfi", "bic", "clz", "cmn", "cmp",
-            "eor", "lsl", "lsr", "mla", "mls", "mov", "movt", "movw", "mul", "mvn", "nop", "orn",
-            "orr", "rbit", "rev", "ror", "rsb", "sbc", "sbfx", "smlal", "smull", "ssat", "sub",
-            "subw", "sxtb", "sxth", "teq", "tst", "ubfx", "umlal", "umull", "usat", "uxtb", "uxth",
+            "adc", "add", "addw", "adr", "and", "asr", "bfc", "bfi", "bic", "clz", "eor", "lsl",
+            "lsr", "mla", "mls", "mov", "movt", "movw", "mul", "mvn", "orn", "orr", "rbit", "rev",
+            "ror", "rsb", "sbc", "sbfx", "smlal", "smull", "ssat", "sub", "subw", "sxtb", "sxth",
+            "ubfx", "umlal", "umull", "usat", "uxtb", "uxth",
         ],
     ),
+    (Kind::Compare, &["cmn", "cmp", "nop", "teq", "tst"]),
     (Kind::Divide, &["sdiv", "udiv"]),
     (Kind::Branch, &["b", "bl", "blx", "bx", "cbnz", "cbz"]),
     (Kind::Load, &["ldr", "ldrb", "ldrh", "ldrsb", "ldrsh"]),
@@ -91,7 +94,7 @@ fn kind(instruction: &Instruction) -> Result<Kind, String> {
     let name = instruction.mnemonic.split('.').next().unwrap_or_default();
     // An `it` alone, with up to three more conditions in its name.
     if name.starts_with("it") && name[1..].chars().all(|letter| "te".contains(letter)) {
-        return Ok(Kind::Data);
+        return Ok(Kind::Compare);
     }
     let known = |name: &str| KINDS.iter().find(|(_, names)| names.contains(&name)).map(|k| k.0);
     let plain = |name: &str| {
@@ -108,7 +111,7 @@ fn kind(instruction: &Instruction) -> Result<Kind, String> {
 fn own(kind: Kind, instruction: &Instruction) -> u32 {
     let wide = |register: &str| register.starts_with('d');
     match kind {
-        Kind::Data | Kind::Branch | Kind::Float => 1,
+        Kind::Data | Kind::Compare | Kind::Branch | Kind::Float => 1,
         // A double register or two are moved in two steps.
         Kind::FloatMove => {
             let operands = operands(instruction);
@@ -153,8 +156,9 @@ fn stall(earlier: Kind, producer: &Instruction, kind: Kind, consumer: &Instructi
     if matches!(earlier, Kind::Float | Kind::FloatMultiplyAdd | Kind::FloatDivide) {
         return u32::from(reads(kind, consumer).contains(&result));
     }
-    let computes = earlier == Kind::Data && !is_comparison(producer);
-    u32::from(computes && accesses_memory(kind) && addresses(consumer).contains(&result))
+    u32::from(
+        earlier == Kind::Data && accesses_memory(kind) && addresses(consumer).contains(&result),
+    )
 }
 
 /// Returns the cycles of a load or store that begins while the load before it ends.
@@ -172,10 +176,6 @@ fn accesses_memory(kind: Kind) -> bool {
     matches!(kind, Kind::Load | Kind::Store | Kind::FloatLoad | Kind::FloatStore)
 }
 
-fn is_comparison(instruction: &Instruction) -> bool {
-    ["cm", "ts", "te", "it", "no"].iter().any(|start| instruction.mnemonic.starts_with(start))
-}
-
 /// Returns the registers that an instruction of floats or of memory reads, by their names.
 fn reads(kind: Kind, instruction: &Instruction) -> Vec<&str> {
     let all = operands(instruction);
@@ -187,14 +187,17 @@ fn reads(kind: Kind, instruction: &Instruction) -> Vec<&str> {
 
 /// Returns the names and numbers in the operands, one by one.
 fn operands(instruction: &Instruction) -> Vec<&str> {
-    let separate = |letter: char| !letter.is_ascii_alphanumeric();
-    instruction.operands.split(separate).filter(|part| !part.is_empty()).collect()
+    words(&instruction.operands)
 }
 
 /// Returns the parts of the address: what stands between brackets.
 fn addresses(instruction: &Instruction) -> Vec<&str> {
-    let inside = instruction.operands.split_once('[').map_or("", |(_, inside)| inside);
-    inside.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|p| !p.is_empty()).collect()
+    words(instruction.operands.split_once('[').map_or("", |(_, inside)| inside))
+}
+
+fn words(text: &str) -> Vec<&str> {
+    let separate = |letter: char| !letter.is_ascii_alphanumeric();
+    text.split(separate).filter(|word| !word.is_empty()).collect()
 }
 
 /// True if a register is added to the address.
