@@ -15,7 +15,7 @@ const CLOCK: f64 = 168.0;
 pub struct Estimate {
     /// The method's name in the list of methods.
     pub id: String,
-    /// What the scene has: `all` or `neither`.
+    /// The scene's terms: `all`, or `neither` damping nor gravity.
     pub terms: String,
     /// Instructions.
     pub instructions: u32,

@@ -44,8 +44,8 @@ impl Board {
     }
 }
 
-/// Time limit of a run, for an image that hangs. The longest, of soft floats, takes half a minute on
-/// an idle machine; a busy one has taken four times as long.
+/// Time limit of a run, for an image that hangs. The longest, of soft floats, takes half a minute
+/// on an idle machine; a busy one has taken four times as long.
 pub const LIMIT: Duration = Duration::from_secs(600);
 
 /// Runs `image` on the Cortex-M4F and returns what it printed.

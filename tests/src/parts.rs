@@ -36,7 +36,8 @@ const PARTS: [(&str, &str, Core, u32, u32, f64); 6] = [
 pub const METHODS: [(&str, &str); 2] =
     [("newmark, 1 element", "Newmark1Nodal"), ("elastica, 2 modes, fast", "Elastica2")];
 
-/// Returns the table, with the sizes of the programs that load a prepared arm, one of each of [`METHODS`].
+/// Returns the table, with the sizes of the programs that load a prepared arm, one of each of
+/// [`METHODS`].
 pub fn table(bench: &Bench, soft: &Soft, prepared: &[Minimal]) -> String {
     let mut text = "### Which part takes which method\n\n".to_owned();
     for ((name, _), size) in METHODS.iter().zip(prepared) {

@@ -21,7 +21,7 @@ pub struct Instruction {
 /// Ticks, each of which the image has put between two barriers.
 #[derive(Debug)]
 pub struct Trace {
-    /// What the image printed.
+    /// The text that the image printed.
     pub printed: String,
     /// Instructions by their addresses.
     instructions: HashMap<u32, Instruction>,
@@ -32,7 +32,7 @@ pub struct Trace {
 /// An instruction that was executed.
 #[derive(Clone, Copy, Debug)]
 pub struct Executed<'a> {
-    /// What it is.
+    /// The instruction as it was translated.
     pub instruction: &'a Instruction,
     /// True if the next one executed is not the one behind it in memory.
     pub branched: bool,

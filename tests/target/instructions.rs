@@ -166,7 +166,7 @@ fn the_page_is_right_about_riscv() {
     the_page_is_right(page::RISCV, instructions::count_riscv());
 }
 
-/// What is traced is what is counted, an instruction takes at least a cycle, and the page has the
+/// Traced ticks are the counted ones, an instruction takes at least a cycle, and the page has the
 /// estimates.
 #[test]
 fn cycles_are_estimated_of_what_is_counted() {

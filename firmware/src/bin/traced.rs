@@ -1,5 +1,5 @@
-//! Ticks between barriers, for a trace of what is executed. The arms are prepared, so that the trace
-//! holds little else. Prints a line `method,terms` for each arm, in their order.
+//! Ticks between barriers, for a trace of what is executed. The arms are prepared, so that the
+//! trace holds little else. Prints a line `method,terms` for each arm, in their order.
 #![no_std]
 #![no_main]
 
