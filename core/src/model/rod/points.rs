@@ -357,8 +357,8 @@ mod tests {
     use crate::model::Rod;
     use crate::{Link, Scene};
 
-    /// Of an arm that does not vibrate on a hub that stands: the answer to the hub's acceleration and
-    /// to the weight is that of the rod's own kinetics.
+    /// Of an arm that does not vibrate on a hub that stands: the answer to the hub's acceleration
+    /// and to the weight is that of the rod's own kinetics.
     #[test]
     fn an_answer_is_that_of_the_kinetics() {
         let mut scene = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.04 });

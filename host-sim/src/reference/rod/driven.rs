@@ -112,8 +112,8 @@ impl<const N: usize, const P: usize, const S: usize> Driven for Rod<N, P, S> {
 }
 
 impl<const N: usize, const P: usize, const S: usize> Rod<N, P, S> {
-    /// Returns the power that damping takes out of the arm, W. `motion` is twice its kinetic energy,
-    /// J.
+    /// Returns the power that damping takes out of the arm, W. `motion` is twice its kinetic
+    /// energy, J.
     fn lost_power(&self, v: &SVector<f64, N>, motion: impl FnOnce() -> f64) -> f64 {
         let damping = self.scene.damping;
         let mut power = damping.beta * v.dot(&(self.stiffness * v));
@@ -138,7 +138,8 @@ impl<const N: usize> Turning<N> {
         Self { coupling: rod.projected(&inertia), inertia: rod.about_axis(&inertia) }
     }
 
-    /// Returns twice the kinetic energy of link and payload, J, on a hub that turns at `rate` rad/s.
+    /// Returns twice the kinetic energy of link and payload, J, on a hub that turns at `rate`
+    /// rad/s.
     fn motion(&self, mass: &SMatrix<f64, N, N>, v: &SVector<f64, N>, rate: f64) -> f64 {
         v.dot(&(mass * v)) + rate * (2.0 * self.coupling.dot(v) + self.inertia * rate)
     }

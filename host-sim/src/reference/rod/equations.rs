@@ -13,7 +13,8 @@ use super::legendre::{Basis, POINTS, STATIONS, VARIED_POINTS, VARIED_STATIONS};
 /// S stations, at which it has its masses.
 ///
 /// Each station is the sum of what the points inboard of it contribute, so that all sums over the
-/// masses are sums over points: `Rₛₚ` integrates values at the points from the clamp to the station.
+/// masses are sums over points: `Rₛₚ` integrates values at the points from the clamp to the
+/// station.
 pub(super) struct Rod<const N: usize, const P: usize, const S: usize> {
     pub scene: Scene,
     pub carrier: Carrier,

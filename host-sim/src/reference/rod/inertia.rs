@@ -1,4 +1,4 @@
-//! What the link weighs on its own unknowns and on its hub: inertia, drag and gravity.
+//! Weight of the link on its own unknowns and on its hub: inertia, drag and gravity.
 
 use nalgebra::SVector;
 use stillbeam::hub::HubState;
@@ -6,7 +6,7 @@ use stillbeam::hub::HubState;
 use super::super::carrying::Carrying;
 use super::equations::{Configuration, Rod, dot};
 
-/// What accelerations weigh, drag and gravity included.
+/// Forces and moments of accelerations, drag and gravity included.
 pub(super) struct Inertia<const P: usize> {
     /// Moments on the angles at the points, N m.
     moments: [f64; P],
