@@ -37,6 +37,8 @@ impl From<NoChoice> for Error {
 /// modes and small steps. What that costs at set-up stands in `docs/auto.md`: the exact rod flies
 /// once or twice, each time in at most 60,000 steps or 32 a tick, whichever is more. `progress` is
 /// given the part that is done, 0 to 1.
+// Inlined, as generics are: a crate that chooses nothing compiles none of the candidates.
+#[inline]
 #[allow(clippy::result_large_err)] // Once a set-up, and there is no heap to put it on.
 pub fn choose(
     scene: &Scene,
@@ -60,6 +62,7 @@ pub fn choose(
 }
 
 /// [`choose`] for moves from rest at `from` rad, with the error alone if there is no choice.
+#[inline]
 pub(super) fn choose_for_moves(
     scene: &Scene,
     tick: f64,
