@@ -4,7 +4,7 @@ use stillbeam_lab::plant::{self, Fault, table};
 
 #[test]
 fn arms_come_to_rest_whatever_happens_in_the_loop() {
-    let rows = plant::all(4, 3, &|| ()).expect("a campaign");
+    let rows = plant::all(3, 3, &|| ()).expect("a campaign");
     println!("{}", table::markdown(&rows));
     assert_eq!(rows.len(), Fault::ALL.len());
     for ((name, outcome), fault) in rows.iter().zip(Fault::ALL) {

@@ -11,6 +11,7 @@ use stillbeam_tests::root;
 /// Asserts that places are within a fraction of the total length, torques within one of the peak.
 #[track_caller]
 fn within(name: &str, error: &Comparison, place: f64, torque: f64) {
+    println!("{name}: places {:.1e}, torques {:.1e}", error.place, error.torque);
     assert!(error.common > 50, "{name}: only {} common times", error.common);
     assert!(error.place <= place, "{name}: places {}", error.place);
     assert!(error.torque <= torque, "{name}: torques {}", error.torque);
@@ -51,19 +52,19 @@ fn elements_against_truth(name: &str, step: f64) {
 
 #[test]
 fn elements_agree_on_open_chains() {
-    elements_against_truth("arm-dd", 1e-4);
+    elements_against_truth("arm-dd", 2e-4);
     elements_against_truth("arm-bc-sag", 2.5e-4);
-    elements_against_truth("rigid-forearm", 1e-4);
+    elements_against_truth("rigid-forearm", 2e-4);
 }
 
 #[test]
 fn elements_agree_on_a_loop() {
-    elements_against_truth("four-bar", 1e-4);
+    elements_against_truth("four-bar", 2e-4);
 }
 
 #[test]
 fn elements_agree_on_a_chain_that_closes() {
-    elements_against_truth("latch", 1e-4);
+    elements_against_truth("latch", 2e-4);
 }
 
 /// One link is a chain of one: both rods of it are the same.
