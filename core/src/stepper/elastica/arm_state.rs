@@ -25,7 +25,7 @@ const ROUNDS: usize = 16;
 impl<T: Scalar, const K: usize> Elastica<T, K> {
     /// Returns shape and motion of the arm in `state`. `hub` is the hub at the same instant.
     pub fn arm_state(&self, state: &ElasticaState<T, K>, hub: &HubState<T>) -> ArmState<T, K> {
-        let value = self.nonlinear.evaluate_at(&state.y, hub);
+        let value = self.value_at(&state.y, hub);
         ArmState {
             coordinate: array(|k| state.y[k][0] / self.nonlinear.omega(k)),
             rate: array(|k| state.y[k][1] + value.offset[k][1]),
@@ -37,12 +37,12 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     pub fn state_of(&self, flex: &ArmState<T, K>, hub: &HubState<T>) -> ElasticaState<T, K> {
         let mut y: [[T; 2]; K] =
             array(|k| [self.nonlinear.omega(k) * flex.coordinate[k], flex.rate[k]]);
-        let mut value = self.nonlinear.evaluate_at(&y, hub);
+        let mut value = self.value_at(&y, hub);
         for _ in 0..ROUNDS {
             for k in 0..K {
                 y[k][1] = flex.rate[k] - value.offset[k][1];
             }
-            value = self.nonlinear.evaluate_at(&y, hub);
+            value = self.value_at(&y, hub);
         }
         ElasticaState::at(y, value)
     }

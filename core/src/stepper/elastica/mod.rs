@@ -209,7 +209,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
     fn equilibrium(&self, hub: &HubState<T>) -> ElasticaState<T, K> {
         let still = HubState { rate: T::ZERO, ..*hub };
         let mut y = [[T::ZERO; 2]; K];
-        let mut value = self.nonlinear.evaluate_at(&y, &still);
+        let mut value = self.value_at(&y, &still);
         // Half-way steps to the centre: contracting as long as the link carries its weight.
         for _ in 0..EQUILIBRIUM_STEPS {
             let before = y;
@@ -220,7 +220,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
             if y == before {
                 break;
             }
-            value = self.nonlinear.evaluate_at(&y, &still);
+            value = self.value_at(&y, &still);
         }
         ElasticaState::at(y, value)
     }

@@ -181,13 +181,6 @@ impl<T: Scalar, const K: usize> Nonlinear<T, K> {
         Value { offset, torque, inertia }
     }
 
-    /// Does the work of [`Self::evaluate`] with every term, outside of the tick: a function of its
-    /// own, which is linked once.
-    #[inline(never)]
-    pub(super) fn evaluate_at(&self, y: &[[T; 2]; K], hub: &HubState<T>) -> Value<T, K> {
-        self.evaluate::<true, true>(y, hub)
-    }
-
     #[inline(always)]
     fn forms(&self, shape: &Shape<T, K>) -> Forms<T, K> {
         let order = |k| if k == 0 { Order::Second } else { Order::First };

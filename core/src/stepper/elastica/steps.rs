@@ -1,8 +1,9 @@
 //! The steps for what is known of the hub's motion.
 
+use super::nonlinear::Value;
 use super::{Elastica, ElasticaState, Quality};
 use crate::hub::HubState;
-use crate::math::{Scalar, array};
+use crate::math::{Each, Scalar, array};
 use crate::stepper::Forcing;
 
 impl<T: Scalar, const K: usize> Elastica<T, K> {
@@ -54,6 +55,24 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             self.ring(state);
         }
         self.ring(state);
+    }
+
+    /// Returns the nonlinear terms at `y = (ωa, p̃)`, outside of the tick: those at the end of a
+    /// step of modes that nothing drives, each about where it is. It links nothing but the step.
+    #[inline(never)]
+    pub(super) fn value_at(&self, y: &[[T; 2]; K], hub: &HubState<T>) -> Value<T, K> {
+        let at_its_centre = y.each(|y| y.each(|y| -y));
+        let mut state = ElasticaState {
+            y: *y,
+            offset: at_its_centre,
+            drift: [[T::ZERO; 2]; K],
+            torque: T::ZERO,
+            inertia: T::ZERO,
+        };
+        let nothing = Forcing { begin: T::ZERO, mean: T::ZERO, end: T::ZERO };
+        self.advance_by(&mut state, &nothing, hub);
+        let ElasticaState { offset, torque, inertia, .. } = state;
+        Value { offset, torque, inertia }
     }
 
     #[inline(always)]
