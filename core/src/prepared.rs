@@ -113,21 +113,41 @@ pub trait Prepared: Prepare + Words {
 
 fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Result<S, Error> {
     check(count, word, S::KIND)?;
-    let mut next = 5;
-    let mut source = || {
-        next += 1;
-        word(next - 1)
-    };
-    let prepared = f64::get(&mut source);
+    let mut reader = Reader { word, next: 5 };
+    let mut prepared = 0.0_f64;
+    prepared.fill(&mut || reader.read());
     if prepared.to_bits() != tick.to_bits() {
         let (parameter, min, max, unit) = ("arm.tick", tick, tick, "s");
         return Err(Error::OutOfRange { parameter, value: prepared, min, max, unit });
     }
-    let own = source() as usize;
-    let value = S::get(&mut source);
+    let own = reader.read();
+    let value = value(&mut reader);
     // A value of this type has a number of words of its own, which the header has told.
-    require(&[("arm.words", own as u32, (next - HEADER) as u32)])?;
+    require(&[("arm.words", own, (reader.next - HEADER) as u32)])?;
     Ok(value)
+}
+
+/// Reads a value, where it is to be kept.
+#[inline(never)]
+fn value<S: Words>(reader: &mut Reader<'_>) -> S {
+    let mut value = S::BLANK;
+    value.fill(&mut || reader.read());
+    value
+}
+
+/// Words, one after the other.
+struct Reader<'a> {
+    word: &'a dyn Fn(usize) -> u32,
+    next: usize,
+}
+
+impl Reader<'_> {
+    // Of a prepared value every word is a call, which is to be short.
+    #[inline(never)]
+    fn read(&mut self) -> u32 {
+        self.next += 1;
+        (self.word)(self.next - 1)
+    }
 }
 
 /// Refuses words that are not a prepared value of that kind.

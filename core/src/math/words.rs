@@ -7,11 +7,15 @@ pub trait Words: Sized {
     /// layout are those of another version of the program.
     const LAYOUT: u32;
 
+    /// A value to be read into.
+    const BLANK: Self;
+
     /// Hands the words of the value to `sink`, first to last.
     fn put(&self, sink: &mut dyn FnMut(u32));
 
-    /// Reads a value from the words that `source` gives, first to last. Any words are a value.
-    fn get(source: &mut dyn FnMut() -> u32) -> Self;
+    /// Reads the value from the words that `source` gives, first to last. Any words are a value.
+    // In place: values that are returned are copied by every level of what holds them.
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32);
 }
 
 /// Mixes a word into a hash (FNV-1a, by words).
@@ -36,43 +40,47 @@ pub(crate) const fn layout_of<S, T: Words>(_: fn(&S) -> &T) -> u32 {
 
 impl Words for u32 {
     const LAYOUT: u32 = named("u32");
+    const BLANK: Self = 0;
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(*self);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        source()
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = source();
     }
 }
 
 impl Words for bool {
     const LAYOUT: u32 = named("bool");
+    const BLANK: Self = false;
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(u32::from(*self));
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        source() != 0
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = source() != 0;
     }
 }
 
 impl Words for f32 {
     const LAYOUT: u32 = named("f32");
+    const BLANK: Self = 0.0;
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         sink(self.to_bits());
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        Self::from_bits(source())
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        *self = Self::from_bits(source());
     }
 }
 
 /// The lower half first.
 impl Words for f64 {
     const LAYOUT: u32 = named("f64");
+    const BLANK: Self = 0.0;
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         let bits = self.to_bits();
@@ -80,14 +88,15 @@ impl Words for f64 {
         sink((bits >> 32) as u32);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
         let low = u64::from(source());
-        Self::from_bits(low | u64::from(source()) << 32)
+        *self = Self::from_bits(low | u64::from(source()) << 32);
     }
 }
 
 impl<T: Words, const N: usize> Words for [T; N] {
     const LAYOUT: u32 = mix(T::LAYOUT, N as u32);
+    const BLANK: Self = [T::BLANK; N];
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         for value in self {
@@ -95,36 +104,43 @@ impl<T: Words, const N: usize> Words for [T; N] {
         }
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        core::array::from_fn(|_| T::get(source))
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        for value in self {
+            value.fill(source);
+        }
     }
 }
 
 impl<A: Words, B: Words> Words for (A, B) {
     // Begun with a name, because a single step of `mix` is the same either way round.
     const LAYOUT: u32 = mix(mix(named("pair"), A::LAYOUT), B::LAYOUT);
+    const BLANK: Self = (A::BLANK, B::BLANK);
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         self.0.put(sink);
         self.1.put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        (A::get(source), B::get(source))
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        self.0.fill(source);
+        self.1.fill(source);
     }
 }
 
 /// A flag, and the value or as many zeros.
 impl Words for Option<f64> {
     const LAYOUT: u32 = named("Option<f64>");
+    const BLANK: Self = None;
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (self.is_some(), self.unwrap_or(0.0)).put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        let (is_some, value) = Words::get(source);
-        if is_some { Some(value) } else { None }
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        let (mut is_some, mut value) = (false, 0.0);
+        is_some.fill(source);
+        value.fill(source);
+        *self = is_some.then_some(value);
     }
 }
 
@@ -143,15 +159,19 @@ macro_rules! words {
                     hash
                 };
 
+                const BLANK: Self = Self { $($field: $crate::math::Words::BLANK),* };
+
                 fn put(&self, sink: &mut dyn FnMut(u32)) {
                     // A field that is left out does not compile.
                     let Self { $($field),* } = self;
                     $($crate::math::Words::put($field, sink);)*
                 }
 
-                fn get(source: &mut dyn FnMut() -> u32) -> Self {
+                // Linked once, however many values of the type another holds.
+                #[inline(never)]
+                fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
                     // In the order in which they are written.
-                    Self { $($field: $crate::math::Words::get(source)),* }
+                    $($crate::math::Words::fill(&mut self.$field, source);)*
                 }
             }
         )*
@@ -208,7 +228,8 @@ mod tests {
         });
         assert_eq!(n, words.len());
         let mut all = words.iter().copied();
-        let again = Value::get(&mut || all.next().expect("as many as were written"));
+        let mut again = Value::BLANK;
+        again.fill(&mut || all.next().expect("as many as were written"));
         assert_eq!(again.0.map(f32::to_bits), value.0.map(f32::to_bits));
         assert_eq!(again.1, value.1);
         assert_eq!(words[0], 0.1f32.to_bits());

@@ -260,6 +260,8 @@ impl<T: Scalar, const K: usize> Words for Resolution<T, K> {
         let hash = mix(named("own arm, is robust, outer arms, steps, per_step"), T::LAYOUT);
         mix(hash, Arm::<T, K>::LAYOUT)
     };
+    const BLANK: Self =
+        Self { arms: [Words::BLANK; MAX_ARMS], steps: Words::BLANK, per_step: Words::BLANK };
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         let Self { arms, steps, per_step } = self;
@@ -274,11 +276,20 @@ impl<T: Scalar, const K: usize> Words for Resolution<T, K> {
         per_step.put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        let mut arms = [Words::get(source); MAX_ARMS];
-        if Words::get(source) {
-            arms[1..].iter_mut().for_each(|arm| *arm = Words::get(source));
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        let Self { arms, steps, per_step } = self;
+        let [own, outer @ ..] = arms;
+        own.fill(source);
+        let mut robust = false;
+        robust.fill(source);
+        for arm in outer {
+            if robust {
+                arm.fill(source);
+            } else {
+                *arm = *own;
+            }
         }
-        Self { arms, steps: Words::get(source), per_step: Words::get(source) }
+        steps.fill(source);
+        per_step.fill(source);
     }
 }

@@ -317,12 +317,11 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
 
 impl Words for Uniform {
     const LAYOUT: u32 = named("Uniform");
+    const BLANK: Self = Self;
 
     fn put(&self, _: &mut dyn FnMut(u32)) {}
 
-    fn get(_: &mut dyn FnMut() -> u32) -> Self {
-        Self
-    }
+    fn fill(&mut self, _: &mut dyn FnMut() -> u32) {}
 }
 
 words! {

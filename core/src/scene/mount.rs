@@ -86,13 +86,16 @@ impl Mount {
 
 impl Words for AxisKind {
     const LAYOUT: u32 = named("AxisKind");
+    const BLANK: Self = Self::Rotary;
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (*self == Self::Linear).put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        if bool::get(source) { Self::Linear } else { Self::Rotary }
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        let mut linear = false;
+        linear.fill(source);
+        *self = if linear { Self::Linear } else { Self::Rotary };
     }
 }
 

@@ -84,13 +84,14 @@ fn answers(z: &Matrix2, mean: [f64; 2]) -> [[f64; 2]; ORDERS] {
 
 impl<T: Scalar> Words for Kicks<T> {
     const LAYOUT: u32 = <[[T; 2]; ORDERS]>::LAYOUT;
+    const BLANK: Self = Self(Words::BLANK);
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         self.0.put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        Self(Words::get(source))
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        self.0.fill(source);
     }
 }
 

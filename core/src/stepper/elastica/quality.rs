@@ -24,12 +24,15 @@ impl fmt::Display for Quality {
 
 impl Words for Quality {
     const LAYOUT: u32 = named("Quality");
+    const BLANK: Self = Self::Fast;
 
     fn put(&self, sink: &mut dyn FnMut(u32)) {
         (*self == Self::Fine).put(sink);
     }
 
-    fn get(source: &mut dyn FnMut() -> u32) -> Self {
-        if bool::get(source) { Self::Fine } else { Self::Fast }
+    fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
+        let mut fine = false;
+        fine.fill(source);
+        *self = if fine { Self::Fine } else { Self::Fast };
     }
 }
