@@ -57,16 +57,21 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// An arm at rest in static equilibrium at hub angle `from`, rad.
     pub fn new(stepper: S, from: f64) -> Result<Self, Error> {
-        let end = HubState::resting_at(from)?;
+        Ok(Self::resting(stepper, HubState::resting_at(from)?))
+    }
+
+    /// An arm at rest in static equilibrium on a hub that rests at `end`. Apart from what may fail,
+    /// so that it is made where it is kept: a copy would take as much of the stack again.
+    #[inline(never)]
+    fn resting(stepper: S, end: HubState<f64>) -> Self {
         let tail = hold(end, stepper.tick());
         let mut hub = HubState::ZERO;
         tail.begin(&mut hub);
         stepper.gravity().aim(&mut hub);
-        let state = stepper.equilibrium(&hub);
-        Ok(Self {
+        Self {
+            state: stepper.equilibrium(&hub),
             tick: S::Scalar::from_f64(stepper.tick()),
             stepper,
-            state,
             hub,
             end_acceleration: S::Scalar::ZERO,
             current: Current::unstarted(&tail),
@@ -75,7 +80,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             end,
             limits: Limits::default(),
             revision: 0,
-        })
+        }
     }
 
     /// Refuses from now on the moves that exceed `limits`, which are those of the hub's motion.
