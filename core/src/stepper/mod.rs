@@ -3,6 +3,7 @@
 //! state and two runs can share one stepper.
 
 mod aliases;
+mod borrowed;
 mod elastica;
 mod kicks;
 mod modal;

@@ -31,8 +31,10 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 /// drive.
 #[inline(never)]
 fn one_move() -> Result<(), Error> {
-    let stepper = <Chosen as Method>::Stepper::load(black_box(&ARM), TICK)?;
-    // Used where it was made: taking it out of the result would copy it once more on the stack.
+    // Both are used where they were made: taking them out of the results would copy them once more
+    // on the stack.
+    let loaded = <Chosen as Method>::Stepper::load(black_box(&ARM), TICK);
+    let stepper = loaded.as_ref().map_err(|error| *error)?;
     let mut made = Generator::<_, 2>::new(stepper, 0.0);
     let arm = made.as_mut().map_err(|error| *error)?;
     // The profile is known, so that only it is planned; duration and angle are not.
