@@ -121,18 +121,11 @@ fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Re
         return Err(Error::OutOfRange { parameter, value: prepared, min, max, unit });
     }
     let own = reader.read();
-    let value = value(&mut reader);
+    let mut value = S::BLANK;
+    value.fill(&mut || reader.read());
     // A value of this type has a number of words of its own, which the header has told.
     require(&[("arm.words", own, (reader.next - HEADER) as u32)])?;
     Ok(value)
-}
-
-/// Reads a value, where it is to be kept.
-#[inline(never)]
-fn value<S: Words>(reader: &mut Reader<'_>) -> S {
-    let mut value = S::BLANK;
-    value.fill(&mut || reader.read());
-    value
 }
 
 /// Words, one after the other.

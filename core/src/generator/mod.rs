@@ -57,21 +57,23 @@ pub struct Generator<S: Stepper, const QUEUE: usize = 8> {
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// An arm at rest in static equilibrium at hub angle `from`, rad.
     pub fn new(stepper: S, from: f64) -> Result<Self, Error> {
-        Ok(Self::resting(stepper, HubState::resting_at(from)?))
+        let end = HubState::resting_at(from)?;
+        let mut hub = HubState::at_rest(end.angle.cast());
+        stepper.gravity().aim(&mut hub);
+        let state = stepper.equilibrium(&hub);
+        Ok(Self::resting(stepper, state, hub, end))
     }
 
-    /// An arm at rest in static equilibrium on a hub that rests at `end`. Apart from what may fail,
-    /// so that it is made where it is kept: a copy would take as much of the stack again.
+    /// An arm in the state `state` on a hub that rests, `hub` and, in set-up's precision, `end`.
+    /// Apart from what may fail, so that it is made where it is kept: a copy would take as much of
+    /// the stack again.
     #[inline(never)]
-    fn resting(stepper: S, end: HubState<f64>) -> Self {
+    fn resting(stepper: S, state: S::State, hub: HubState<S::Scalar>, end: HubState<f64>) -> Self {
         let tail = hold(end, stepper.tick());
-        let mut hub = HubState::ZERO;
-        tail.begin(&mut hub);
-        stepper.gravity().aim(&mut hub);
         Self {
-            state: stepper.equilibrium(&hub),
             tick: S::Scalar::from_f64(stepper.tick()),
             stepper,
+            state,
             hub,
             end_acceleration: S::Scalar::ZERO,
             current: Current::unstarted(&tail),

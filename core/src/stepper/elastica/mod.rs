@@ -206,6 +206,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         super::check_bend(bend, self.bend)
     }
 
+    #[inline(never)]
     fn equilibrium(&self, hub: &HubState<T>) -> ElasticaState<T, K> {
         let still = HubState { rate: T::ZERO, ..*hub };
         let mut y = [[T::ZERO; 2]; K];
