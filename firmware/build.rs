@@ -80,10 +80,19 @@ fn prepared(method: &str) -> String {
             let run = SCENES.iter().find(|run| run.name == "b-tip30").expect("the paper's arm");
             let stepper = M::stepper(&run.scene, run.tick).expect("every method takes this arm");
             let words = arms::words(&stepper);
+            let known = match (M::METHOD, M::QUALITY) {
+                ("elastica", "fast") => format!(
+                    "use stillbeam::stepper::{{Elastica, ElasticaFast}};\n\
+                     fn known(stepper: &Elastica<f32, {k}>) -> Option<ElasticaFast<'_, f32, {k}>> {{\n    \
+                     stepper.fast()\n}}\n",
+                    k = M::SIZE
+                ),
+                _ => "fn known<S>(stepper: &S) -> Option<&S> {\n    Some(stepper)\n}\n".into(),
+            };
             self.text = Some(format!(
                 "use stillbeam_golden::methods::{} as Chosen;\n\
                  const TICK: f64 = {:?};\n\
-                 static ARM: [u32; {}] = {words:?};\n",
+                 static ARM: [u32; {}] = {words:?};\n{known}",
                 M::ID,
                 run.tick,
                 words.len()

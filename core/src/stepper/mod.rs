@@ -20,7 +20,7 @@ mod terms;
 pub use aliases::{
     Elastica1, Elastica2, Elastica3, Modal1, Modal2, Modal3, Newmark1, Newmark2, Newmark4, Newmark8,
 };
-pub use elastica::{ArmState, Elastica, ElasticaState, Quality};
+pub use elastica::{ArmState, Elastica, ElasticaFast, ElasticaState, Quality};
 pub use modal::{Modal, ModalState};
 pub use newmark::{Newmark, NewmarkState};
 pub use on_carrier::OnCarrier;

@@ -12,11 +12,12 @@ use cortex_m_rt::entry;
 use semihosting::io::{self, Write};
 use semihosting::process;
 use stillbeam::prepared::Prepared;
-use stillbeam::{Error, Generator, PlainMove, Profile};
+use stillbeam::{Generator, PlainMove, Profile};
 use stillbeam_firmware::{exit, stack};
 use stillbeam_golden::methods::Method;
 
-// `Chosen`, the method; `TICK`, s; `ARM`, the words of its stepper.
+// `Chosen`, the method; `TICK`, s; `ARM`, the words of its stepper; `known`, which returns the
+// stepper with what is known of it.
 include!(concat!(env!("OUT_DIR"), "/prepared.rs"));
 
 stillbeam_firmware::unused_interrupts!();
@@ -30,26 +31,26 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 /// Loads the arm and makes the paper's move of member B. A board would write each setpoint to its
 /// drive.
 #[inline(never)]
-fn one_move() -> Result<(), Error> {
+fn one_move() -> Option<()> {
     // Both are used where they were made: taking them out of the results would copy them once more
     // on the stack.
     let loaded = <Chosen as Method>::Stepper::load(black_box(&ARM), TICK);
-    let stepper = loaded.as_ref().map_err(|error| *error)?;
-    let mut made = Generator::<_, 2>::new(stepper, 0.0);
-    let arm = made.as_mut().map_err(|error| *error)?;
+    let stepper = loaded.as_ref().ok()?;
+    let mut made = Generator::<_, 2>::new(known(stepper)?, 0.0);
+    let arm = made.as_mut().ok()?;
     // The profile is known, so that only it is planned; duration and angle are not.
     let (duration, to) = black_box((2.0, core::f64::consts::PI));
-    arm.push(&PlainMove::To { profile: Profile::Cubic, duration, to })?;
+    arm.push(&PlainMove::To { profile: Profile::Cubic, duration, to }).ok()?;
     for _ in 0..=400 {
         black_box(arm.tick());
     }
-    Ok(())
+    Some(())
 }
 
 #[entry]
 fn main() -> ! {
     stack::paint();
-    let moved = one_move().is_ok();
+    let moved = one_move().is_some();
     let stack = stack::deepest() as u32;
     let sent = io::stdout().and_then(|mut out| out.write_all(&stack.to_le_bytes()));
     process::exit(if moved && sent.is_ok() { 0 } else { 1 })

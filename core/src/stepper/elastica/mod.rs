@@ -16,6 +16,7 @@
 //! make an explicit step unstable; what drives it, and how it bends, is complete to second order.
 
 mod arm_state;
+mod fast;
 mod mode;
 mod nonlinear;
 mod numerical_damping;
@@ -27,6 +28,7 @@ mod state;
 mod steps;
 
 pub use arm_state::ArmState;
+pub use fast::ElasticaFast;
 pub use quality::Quality;
 pub use state::ElasticaState;
 
@@ -171,6 +173,24 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         !self.nonlinear.is_damped() && !self.nonlinear.feels_gravity()
     }
 
+    /// Does the work of [`Stepper::step`] for that quality, known to the compiler or not.
+    #[inline(always)]
+    fn step_of<M: HubMotion>(
+        &self,
+        quality: Quality,
+        state: &mut ElasticaState<T, K>,
+        before: &HubState<T>,
+        after: &HubState<T>,
+    ) {
+        if M::LINEAR {
+            self.step_linear(quality, state, before, after);
+        } else if M::AT_REST && self.is_bare() {
+            self.step_at_rest(quality, state);
+        } else {
+            self.step_any(quality, state, before, after);
+        }
+    }
+
     #[inline(always)]
     fn tip_of(&self, state: &ElasticaState<T, K>) -> [T; 2] {
         self.nonlinear.tip(state.y.each(|y| y[0]))
@@ -233,13 +253,7 @@ impl<T: Scalar, const K: usize> Stepper for Elastica<T, K> {
         before: &HubState<T>,
         after: &HubState<T>,
     ) {
-        if M::LINEAR {
-            self.step_linear(state, before, after);
-        } else if M::AT_REST && self.is_bare() {
-            self.step_at_rest(state);
-        } else {
-            self.step_any(state, before, after);
-        }
+        self.step_of::<M>(self.quality, state, before, after);
     }
 
     #[inline(always)]

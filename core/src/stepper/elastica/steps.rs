@@ -11,6 +11,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     #[inline(always)]
     pub(super) fn step_any(
         &self,
+        quality: Quality,
         state: &mut ElasticaState<T, K>,
         before: &HubState<T>,
         after: &HubState<T>,
@@ -20,7 +21,7 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         } else {
             Forcing::undamped(before, after, self.per_tick)
         };
-        match self.quality {
+        match quality {
             Quality::Fast => self.advance_by(state, &forcing, after),
             Quality::Fine => {
                 let [first, second] = forcing.halves(self.quarter);
@@ -34,13 +35,14 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
     #[inline(always)]
     pub(super) fn step_linear(
         &self,
+        quality: Quality,
         state: &mut ElasticaState<T, K>,
         before: &HubState<T>,
         after: &HubState<T>,
     ) {
         let mut begin = before.acceleration;
         let mut gained = after.acceleration - begin;
-        if self.quality == Quality::Fine {
+        if quality == Quality::Fine {
             gained = T::HALF * gained;
             self.rotate(state, begin, gained, self.middle_rate(before, after));
             begin += gained;
@@ -50,8 +52,8 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
 
     /// Advances by a tick of a hub at rest, without damping and gravity.
     #[inline(always)]
-    pub(super) fn step_at_rest(&self, state: &mut ElasticaState<T, K>) {
-        if self.quality == Quality::Fine {
+    pub(super) fn step_at_rest(&self, quality: Quality, state: &mut ElasticaState<T, K>) {
+        if quality == Quality::Fine {
             self.ring(state);
         }
         self.ring(state);
