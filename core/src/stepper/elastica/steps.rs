@@ -84,24 +84,30 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
             self.advance(state, end, forcing);
         } else {
             let &Forcing { begin, mean, end: last } = forcing;
-            self.advance_apart(state, end, begin, mean, last);
+            let &HubState { rate, sin, cos, .. } = end;
+            self.advance_apart(state, begin, mean, last, rate, sin, cos);
         }
     }
 
-    /// Does the work of [`Self::advance`] with a parabola from `begin` to `end` of that mean.
+    /// Does the work of [`Self::advance`] with a parabola from `begin` to `end` of that mean, and the
+    /// hub at that rate, sine and cosine at the end.
     // Most of the arithmetic of a tick with every term, and linked once, however many paths and
     // qualities of a tick lead to it. Scalars are passed in floating-point registers, where a
     // structure would be stored and loaded.
+    #[expect(clippy::too_many_arguments, reason = "as many registers, and nothing in memory")]
     #[inline(never)]
     fn advance_apart(
         &self,
         state: &mut ElasticaState<T, K>,
-        hub: &HubState<T>,
         begin: T,
         mean: T,
         end: T,
+        rate: T,
+        sin: T,
+        cos: T,
     ) {
-        self.advance(state, hub, &Forcing { begin, mean, end });
+        let hub = HubState { rate, sin, cos, ..HubState::ZERO };
+        self.advance(state, &hub, &Forcing { begin, mean, end });
     }
 
     /// Advances by a step, of anything that a scene can hold, with the hub at `hub` at its end.
