@@ -85,6 +85,8 @@ impl fmt::Display for PlainMove {
 impl Sealed for PlainMove {}
 
 impl Plannable for PlainMove {
+    // Where it is compiled for size too, a program that knows its profile links no other.
+    #[inline(always)]
     fn plan_segments<T: Scalar>(
         &self,
         start: HubState<f64>,
