@@ -67,7 +67,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// An arm in the state `state` on a hub that rests, `hub` and, in set-up's precision, `end`.
     /// Apart from what may fail, so that it is made where it is kept: a copy would take as much of
     /// the stack again.
-    #[inline(never)]
+    #[inline]
     fn resting(stepper: S, state: S::State, hub: HubState<S::Scalar>, end: HubState<f64>) -> Self {
         let tail = hold(end, stepper.tick());
         Self {
