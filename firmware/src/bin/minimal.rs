@@ -67,11 +67,19 @@ fn arm<const QUEUE: usize>(
     Generator::new(stepper, 0.0)
 }
 
+/// A function of its own, whose part of the stack is free again before the arm moves.
+#[inline(never)]
+fn set_up<M: Method>() -> Option<M::Stepper> {
+    M::stepper(&scene(), 0.010).ok()
+}
+
 /// Set-up, and the paper's move of member B. A board would write each setpoint to its drive.
 #[inline(never)]
 fn one_move<M: Method>() -> Option<()> {
-    let scene = scene();
-    let mut arm = Generator::<_, 2>::new(M::stepper(&scene, 0.010).ok()?, 0.0).ok()?;
+    let stepper = set_up::<M>();
+    // The generator borrows the stepper, and stays where it is made: no copy is on the stack.
+    let mut made = Generator::<_, 2>::new(stepper.as_ref()?, 0.0);
+    let arm = made.as_mut().ok()?;
     // The profile is known, so that only it is planned; duration and angle are not.
     let (duration, to) = black_box((2.0, core::f64::consts::PI));
     let motion = PlainMove::To { profile: Profile::Cubic, duration, to };
