@@ -29,6 +29,12 @@
 //! let stepper = Elastica2::<f32>::load(&words, 0.010)?;
 //! let mut arm = Generator::<_, 8>::new(stepper, 0.0)?;
 //! assert_eq!(arm.tick().deflection(), 0.0);
+//!
+//! // Smaller: the stepper stays where it is, and the steps of the other quality are not linked.
+//! let stepper = Elastica2::<f32>::load(&words, 0.010)?;
+//! let known = stepper.fast().expect("it was set up so");
+//! let mut arm = Generator::<_, 8>::new(known, 0.0)?;
+//! assert_eq!(arm.tick().deflection(), 0.0);
 //! # Ok::<(), stillbeam::Error>(())
 //! ```
 
