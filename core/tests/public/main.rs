@@ -10,6 +10,7 @@ mod exact;
 mod fastest;
 mod follow;
 mod generator;
+mod known;
 mod motor;
 mod optimal;
 mod pass;
