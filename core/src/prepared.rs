@@ -41,7 +41,7 @@
 use crc::{CRC_32_ISO_HDLC, Crc, Digest, NoTable};
 
 use crate::Error;
-use crate::math::Words;
+use crate::math::{self, Words};
 
 /// The first word: `SBPA`, the lowest byte first.
 const MAGIC: u32 = u32::from_le_bytes(*b"SBPA");
@@ -120,8 +120,7 @@ pub trait Prepared: Prepare + Words {
 fn load<S: Prepared>(count: usize, word: &dyn Fn(usize) -> u32, tick: f64) -> Result<S, Error> {
     check(count, word, S::KIND)?;
     let mut reader = Reader { word, next: 5 };
-    let mut prepared = 0.0_f64;
-    prepared.fill(&mut || reader.read());
+    let prepared: f64 = math::read(&mut || reader.read());
     if prepared.to_bits() != tick.to_bits() {
         let (parameter, min, max, unit) = ("arm.tick", tick, tick, "s");
         return Err(Error::OutOfRange { parameter, value: prepared, min, max, unit });

@@ -27,7 +27,7 @@ pub(crate) use principal::{principal_axes, root};
 pub(crate) use propagator::{Functions, Matrix2, phi_functions};
 pub use scalar::Scalar;
 pub use words::Words;
-pub(crate) use words::{layout_of, mix, named, words};
+pub(crate) use words::{layout_of, mix, named, read, words};
 
 /// Square root, correctly rounded, the same bits everywhere. Set-up only.
 pub(crate) fn sqrt(x: f64) -> f64 {

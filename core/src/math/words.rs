@@ -18,6 +18,15 @@ pub trait Words: Sized {
     fn fill(&mut self, source: &mut dyn FnMut() -> u32);
 }
 
+/// Returns a small value from the words that `source` gives, first to last. A large one is better
+/// filled where it is kept.
+#[inline(always)]
+pub(crate) fn read<T: Words>(source: &mut dyn FnMut() -> u32) -> T {
+    let mut value = T::BLANK;
+    value.fill(source);
+    value
+}
+
 /// Mixes a word into a hash (FNV-1a, by words).
 pub(crate) const fn mix(hash: u32, word: u32) -> u32 {
     (hash ^ word).wrapping_mul(0x0100_0193)
@@ -137,9 +146,7 @@ impl Words for Option<f64> {
     }
 
     fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        let (mut is_some, mut value) = (false, 0.0);
-        is_some.fill(source);
-        value.fill(source);
+        let (is_some, value) = read::<(bool, f64)>(source);
         *self = is_some.then_some(value);
     }
 }

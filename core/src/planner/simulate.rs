@@ -6,7 +6,7 @@ use super::linear::Oscillation;
 use super::{MAX_ARMS, Path};
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::{Each, Scalar, Words, array, cast, mix, named, sqrt, words};
+use crate::math::{Each, Scalar, Words, array, cast, mix, named, read, sqrt, words};
 use crate::model::{Load, Rod, RodPoints};
 use crate::scene::{LinkShape, Scene};
 use crate::stepper::{ArmState, Forcing, LONGEST_TURN, Oscillator};
@@ -280,8 +280,7 @@ impl<T: Scalar, const K: usize> Words for Resolution<T, K> {
         let Self { arms, steps, per_step } = self;
         let [own, outer @ ..] = arms;
         own.fill(source);
-        let mut robust = false;
-        robust.fill(source);
+        let robust = read(source);
         for arm in outer {
             if robust {
                 arm.fill(source);

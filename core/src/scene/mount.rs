@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::Error;
-use crate::math::{Scalar, Words, named, words};
+use crate::math::{Scalar, Words, named, read, words};
 
 /// Kind of the axis that moves the hub.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -93,9 +93,7 @@ impl Words for AxisKind {
     }
 
     fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        let mut linear = false;
-        linear.fill(source);
-        *self = if linear { Self::Linear } else { Self::Rotary };
+        *self = if read(source) { Self::Linear } else { Self::Rotary };
     }
 }
 

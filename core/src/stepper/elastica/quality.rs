@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::math::{Words, named};
+use crate::math::{Words, named, read};
 
 /// Amount of work in a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,8 +31,6 @@ impl Words for Quality {
     }
 
     fn fill(&mut self, source: &mut dyn FnMut() -> u32) {
-        let mut fine = false;
-        fine.fill(source);
-        *self = if fine { Self::Fine } else { Self::Fast };
+        *self = if read(source) { Self::Fine } else { Self::Fast };
     }
 }
