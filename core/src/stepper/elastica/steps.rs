@@ -89,8 +89,8 @@ impl<T: Scalar, const K: usize> Elastica<T, K> {
         }
     }
 
-    /// Does the work of [`Self::advance`] with a parabola from `begin` to `end` of that mean, and the
-    /// hub at that rate, sine and cosine at the end.
+    /// Does the work of [`Self::advance`] with a parabola from `begin` to `end` of that mean, and
+    /// the hub at that rate, sine and cosine at the end.
     // Most of the arithmetic of a tick with every term, and linked once, however many paths and
     // qualities of a tick lead to it. Scalars are passed in floating-point registers, where a
     // structure would be stored and loaded.
