@@ -5,6 +5,7 @@ mod drive;
 mod faults;
 mod firmware;
 mod identify;
+mod lab_pages;
 mod model;
 mod motion;
 mod moving;
