@@ -1,10 +1,12 @@
 //! Choices of `auto`: the bounded part of the campaign behind `docs/auto.md`, and the order of
 //! the ladder.
 
+use std::cell::Cell;
+
 use stillbeam::motion::Moves;
-use stillbeam::select::{Choice, Rung, Tolerance, assess, choose};
+use stillbeam::select::{Choice, Rung, assess};
 use stillbeam::stepper::{Quality, Rigid};
-use stillbeam::{Damping, Hub, Link, Move, Payload, Profile, Scene};
+use stillbeam::{Damping, Hub, Link, Move, Payload, Scene};
 use stillbeam_lab::choice::{Case, SEED as DOCUMENT, Summary, campaign};
 use stillbeam_sim::compare::compare;
 use stillbeam_sim::dispatch;
@@ -197,32 +199,30 @@ fn torque_and_moment_of_a_level_arm_are_its_weight_s() {
 /// The exact rod's steps are bounded for many moves, for stiff arms and for long rests.
 #[test]
 fn a_choice_takes_a_bounded_number_of_steps() {
-    let turn = |to, duration| Move::To { profile: Profile::Quintic, duration, to };
-    let soft = Scene::new(Link { length: 0.4, mass: 0.02, bending_stiffness: 0.46 });
-    let stiff = Scene::new(Link { length: 0.2, mass: 0.6, bending_stiffness: 3000.0 });
-    let damped = Scene { damping: Damping { alpha: 0.5, beta: 0.002, joint: 0.0 }, ..soft };
-    let mut many = Vec::new();
-    for k in 0..40 {
-        many.push(turn(f64::from(1 - k % 2), 0.7));
-        many.push(Move::Dwell { duration: 0.3 });
-    }
-    let long = [turn(1.0, 100.0)];
-    let rest = [turn(1.0, 0.5), Move::Dwell { duration: 1000.0 }];
-    let cases: [(&str, Scene, &[Move], u32); 3] = [
-        ("forty moves", soft, &many, 2 * 61_000),
-        ("a stiff arm", stiff, &long, 2 * 330_000),
-        ("a long rest", damped, &rest, 2 * 61_000),
+    let turn = |to, duration| {
+        format!("[[moves]]\nprofile = \"quintic\"\nduration = {duration}\nto = {to}.0\n")
+    };
+    let rest = |duration| format!("[[moves]]\nprofile = \"dwell\"\nduration = {duration}\n");
+    let soft = "[link]\nlength = 0.4\nmass = 0.02\nbending_stiffness = 0.46\n";
+    let stiff = "[link]\nlength = 0.2\nmass = 0.6\nbending_stiffness = 3000.0\n";
+    let damped = format!("{soft}[damping]\nalpha = 0.5\nbeta = 0.002\n");
+    let many: String = (0..40).map(|k| turn(1 - k % 2, 0.7) + &rest(0.3)).collect();
+    let cases = [
+        ("forty moves", soft, many, 2 * 61_000),
+        ("a stiff arm", stiff, turn(1, 100.0), 2 * 330_000),
+        ("a long rest", &damped, turn(1, 0.5) + &rest(1000.0), 2 * 61_000),
     ];
-    for (what, scene, moves, most) in cases {
-        let motion = Moves::new(0.0, moves, 0.01).expect("motion");
-        let mut done = 0.0;
-        let choice = choose(&scene, 0.01, &motion, &Tolerance::default(), &mut |part| {
-            assert!(part >= done && part <= 1.0, "{what}: {part} after {done}");
-            done = part;
+    for (what, arm, moves, most) in cases {
+        let scene = SceneFile::parse(what, &format!("{arm}{moves}")).expect("scene");
+        let solver = scene.solver.resolve().expect("solver");
+        let done = Cell::new(0.0);
+        let choice = dispatch::choose_with(&scene, &solver, &|part| {
+            assert!(part >= done.get() && part <= 1.0, "{what}: {part} after {}", done.get());
+            done.set(part);
         });
-        let steps = choice.expect("choice").expected.steps;
+        let steps = choice.expect("moves").expect("choice").expected.steps;
         assert!(steps <= most, "{what}: {steps} steps");
-        assert!(done > 0.4, "{what}: {done}");
+        assert!(done.get() > 0.4, "{what}: {}", done.get());
     }
 }
 
