@@ -4,7 +4,7 @@ use std::fmt;
 
 use stillbeam::{Error, Setpoint};
 use stillbeam_golden::record::{self, BYTES, FIELDS};
-use stillbeam_golden::{Case, run, run_some};
+use stillbeam_golden::{Case, run, run_few};
 
 /// First difference between host and target.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,8 +75,8 @@ pub fn every_method(sink: &mut Sink<'_>) -> Result<u32, Error> {
 ///
 /// # Errors
 /// Errors are those of [`run()`].
-pub fn some_methods(sink: &mut Sink<'_>) -> Result<u32, Error> {
-    run_some(sink)
+pub fn few_methods(sink: &mut Sink<'_>) -> Result<u32, Error> {
+    run_few(sink)
 }
 
 /// Amount that was compared.

@@ -43,8 +43,9 @@ fn every_bit_of_every_setpoint_agrees() {
 }
 
 /// Without floating-point unit the same bits are computed in software. Here and on the next two
-/// one method of each kind runs: software adds and multiplies alike in all of them.
+/// one method of each way to step runs: software adds and multiplies alike in all of them.
 #[test]
+#[ignore = "half a minute of what Armv6-M shows in every run: `cargo test --test target -- --ignored`"]
 fn a_cortex_m3_gives_the_same_bits() {
     every_bit_agrees(Board::An385, firmware::build_soft("golden"));
 }
@@ -65,7 +66,7 @@ fn every_bit_agrees(board: Board, image: Result<PathBuf, String>) {
     let image = image.unwrap_or_else(|error| panic!("{error}"));
     let stream = emulator::run_on(board, &image, Clock::Host, LIMIT);
     let stream = stream.unwrap_or_else(|error| panic!("{error}"));
-    let agreement = stream::compare(&stream, stream::some_methods)
+    let agreement = stream::compare(&stream, stream::few_methods)
         .unwrap_or_else(|mismatch| panic!("{mismatch}"));
     assert!(agreement.setpoints > 20_000, "{agreement:?}");
 }

@@ -1,10 +1,10 @@
-//! Steps every scene with one method of each kind and streams every setpoint's bits to the host, as
+//! Steps every scene with a few methods and streams every setpoint's bits to the host, as
 //! the firmware's program `golden` does, on RV32IMAC: QEMU's machine `virt`.
 #![no_std]
 #![no_main]
 
 use semihosting::process;
-use stillbeam_golden::{record, run};
+use stillbeam_golden::{record, run_own};
 
 #[path = "../../src/output.rs"]
 mod output;
@@ -14,7 +14,7 @@ mod panic;
 #[riscv_rt::entry]
 fn main() -> ! {
     let mut output = output::Output::open().expect("standard output by semihosting");
-    run(&mut |case, tick, setpoint| {
+    run_own(&mut |case, tick, setpoint| {
         let record = record::encode(record::stamp(case.index, tick), setpoint);
         output.write(&record).expect("the host takes the stream");
     })

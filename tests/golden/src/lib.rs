@@ -14,6 +14,6 @@ pub mod record;
 pub mod run;
 pub mod scenes;
 
-pub use run::{Case, run, run_some};
+pub use run::{Case, run, run_few, run_own};
 pub use scenes::Run;
 pub use stillbeam_methods::{self as methods, Method, Visitor};

@@ -6,7 +6,7 @@ use stillbeam::prepared::{Prepare, Prepared};
 use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Angle, Error, Generator, Setpoint};
 
-use crate::methods::{Method, Visitor, visit_own, visit_some};
+use crate::methods::{HAS_FPU, Method, Visitor, visit_all, visit_few};
 use crate::motions::{self, MOTIONS};
 use crate::scenes::{Run, SCENES};
 
@@ -31,8 +31,7 @@ pub struct Case {
 }
 
 /// Steps every case through its moves and the time after them, and hands every setpoint to `sink`
-/// with its tick, from 0. Takes the methods that this processor runs ([`visit_own`]). Returns the
-/// cases that ran.
+/// with its tick, from 0. Returns the cases that ran.
 ///
 /// A method that does not carry the rate of a scene has no setpoints of it.
 ///
@@ -43,28 +42,45 @@ pub fn run<F>(sink: &mut F) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
 {
-    run_by(sink, visit_own)
+    run_by(sink, visit_all, &STILL_SCENES)
 }
 
-/// Runs as [`run()`] does what processors without a floating-point unit run, on any processor.
+/// Runs as [`run()`] does what processors without a floating-point unit run, on any processor: a
+/// method of each way to step, and one arm with still moves.
 ///
 /// # Errors
 /// Errors are those of [`run()`].
-pub fn run_some<F>(sink: &mut F) -> Result<u32, Error>
+pub fn run_few<F>(sink: &mut F) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
 {
-    run_by(sink, visit_some)
+    run_by(sink, visit_few, &STILL_SCENES[..1])
+}
+
+/// Runs what the processor runs which this is compiled for: everything, or without a floating-point
+/// unit what [`run_few`] does.
+///
+/// # Errors
+/// Errors are those of [`run()`].
+pub fn run_own<F>(sink: &mut F) -> Result<u32, Error>
+where
+    F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
+{
+    if HAS_FPU { run(sink) } else { run_few(sink) }
 }
 
 /// The methods that `visit` shows, then still moves and the motions that no scene has.
-fn run_by<'a, F>(sink: &'a mut F, visit: fn(&mut Runner<'a, F>)) -> Result<u32, Error>
+fn run_by<'a, F>(
+    sink: &'a mut F,
+    visit: fn(&mut Runner<'a, F>),
+    still: &[&str],
+) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
 {
     let mut runner = Runner { sink, cases: 0, result: Ok(()) };
     visit(&mut runner);
-    runner.stills();
+    runner.stills(still);
     runner.motions();
     runner.result.map(|()| runner.cases)
 }
@@ -129,8 +145,8 @@ pub const STILL_SCENES: [&str; 4] = ["d-fast", "a-tip30", "b-tip30-damped-hub", 
 
 impl<F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized> Runner<'_, F> {
     /// Plans made where they run: every bit of them is in the setpoints.
-    fn stills(&mut self) {
-        for scene in SCENES.iter().filter(|run| STILL_SCENES.contains(&run.name)) {
+    fn stills(&mut self, names: &[&str]) {
+        for scene in SCENES.iter().filter(|run| names.contains(&run.name)) {
             let case = Case {
                 index: self.cases,
                 scene: scene.name,
