@@ -66,16 +66,25 @@ fn no_panic_is_reachable_from_an_axis_tick() {
     assert!(error.contains("panic-never"), "{error}");
 }
 
-/// Built and measured, not run: there are no such boards here, and QEMU has none.
+/// Built and measured, not run: there is no such board here, and QEMU has none.
 #[test]
-fn the_nucleo_boards_build_and_fit() {
-    for features in ["nucleo-g474re", "nucleo-g491re"] {
-        let image = firmware::application(features).unwrap_or_else(|error| panic!("{error}"));
-        let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
-        println!("{features}: {footprint:?}");
-        assert!((20_000..NUCLEO_FLASH).contains(&footprint.flash), "{footprint:?}");
-        assert!(footprint.ram < NUCLEO_RAM, "{footprint:?}");
-    }
+fn a_nucleo_board_builds_and_fits() {
+    builds_and_fits("nucleo-g491re");
+}
+
+/// The same of the board whose chip has a timer more, and with it a large crate of registers more.
+#[test]
+#[ignore = "what differs is one crate: `cargo test --test target -- --ignored`"]
+fn the_other_nucleo_board_builds_and_fits() {
+    builds_and_fits("nucleo-g474re");
+}
+
+fn builds_and_fits(board: &str) {
+    let image = firmware::application(board).unwrap_or_else(|error| panic!("{error}"));
+    let footprint = image::footprint(&image).unwrap_or_else(|error| panic!("{error}"));
+    println!("{board}: {footprint:?}");
+    assert!((20_000..NUCLEO_FLASH).contains(&footprint.flash), "{footprint:?}");
+    assert!(footprint.ram < NUCLEO_RAM, "{footprint:?}");
 }
 
 #[test]
@@ -88,10 +97,10 @@ fn a_missing_image_is_named_with_how_to_build_it() {
 /// An image names its board: one of another board is no image to run in QEMU.
 #[test]
 fn an_image_of_another_board_is_refused() {
-    let image = firmware::application("nucleo-g474re").unwrap_or_else(|error| panic!("{error}"));
+    let image = firmware::application("nucleo-g491re").unwrap_or_else(|error| panic!("{error}"));
     let Err(error) = Machine::emulate(&image) else { panic!("it is for another board") };
     let error = error.to_string();
-    assert!(error.contains("board = nucleo-g474re: must be mps2"), "{error}");
+    assert!(error.contains("board = nucleo-g491re: must be mps2"), "{error}");
     assert!(error.contains("--features mps2"), "{error}");
 }
 
