@@ -180,11 +180,18 @@ fn keep(folder: &Path, target: &str, profile: &str, bin: &str, name: &str) -> Bu
 }
 
 /// Returns cargo in the workspace's root, without the environment that the cargo of the tests has
-/// set. Flags from the environment would replace those of `.cargo/config.toml`.
+/// set. Flags from the environment would replace those of `.cargo/config.toml`, and a wrapper
+/// around the compiler would change the code.
 pub fn cargo() -> Command {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(root());
-    for name in ["RUSTFLAGS", "CARGO_ENCODED_RUSTFLAGS", "CARGO_BUILD_TARGET", "CARGO_TARGET_DIR"] {
+    for name in [
+        "RUSTFLAGS",
+        "CARGO_ENCODED_RUSTFLAGS",
+        "RUSTC_WORKSPACE_WRAPPER",
+        "CARGO_BUILD_TARGET",
+        "CARGO_TARGET_DIR",
+    ] {
         cargo.env_remove(name);
     }
     cargo
