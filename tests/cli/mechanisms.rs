@@ -239,21 +239,19 @@ fn a_loop_is_run_solved_compared_and_drawn() {
 #[test]
 fn figures_are_for_people_and_for_programs() {
     let folder = tempfile::tempdir().expect("folder");
-    for command in ["run", "reference"] {
-        let said = |args: &[&str]| {
-            let output = execute(folder.path(), LOOP, args);
-            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-            String::from_utf8(output.stdout).expect("text")
-        };
-        let plain = said(&[command, "scene.toml"]);
-        let json = said(&[command, "scene.toml", "--json"]);
-        let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-        assert_eq!(json["rows"], 41);
-        let joints = json["joints"].as_array().expect("joints");
-        assert_eq!(joints.len(), 3);
-        let torque = joints[0]["peak_torque_nm"].as_f64().expect("a torque");
-        assert!(torque > 0.0 && plain.contains(&format!("peak torque {torque:.4} N m")), "{plain}");
-    }
+    let said = |args: &[&str]| {
+        let output = execute(folder.path(), LOOP, args);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let plain = said(&["run", "scene.toml"]);
+    let json = said(&["run", "scene.toml", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json["rows"], 41);
+    let joints = json["joints"].as_array().expect("joints");
+    assert_eq!(joints.len(), 3);
+    let torque = joints[0]["peak_torque_nm"].as_f64().expect("a torque");
+    assert!(torque > 0.0 && plain.contains(&format!("peak torque {torque:.4} N m")), "{plain}");
     let args = ["plan", "two-links", "--to", "1.0,1.3", "--out", "plan", "--json"];
     let output = sim().current_dir(folder.path()).args(args).output().expect("program");
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");

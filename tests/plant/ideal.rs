@@ -45,7 +45,7 @@ fn held(trajectory: &Trajectory, t: f64, middle: f64, angle: f64, rate: f64) -> 
 
 #[test]
 fn an_ideal_drive_is_the_prescribed_motion() {
-    for name in ["d-tip30", "b-tip30-damped-hub", "s-gravity", "d-fast"] {
+    for name in ["b-tip30-damped-hub", "s-gravity", "d-fast"] {
         let [tip, hub] = errors(name);
         println!("{name}: tip {tip:e} of L, hub {hub:e} rad");
         // Promised: 1e-5. Measured: see the bound.

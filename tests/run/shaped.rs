@@ -54,8 +54,8 @@ fn worst(profile: &str, shaper: &str, method: Method, truth: &[Row], tick: f64) 
 #[test]
 fn jumps_inside_a_tick_reach_modal_and_elastica() {
     for (k, profile) in PROFILES.into_iter().enumerate() {
-        // Three of the shapers each, so that every one meets two profiles.
-        for shaper in SHAPERS.into_iter().cycle().skip(3 * k).take(3) {
+        // Two of the shapers each, so that every one is met.
+        for shaper in SHAPERS.into_iter().cycle().skip(3 * k).take(2) {
             let coarse = TICKS[2];
             let truth = rod(&scene(profile, shaper, coarse), coarse);
             for method in [Method::Modal, Method::Elastica] {
