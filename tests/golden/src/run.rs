@@ -7,7 +7,7 @@ use stillbeam::stepper::{Elastica, Quality};
 use stillbeam::{Angle, Error, Generator, Setpoint};
 
 use crate::methods::{HAS_FPU, Method, Visitor, visit_all, visit_few};
-use crate::motions::{self, MOTIONS};
+use crate::motions::{self, FEW_WAYPOINTS, MOTIONS, WAYPOINTS};
 use crate::scenes::{Run, SCENES};
 
 /// Segments of the longest scene, at least.
@@ -42,7 +42,7 @@ pub fn run<F>(sink: &mut F) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
 {
-    run_by(sink, visit_all, &STILL_SCENES)
+    run_by(sink, visit_all, &STILL_SCENES, WAYPOINTS)
 }
 
 /// Runs as [`run()`] does what processors without a floating-point unit run, on any processor: a
@@ -54,7 +54,7 @@ pub fn run_few<F>(sink: &mut F) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
 {
-    run_by(sink, visit_few, &STILL_SCENES[..1])
+    run_by(sink, visit_few, &STILL_SCENES[..1], FEW_WAYPOINTS)
 }
 
 /// Runs what the processor runs which this is compiled for: everything, or without a floating-point
@@ -74,6 +74,7 @@ fn run_by<'a, F>(
     sink: &'a mut F,
     visit: fn(&mut Runner<'a, F>),
     still: &[&str],
+    waypoints: u32,
 ) -> Result<u32, Error>
 where
     F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized,
@@ -81,7 +82,7 @@ where
     let mut runner = Runner { sink, cases: 0, result: Ok(()) };
     visit(&mut runner);
     runner.stills(still);
-    runner.motions();
+    runner.motions(waypoints);
     runner.result.map(|()| runner.cases)
 }
 
@@ -161,7 +162,7 @@ impl<F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized> Runner<'_, F> {
         }
     }
 
-    fn motions(&mut self) {
+    fn motions(&mut self, waypoints: u32) {
         for motion in MOTIONS {
             for scene in SCENES.iter().filter(|run| run.name == MOTION_SCENE) {
                 let case = Case {
@@ -174,7 +175,7 @@ impl<F: FnMut(&Case, u32, &Setpoint<f32>) + ?Sized> Runner<'_, F> {
                 };
                 self.cases += 1;
                 let sink = &mut |k, setpoint: &Setpoint<f32>| (self.sink)(&case, k, setpoint);
-                let result = motions::one(motion, scene, sink);
+                let result = motions::one(motion, waypoints, scene, sink);
                 self.result = self.result.and(result);
             }
         }
