@@ -31,7 +31,9 @@ fn times(file: &SceneFile) -> Vec<f64> {
 
 fn by_rod(file: &SceneFile) -> Vec<Sample> {
     let trajectory = file.trajectory(TICK).expect("a motion");
-    rod::solve(&file.arm, &trajectory, &times(file), &rod::Options::default()).expect("a run")
+    // A hundredth of every bound here.
+    let options = rod::Options { order: 6, tolerance: 1e-8, integrator: None };
+    rod::solve(&file.arm, &trajectory, &times(file), &options).expect("a run")
 }
 
 /// A scene whose arm has a feature, and what the rod makes of it.
