@@ -45,8 +45,8 @@ pub struct Request<T, const K: usize> {
     /// what they leave without it.
     pub residual: f64,
     /// True if a move with a piecewise-linear acceleration begins and ends without acceleration
-    /// though no jerk is limited. False by default: then it jumps there, as a cubic's does. A quintic
-    /// with a bulge never jumps from rest to rest.
+    /// though no jerk is limited. False by default: then it jumps there, as a cubic's does. A
+    /// quintic with a bulge never jumps from rest to rest.
     pub eased: bool,
     /// Quantity that the move keeps small.
     pub objective: Objective,

@@ -312,8 +312,8 @@ fn a_given_duration_is_used_for_the_least_peak_or_effort() {
     }
 }
 
-/// Without a jump at the ends a move within an acceleration takes a fortieth longer at most. A limit
-/// of the jerk asks for it by itself.
+/// Without a jump at the ends a move within an acceleration takes a fortieth longer at most. A
+/// limit of the jerk asks for it by itself.
 #[test]
 fn an_eased_move_begins_and_ends_without_acceleration() {
     for arm in [member_a(), member_d()] {

@@ -25,8 +25,8 @@ fn tips<S: Stepper<Scalar = f64>>(
     }
 }
 
-/// Scene `d-fast`, whose cubic begins and ends with jumps of the acceleration: against four modes in
-/// ticks of 0.25 ms three modes in ticks of 5 ms err by less than 2e-5 of L, and an expansion by
+/// Scene `d-fast`, whose cubic begins and ends with jumps of the acceleration: against four modes
+/// in ticks of 0.25 ms three modes in ticks of 5 ms err by less than 2e-5 of L, and an expansion by
 /// five times that.
 #[test]
 fn the_third_mode_rings_as_the_bent_link_does() {

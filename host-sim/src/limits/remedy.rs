@@ -23,8 +23,8 @@ const FLIGHTS: u32 = 60;
 /// it takes a longer move.
 const BUDGET: f64 = 1000.0;
 
-/// Flights as long as the duration aimed at that a search takes at least: a few up to the first that
-/// keeps the limit, and a dozen shorter ones back. Where they exceed the budget none is begun.
+/// Flights as long as the duration aimed at that a search takes at least: a few up to the first
+/// that keeps the limit, and a dozen shorter ones back. Where they exceed the budget none is begun.
 const LEAST_FLIGHTS: f64 = 8.0;
 
 /// Number of durations that are tried above the one that a quick search has found.

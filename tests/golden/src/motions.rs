@@ -1,5 +1,5 @@
-//! Motions that no scene has: a path of thousands of waypoints through a queue of eight, a hub that is
-//! followed, and targets that change while it turns.
+//! Motions that no scene has: a path of thousands of waypoints through a queue of eight, a hub that
+//! is followed, and targets that change while it turns.
 
 use stillbeam::motion::{Spline, Waypoint};
 use stillbeam::{Angle, Error, Generator, HubState, Setpoint};

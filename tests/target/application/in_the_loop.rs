@@ -125,8 +125,8 @@ fn an_encoder_that_jumps_moves_no_setpoint() {
 }
 
 /// The conversation about faults over and over, three rounds: every setpoint and frame is the
-/// host's own, every round is refused the same, and no tick is late. Without the machines behind the
-/// drives, which take most of the time. docs/drive.md has the hour.
+/// host's own, every round is refused the same, and no tick is late. Without the machines behind
+/// the drives, which take most of the time. docs/drive.md has the hour.
 #[test]
 fn rounds_in_the_loop_do_not_drift() {
     let duration = 20.0;

@@ -33,8 +33,8 @@ const EQUILIBRIUM_STEPS: usize = 60;
 /// [`Elastica`](super::Elastica) expands in polynomials is evaluated, and the mass matrix solved.
 ///
 /// `M(a) ä = f(a, ȧ, θ̇, θ̈)`: the linear oscillators are advanced exactly, and the rest, which
-/// bending makes, by a predictor and a corrector of second order. A tick takes as many steps as keep
-/// the highest mode's turn within 1 rad and the first's within 0.2: it costs many times what one of
+/// bending makes, by a predictor and a corrector of second order. A tick takes as many steps as
+/// keep the highest mode's turn within 1 rad and the first's within 0.2: it costs many times what one of
 /// `Elastica` does.
 ///
 /// Error against the exact rod with three modes, fraction of L: 2e-5 where `Elastica` errs by 1e-4.
