@@ -1,4 +1,4 @@
-//! The core and the C binding compile for other processors.
+//! The core and the C binding compile for other processors, the firmware with a board's counter.
 
 use std::fs;
 
@@ -56,4 +56,11 @@ fn the_c_binding_compiles_everywhere_with_every_method() {
         require_target(target).unwrap_or_else(|error| panic!("{error}"));
         check(&["--package", "stillbeam-c", "--lib", "--all-features", "--target", target]);
     }
+}
+
+#[test]
+fn the_bench_compiles_for_a_board() {
+    require_target(firmware::TARGET).unwrap_or_else(|error| panic!("{error}"));
+    let image = ["--package", "stillbeam-firmware", "--bin", "bench", "--features", "dwt"];
+    check(&[&image[..], &["--target", firmware::TARGET]].concat());
 }
