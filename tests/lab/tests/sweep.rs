@@ -188,6 +188,17 @@ fn a_page_that_is_no_longer_true_is_found() {
         assert_eq!(written.unwrap(), committed.unwrap());
     }
 
+    // A page that costs nothing to check: as committed, and without the last line of its table.
+    let committed = include_str!("../../../docs/auto.md");
+    fs::write(bench.path("docs/auto.md"), committed).unwrap();
+    let said = bench.succeed(&["docs", "docs/auto.md", "--check"]);
+    assert_eq!(said, "docs/auto.md: true\n");
+    let end = committed.rfind("<!-- /lab").unwrap();
+    let last = committed[..end - 1].rfind('\n').unwrap() + 1;
+    fs::write(bench.path("docs/auto.md"), committed[..last].to_owned() + &committed[end..])
+        .unwrap();
+    assert_eq!(bench.run(&["docs", "docs/auto.md", "--check"]).status.code(), Some(1));
+
     fs::write(bench.path("docs/accuracy.md"), "no markers").unwrap();
     let line = bench.refuse(&["docs", "docs/accuracy.md", "--check"]);
     assert!(line.contains("lab:accuracy"), "{line}");
