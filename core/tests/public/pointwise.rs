@@ -1,4 +1,4 @@
-//! What `pointwise` resolves that `elastica` does not.
+//! The resolution of `pointwise`, beyond that of `elastica`.
 
 use stillbeam::model::Rod;
 use stillbeam::stepper::{Elastica, Pointwise, Quality};

@@ -1,4 +1,4 @@
-//! What it costs a fastest move to begin and end without acceleration.
+//! The cost to a fastest move of a begin and an end without acceleration.
 
 use std::f64::consts::PI;
 
