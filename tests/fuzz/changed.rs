@@ -8,7 +8,7 @@ use std::path::Path;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::Index;
-use proptest::test_runner::{Config, RngSeed, TestRunner};
+use proptest::test_runner::{Config, TestRunner};
 use stillbeam_fuzz::{BODIES, Body};
 
 use crate::replay::inputs;
@@ -93,18 +93,12 @@ fn words(name: &str) -> Vec<Vec<u8>> {
     words.map(|word| word.as_bytes().to_vec()).collect()
 }
 
-/// Asks for a number of cases of a body, the same every day; `PROPTEST_CASES` makes it another
-/// number, `PROPTEST_RNG_SEED` other cases.
+/// Asks for a number of cases of a body; `PROPTEST_CASES` makes it another.
 fn comes_through(name: &str, body: Body, cases: u32) {
     let kept = Kept::of(name);
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok());
-    let default = Config::default();
-    let rng_seed = match default.rng_seed {
-        RngSeed::Random => RngSeed::Fixed(8),
-        asked => asked,
-    };
     let cases = asked.unwrap_or(cases);
-    let config = Config { cases, failure_persistence: None, rng_seed, ..default };
+    let config = Config { cases, failure_persistence: None, ..Config::default() };
     let edited = (any::<Index>(), vec(edit(), 1..=EDITS));
     let run = TestRunner::new(config).run(&edited, |(begin, edits)| {
         let mut bytes = begin.get(&kept.inputs).clone();

@@ -2,7 +2,7 @@
 //! does not resolve is refused by a rehearsal.
 
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngSeed};
+use proptest::test_runner::Config;
 use stillbeam::chain::{Chain, ChainGenerator};
 use stillbeam::mechanism::{Closing, Closure, Joint, Link, Mechanism, Stiffness};
 use stillbeam::{Error, Move, Profile, Scalar};
@@ -168,7 +168,6 @@ fn cases() -> Config {
     let asked = std::env::var("PROPTEST_CASES").ok().and_then(|number| number.parse().ok());
     Config {
         cases: if cfg!(miri) { 1 } else { asked.unwrap_or(200) },
-        rng_seed: RngSeed::Fixed(20_261_125),
         failure_persistence: None,
         ..Config::default()
     }
