@@ -123,6 +123,47 @@ fn what_cannot_be_is_refused() {
     assert!(matches!(long, Err(Error::OutOfRange { parameter: "move.duration", .. })));
 }
 
+/// Ticks from where a motion ends to the nearest one.
+fn beside_tick(motion: &TimeOptimal, tick: f64) -> f64 {
+    let ticks = motion.duration() / tick;
+    ticks - ticks.round()
+}
+
+/// A motion that ends within a millionth of a tick of one ends at it: its last piece takes as much
+/// longer or shorter, at whose ends the hub is where it is asked to be.
+#[test]
+fn a_motion_that_all_but_ends_at_a_tick_ends_at_it() {
+    let (tick, rate) = (0.01, 1.9288955443815492);
+    let start = hub(0.0, 1.85106327837001, -0.7922969193886025);
+    let reach_beside = |to: f64| reach(&start, &hub(to, rate, 0.0), &BOUNDS);
+    let turned = -1.6369047927911637;
+    let beside = beside_tick(&reach_beside(turned), tick);
+    for ticks in [-9e-7, -4e-7, 1e-7, 9e-7] {
+        // Before the last stretch it turns at full speed, against the sense of `rate`.
+        let motion = reach_beside(turned - (ticks - beside) * tick * BOUNDS.rate);
+        assert_near("end beside the tick", beside_tick(&motion, tick), ticks, 1e-9);
+        let (segments, summary) = lay(&motion, tick);
+        assert_eq!((summary.ticks, summary.end.rate), (254, rate));
+        assert_near("rounded by", summary.rounded_by, -ticks * tick, 1e-10);
+        let off = summary.end.angle.since(motion.end().angle);
+        assert_eq!(off, 0.0);
+        let last = motion.pieces().last().expect("a piece").duration;
+        let mut n = 0;
+        for segment in &segments {
+            for k in 0..segment.count() {
+                let (laid, asked) = (segment.hub(k), motion.at(f64::from(n + k) * tick));
+                let most = ticks.abs() * tick * BOUNDS.rate;
+                let apart = TAU * laid.angle.since(asked.angle);
+                assert!(apart.abs() <= most + 1e-12, "{apart:e} rad, {most:e}");
+                let most = most / last + ticks.abs() * tick * BOUNDS.acceleration;
+                let apart = laid.rate - asked.rate;
+                assert!(apart.abs() <= most + 1e-10, "{apart:e} rad/s, {most:e}");
+            }
+            n += segment.count();
+        }
+    }
+}
+
 /// A state within the bounds, that can be kept within them.
 fn state() -> impl Strategy<Value = [f64; 2]> {
     (-2.0..2.0_f64, -1.0..1.0_f64).prop_map(|(rate, share)| {
@@ -180,6 +221,8 @@ proptest! {
         let tick = 0.01;
         let jerk = if jumps { f64::INFINITY } else { 40.0 };
         let motion = reach(&hub(0.0, v0, a0), &hub(to, v1, 0.0), &Bounds { jerk, ..BOUNDS });
+        // Where it all but ends at a tick, its last piece is a little shorter or longer: below.
+        prop_assume!(beside_tick(&motion, tick).abs() > 1e-6);
         let (segments, summary) = lay(&motion, tick);
         let mut n = 0;
         let mut end_acceleration = 0.0;

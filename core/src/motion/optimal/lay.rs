@@ -19,7 +19,8 @@ impl TimeOptimal {
     ///
     /// A motion from rest to rest is slowed down until it ends at a tick. Another one ends inside
     /// of a tick, in general. The hub then keeps its rate for the rest of that tick and for the
-    /// next one, whose segment carries what the arm feels of the end.
+    /// next one, whose segment carries what the arm feels of the end. A motion that ends within a
+    /// millionth of a tick of one ends at it: its last piece takes as much longer or shorter.
     ///
     /// # Errors
     /// A motion that takes more than 2²⁴ ticks; nothing has been handed over then.
