@@ -5,11 +5,11 @@ use std::marker::PhantomData;
 
 use stillbeam::model::{Model, Rod};
 use stillbeam::select::{Auto, Rung};
-use stillbeam::stepper::{Elastica, Modal, Newmark, Pointwise, Quality, Rigid};
-use stillbeam::{Error, Scene};
+use stillbeam::stepper::{Elastica, Modal, Pointwise, Quality, Rigid};
+use stillbeam::{Error, Mount, Scene};
 
-use crate::model::{Mass, ModelVisitor, with_model};
-use crate::on_carrier::on_carrier;
+use crate::model::{Marched, Mass, ModelVisitor, with_model};
+use crate::on_carrier::Carried;
 use crate::{Erasable, Scalar};
 
 /// Which stepper, with which numbers.
@@ -81,8 +81,9 @@ impl From<Error> for Refused {
     }
 }
 
-/// Action on a stepper whose type is known only here. It is compiled for each of some sixty types;
-/// what an [`AnyStepper`](crate::AnyStepper) offers is compiled already.
+/// Action on a stepper whose type is known only here. It is compiled for each of some twenty types
+/// in both precisions, and once more for each on a carrier; what an
+/// [`AnyStepper`](crate::AnyStepper) offers is compiled already.
 pub trait StepperVisitor {
     /// Result of the action.
     type Output;
@@ -91,8 +92,7 @@ pub trait StepperVisitor {
     fn visit<S: Erasable>(self, stepper: S) -> Self::Output;
 }
 
-/// Builds the stepper that is asked for, model included, and hands it to the visitor. A new method
-/// is one more arm here.
+/// Builds the stepper that is asked for, model included, and hands it to the visitor.
 ///
 /// # Errors
 /// A model or modes that there are not, and what the set-up refuses.
@@ -101,20 +101,31 @@ pub fn with_stepper<V: StepperVisitor>(
     spec: &Spec,
     visitor: V,
 ) -> Result<V::Output, Refused> {
-    match spec.precision {
-        Precision::F32 => in_precision::<f32, V>(scene, spec, visitor),
-        Precision::F64 => in_precision::<f64, V>(scene, spec, visitor),
+    if scene.mount.carrier == 0.0 {
+        return in_precision(scene, spec, visitor);
     }
+    let resting = Scene { mount: Mount { carrier: 0.0, ..scene.mount }, ..*scene };
+    in_precision(&resting, spec, Carried { scene, visitor })?
 }
 
-fn in_precision<T: Scalar, V: StepperVisitor>(
+fn in_precision<V: StepperVisitor>(
     scene: &Scene,
     spec: &Spec,
     visitor: V,
 ) -> Result<V::Output, Refused> {
-    if scene.mount.carrier != 0.0 {
-        return on_carrier::<T, V>(scene, spec, visitor);
+    match spec.precision {
+        Precision::F32 => of_kind::<f32, V>(scene, spec, visitor),
+        Precision::F64 => of_kind::<f64, V>(scene, spec, visitor),
     }
+}
+
+/// The list of steppers. A new method is one more arm here, and one more line in the types that
+/// steppers share.
+fn of_kind<T: Scalar, V: StepperVisitor>(
+    scene: &Scene,
+    spec: &Spec,
+    visitor: V,
+) -> Result<V::Output, Refused> {
     let tick = spec.tick;
     match spec.kind {
         Kind::Rigid => Ok(visitor.visit(Rigid::<T>::new(scene, tick)?)),
@@ -135,55 +146,51 @@ fn in_precision<T: Scalar, V: StepperVisitor>(
             };
             Ok(visited)
         }
-        Kind::Pointwise { modes } => pointwise::<T, V>(scene, tick, modes, visitor),
+        Kind::Pointwise { modes } => match modes {
+            1 => Ok(visitor.visit(Pointwise::<T, 1>::new(scene, tick)?)),
+            2 => Ok(visitor.visit(Pointwise::<T, 2>::new(scene, tick)?)),
+            3 => Ok(visitor.visit(Pointwise::<T, 3>::new(scene, tick)?)),
+            _ => Err(Refused::Modes(3)),
+        },
         Kind::Rung { rung, bend } => Ok(visitor.visit(Auto::<T>::new(scene, tick, rung, bend)?)),
     }
 }
 
-pub(crate) fn pointwise<T: Scalar, V: StepperVisitor>(
-    scene: &Scene,
-    tick: f64,
-    modes: usize,
-    visitor: V,
-) -> Result<V::Output, Refused> {
-    match modes {
-        1 => Ok(visitor.visit(Pointwise::<T, 1>::new(scene, tick)?)),
-        2 => Ok(visitor.visit(Pointwise::<T, 2>::new(scene, tick)?)),
-        3 => Ok(visitor.visit(Pointwise::<T, 3>::new(scene, tick)?)),
-        _ => Err(Refused::Modes(3)),
-    }
-}
-
 /// Newmark of a model, for a visitor.
-pub(crate) struct NewmarkOf<T, V> {
-    pub tick: f64,
-    pub spin: bool,
-    pub visitor: V,
-    pub scalar: PhantomData<T>,
+struct NewmarkOf<T, V> {
+    tick: f64,
+    spin: bool,
+    visitor: V,
+    scalar: PhantomData<T>,
 }
 
 impl<T: Scalar, V: StepperVisitor> ModelVisitor for NewmarkOf<T, V> {
     type Output = Result<V::Output, Refused>;
 
-    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Self::Output {
-        let stepper = Newmark::<T, N, W>::new(&model, self.tick)?;
-        Ok(self.visitor.visit(if self.spin { stepper } else { stepper.without_spin() }))
+    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Self::Output
+    where
+        Model<N, W>: Marched,
+    {
+        Ok(self.visitor.visit(model.newmark::<T>(self.tick, self.spin)?))
     }
 }
 
 /// Modal of a model, for a visitor.
-pub(crate) struct ModalOf<T, V> {
-    pub tick: f64,
-    pub modes: usize,
-    pub spin: bool,
-    pub visitor: V,
-    pub scalar: PhantomData<T>,
+struct ModalOf<T, V> {
+    tick: f64,
+    modes: usize,
+    spin: bool,
+    visitor: V,
+    scalar: PhantomData<T>,
 }
 
 impl<T: Scalar, V: StepperVisitor> ModelVisitor for ModalOf<T, V> {
     type Output = Result<V::Output, Refused>;
 
-    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Self::Output {
+    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Self::Output
+    where
+        Model<N, W>: Marched,
+    {
         if !(1..=N.min(3)).contains(&self.modes) {
             return Err(Refused::Modes(N.min(3)));
         }

@@ -24,9 +24,11 @@ mod model;
 mod on_carrier;
 mod setpoint;
 mod stepper;
+mod steppers;
 
 pub use build::{Kind, Precision, Refused, Spec, StepperVisitor, with_stepper};
 pub use generator::{AnyGenerator, QUEUE};
-pub use model::{Mass, ModelVisitor, first_period, with_model};
+pub use model::{Marched, Mass, ModelVisitor, first_period, with_model};
 pub use setpoint::{AnySetpoint, Scalar};
-pub use stepper::{AnyStepper, Erasable, Shaped, stepper};
+pub use stepper::{AnyStepper, Shaped, stepper};
+pub use steppers::{Erasable, Held};

@@ -1,9 +1,10 @@
 //! Element models by their number of elements. No other place lists them.
 
-use stillbeam::Scene;
 use stillbeam::model::{Model, Modes};
+use stillbeam::stepper::Newmark;
+use stillbeam::{Error, Scene};
 
-use crate::Refused;
+use crate::{Erasable, Refused, Scalar};
 
 /// How the elements' mass is spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +21,53 @@ pub trait ModelVisitor {
     type Output;
 
     /// Receives the model.
-    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Self::Output;
+    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Self::Output
+    where
+        Model<N, W>: Marched;
+}
+
+/// A model whose time marching is one of the steppers that are compiled here.
+pub trait Marched {
+    /// Newmark of it.
+    type Newmark<T: Scalar>: Erasable;
+
+    /// Sets Newmark up for ticks of `tick` s, without the spin's terms if `spin` is false.
+    ///
+    /// # Errors
+    /// Those of [`Newmark::new`].
+    fn newmark<T: Scalar>(&self, tick: f64, spin: bool) -> Result<Self::Newmark<T>, Error>;
+}
+
+/// Implements it for models by their unknowns and bandwidth.
+macro_rules! marched {
+    ($($n:literal, $w:literal;)*) => {
+        $(
+            impl Marched for Model<$n, $w> {
+                type Newmark<T: Scalar> = Newmark<T, $n, $w>;
+
+                fn newmark<T: Scalar>(
+                    &self,
+                    tick: f64,
+                    spin: bool,
+                ) -> Result<Self::Newmark<T>, Error> {
+                    let stepper = Newmark::new(self, tick)?;
+                    Ok(if spin { stepper } else { stepper.without_spin() })
+                }
+            }
+        )*
+    };
+}
+
+marched! {
+    1, 1;
+    2, 2;
+    3, 3;
+    4, 4;
+    5, 5;
+    8, 4;
+    8, 8;
+    9, 9;
+    16, 4;
 }
 
 /// Builds the model of `elements` (1, 2, 4 or 8) and hands it to the visitor.
@@ -60,7 +107,10 @@ pub fn first_period(scene: &Scene, elements: usize, mass: Mass) -> Result<f64, R
     struct FirstPeriod;
     impl ModelVisitor for FirstPeriod {
         type Output = f64;
-        fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> f64 {
+        fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> f64
+        where
+            Model<N, W>: Marched,
+        {
             Modes::of(&model).first_period()
         }
     }

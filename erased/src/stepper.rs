@@ -3,24 +3,13 @@
 use std::any::type_name;
 
 use stillbeam::motion::{Commanded, Segment, Shaper};
-use stillbeam::prepared::Prepare;
 use stillbeam::select::{Assessment, assess};
 use stillbeam::stepper::{AnyMotion, Response};
-use stillbeam::{Error, Generator, Scene, Setpoint, Stepper, motion};
+use stillbeam::{Error, Generator, Scene, Setpoint, motion};
 
 use crate::build::{Refused, Spec, StepperVisitor, with_stepper};
-use crate::{AnyGenerator, AnySetpoint, QUEUE, Scalar};
-
-/// A stepper whose type can be left open.
-pub trait Erasable:
-    Stepper<Scalar: Scalar, State: Send + Sync> + Prepare + Clone + Send + Sync + 'static
-{
-}
-
-impl<S> Erasable for S where
-    S: Stepper<Scalar: Scalar, State: Send + Sync> + Prepare + Clone + Send + Sync + 'static
-{
-}
+use crate::steppers::Held;
+use crate::{AnyGenerator, AnySetpoint, Erasable, QUEUE, Scalar};
 
 /// A motion behind an input shaper, which no generator's queue holds.
 #[derive(Clone, Copy, Debug)]
@@ -76,31 +65,38 @@ pub trait AnyStepper: Send + Sync {
     ) -> Result<Assessment, Error>;
 }
 
-impl<S: Erasable> AnyStepper for S {
+/// A stepper as the type that it shares with others, and what is to be told of its own.
+struct Erased<A> {
+    stepper: A,
+    type_name: &'static str,
+    sizes: [usize; 2],
+}
+
+impl<A: Held> AnyStepper for Erased<A> {
     fn period(&self) -> f64 {
-        self.tick()
+        self.stepper.tick()
     }
 
     fn type_name(&self) -> &'static str {
-        type_name::<S>()
+        self.type_name
     }
 
     fn sizes(&self) -> [usize; 2] {
-        [size_of::<S::State>(), size_of::<S>()]
+        self.sizes
     }
 
     fn kind(&self) -> [u32; 3] {
-        Prepare::kind(self)
+        self.stepper.kind()
     }
 
     fn words(&self) -> Vec<u32> {
         let mut words = Vec::new();
-        self.prepare(&mut |word| words.push(word));
+        self.stepper.prepare(&mut |word| words.push(word));
         words
     }
 
     fn generator(&self, from: f64) -> Result<Box<dyn AnyGenerator>, Error> {
-        Ok(Box::new(Generator::<S, QUEUE>::new(self.clone(), from)?))
+        Ok(Box::new(Generator::<A, QUEUE>::new(self.stepper.clone(), from)?))
     }
 
     fn along(
@@ -109,20 +105,21 @@ impl<S: Erasable> AnyStepper for S {
         arrives: &dyn Fn(u32) -> bool,
         each: &mut dyn FnMut(u32, AnySetpoint, f64),
     ) {
+        let stepper = &self.stepper;
         // As on the target: what the tick evaluates is of its own precision.
-        let segments: Vec<_> = motion.segments.iter().map(Segment::cast::<S::Scalar>).collect();
-        let motion = motion::Shaped::new(&segments, motion.shaper, self.tick());
-        let mut state = self.equilibrium(&self.gravity().aimed(&motion.hub(0)));
+        let segments: Vec<_> = motion.segments.iter().map(Segment::cast::<A::Scalar>).collect();
+        let motion = motion::Shaped::new(&segments, motion.shaper, stepper.tick());
+        let mut state = stepper.equilibrium(&stepper.gravity().aimed(&motion.hub(0)));
         for k in 0..=motion.ticks() {
             if k > 0 {
-                motion.advance(self, &mut state, k - 1);
+                motion.advance(stepper, &mut state, k - 1);
             }
             let hub = if arrives(k) { motion.arrival(k) } else { motion.hub(k) };
-            let hub = self.gravity().aimed(&hub);
-            let Response { torque, tip } = self.response::<AnyMotion>(&state, &hub);
+            let hub = stepper.gravity().aimed(&hub);
+            let Response { torque, tip } = stepper.response::<AnyMotion>(&state, &hub);
             let (angle, rate, acceleration) = (hub.angle, hub.rate, hub.acceleration);
             let setpoint = Setpoint { angle, rate, acceleration, torque, tip };
-            let tip_angle = stillbeam::Scalar::to_f64(self.tip_angle(&state));
+            let tip_angle = stillbeam::Scalar::to_f64(stepper.tip_angle(&state));
             each(k, Scalar::any(setpoint), tip_angle);
         }
     }
@@ -133,7 +130,7 @@ impl<S: Erasable> AnyStepper for S {
         motion: &dyn Commanded,
         progress: &mut dyn FnMut(f64),
     ) -> Result<Assessment, Error> {
-        assess(scene, self.clone(), motion, progress)
+        assess(scene, self.stepper.clone(), motion, progress)
     }
 }
 
@@ -146,7 +143,11 @@ pub fn stepper(scene: &Scene, spec: &Spec) -> Result<Box<dyn AnyStepper>, Refuse
     impl StepperVisitor for Boxed {
         type Output = Box<dyn AnyStepper>;
         fn visit<S: Erasable>(self, stepper: S) -> Self::Output {
-            Box::new(stepper)
+            Box::new(Erased {
+                type_name: type_name::<S>(),
+                sizes: [size_of::<S::State>(), size_of::<S>()],
+                stepper: stepper.into_any(),
+            })
         }
     }
     with_stepper(scene, spec, Boxed)

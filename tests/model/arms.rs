@@ -4,17 +4,15 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-use stillbeam::model::{FourElements, Rod};
 use stillbeam::planner::{Planner, Request};
-use stillbeam::stepper::{Elastica, Modal2, Newmark4, Quality};
 use stillbeam::{Link, Payload, Scene};
 use stillbeam_lab::reference::truth::difference;
 use stillbeam_sim::plan::judge::Motion;
 use stillbeam_sim::reference::{Sample, fem, rod};
-use stillbeam_sim::run::{drive, run};
+use stillbeam_sim::run::run;
 use stillbeam_sim::scene_file::SceneFile;
 use stillbeam_sim::scenes;
-use stillbeam_sim::solver::{self, Method, Scalar, Solver};
+use stillbeam_sim::solver::{Method, Quality, Scalar, Solver, SolverKeys};
 use stillbeam_sim::table::Row;
 use stillbeam_tests::features::featured;
 
@@ -34,6 +32,12 @@ fn by_rod(file: &SceneFile) -> Vec<Sample> {
     // A hundredth of every bound here.
     let options = rod::Options { order: 6, tolerance: 1e-8, integrator: None };
     rod::solve(&file.arm, &trajectory, &times(file), &options).expect("a run")
+}
+
+/// The rows of a method in double precision.
+fn by_method(file: &SceneFile, keys: SolverKeys) -> Vec<Row> {
+    let solver = SolverKeys { scalar: Some(Scalar::F64), ..keys }.resolve().expect("a solver");
+    run(file, &solver).expect("a run")
 }
 
 /// A scene whose arm has a feature, and what the rod makes of it.
@@ -87,9 +91,8 @@ fn the_payload_comes_out() {
     let file = scenes::open("s-gravity").expect("a scene");
     let arm = featured(&file.arm)[2].1;
     let file = with(&file, arm);
-    let stepper =
-        Elastica::<f64, 2>::new(&Rod::new(&arm).expect("an arm"), TICK, Quality::Fine, 1.0);
-    let rows = drive(&stepper.expect("a stepper"), &file).expect("a run");
+    let rows =
+        by_method(&file, SolverKeys { method: Some(Method::Elastica), ..Default::default() });
     for (row, sample) in rows.iter().zip(&by_rod(&file)) {
         let [x, y] = [row.payload_x_m, row.payload_y_m].map(|x| x.expect("a column"));
         let apart = (x - sample.payload[0]).hypot(y - sample.payload[1]);
@@ -112,7 +115,7 @@ fn error(file: &SceneFile, truth: &[Sample]) -> f64 {
     let solver = Solver {
         method: Method::Elastica,
         modes: 2,
-        quality: solver::Quality::Fast,
+        quality: Quality::Fast,
         tick: TICK,
         scalar: Scalar::F32,
         ..Solver::PAPER
@@ -196,15 +199,13 @@ fn a_joint_that_hardly_gives_is_a_clamp() {
     arm.hub.stiffness = Some(1e8 * arm.link.bending_stiffness / arm.link.length);
     let runs = |arm: &Scene| {
         let file = with(&file, *arm);
-        let rod = Rod::<2>::new(arm).expect("an arm");
-        let model = FourElements::consistent(arm).expect("a model");
-        let elastica = Elastica::<f64, 2>::new(&rod, TICK, Quality::Fast, 1.0);
+        let keys = |method| SolverKeys { method: Some(method), ..Default::default() };
         [
-            drive(&Newmark4::<f64>::new(&model, TICK).expect("a stepper"), &file),
-            drive(&Modal2::<f64>::new(&model, TICK).expect("a stepper"), &file),
-            drive(&elastica.expect("a stepper"), &file),
+            SolverKeys { elements: Some(4), ..keys(Method::Newmark) },
+            keys(Method::Modal),
+            SolverKeys { quality: Some(Quality::Fast), ..keys(Method::Elastica) },
         ]
-        .map(|rows| rows.expect("a run"))
+        .map(|keys| by_method(&file, keys))
     };
     for (stiff, clamped) in runs(&arm).iter().zip(&runs(&file.arm)) {
         for (a, b) in stiff.iter().zip(clamped) {

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use stillbeam::Scene;
 use stillbeam::model::Model;
-use stillbeam_erased::{Mass, ModelVisitor, with_model};
+use stillbeam_erased::{Marched, Mass, ModelVisitor, with_model};
 
 use super::probe;
 use stillbeam_sim::error::Error;
@@ -52,7 +52,10 @@ struct Of<'a> {
 impl ModelVisitor for Of<'_> {
     type Output = Loss;
 
-    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Loss {
+    fn visit<const N: usize, const W: usize>(self, model: Model<N, W>) -> Loss
+    where
+        Model<N, W>: Marched,
+    {
         let full = |get: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(N, N, get);
         let mass = full(&|i, j| model.mass().get(i, j));
         let stiffness = full(&|i, j| model.stiffness().get(i, j));
