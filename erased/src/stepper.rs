@@ -32,9 +32,13 @@ pub trait AnyStepper: Send + Sync {
     fn sizes(&self) -> [usize; 2];
 
     /// Returns the type that loads its words: see [`Prepare::kind`].
+    ///
+    /// [`Prepare::kind`]: stillbeam::prepared::Prepare::kind
     fn kind(&self) -> [u32; 3];
 
     /// Returns its words: see [`Prepare::prepare`].
+    ///
+    /// [`Prepare::prepare`]: stillbeam::prepared::Prepare::prepare
     fn words(&self) -> Vec<u32>;
 
     /// Returns a generator of it, hub at rest at `from` rad.
