@@ -1,9 +1,9 @@
 //! A generator of whatever stepper.
 
 use stillbeam::motion::{Limits, MoveSummary, Path, RowError, Spline, Waypoint};
-use stillbeam::{Angle, Error, Generator, Move, Stepper};
+use stillbeam::{Angle, Error, Generator, Move};
 
-use crate::{AnySetpoint, Scalar};
+use crate::{AnySetpoint, Held, Scalar};
 
 /// Segments that wait in a generator's queue: two of the longest moves.
 pub const QUEUE: usize = 14;
@@ -43,10 +43,7 @@ pub trait AnyGenerator: Send + Sync {
     fn tip_angle(&self) -> f64;
 }
 
-impl<S> AnyGenerator for Generator<S, QUEUE>
-where
-    S: Stepper<Scalar: Scalar, State: Send + Sync> + Send + Sync,
-{
+impl<S: Held> AnyGenerator for Generator<S, QUEUE> {
     fn push(&mut self, motion: &Move) -> Result<MoveSummary, Error> {
         Self::push(self, motion)
     }

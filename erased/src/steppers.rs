@@ -154,7 +154,6 @@ macro_rules! shared {
                     $((Self::$variant(stepper), $state::$variant(own)) => {
                         stepper.step::<M>(own, before, after)
                     })*
-                    #[allow(unreachable_patterns)]
                     _ => Self::mismatch(),
                 }
             }
@@ -169,7 +168,6 @@ macro_rules! shared {
                     $((Self::$variant(stepper), $state::$variant(own)) => {
                         stepper.response::<M>(own, hub)
                     })*
-                    #[allow(unreachable_patterns)]
                     _ => Self::mismatch(),
                 }
             }
@@ -178,7 +176,6 @@ macro_rules! shared {
             fn tip_angle(&self, state: &$state<T>) -> T {
                 match (self, state) {
                     $((Self::$variant(stepper), $state::$variant(own)) => stepper.tip_angle(own),)*
-                    #[allow(unreachable_patterns)]
                     _ => Self::mismatch(),
                 }
             }
@@ -189,7 +186,6 @@ macro_rules! shared {
                     $((Self::$variant(stepper), $state::$variant(own)) => {
                         stepper.kink(own, moments)
                     })*
-                    #[allow(unreachable_patterns)]
                     _ => Self::mismatch(),
                 }
             }
@@ -198,7 +194,6 @@ macro_rules! shared {
             fn is_settled(&self, state: &$state<T>) -> bool {
                 match (self, state) {
                     $((Self::$variant(stepper), $state::$variant(own)) => stepper.is_settled(own),)*
-                    #[allow(unreachable_patterns)]
                     _ => Self::mismatch(),
                 }
             }

@@ -44,8 +44,8 @@ impl<S: Stepper> OnCarrier<S> {
         Ok(Self { arm, carrier: round(carrier) })
     }
 
-    /// Returns the same arm on the same carrier, its stepper as another type: what `arm` makes of it
-    /// must step alike.
+    /// Returns the same arm on the same carrier, its stepper as another type: what `arm` makes of
+    /// it must step alike.
     pub fn map<R: Stepper<Scalar = S::Scalar>>(self, arm: impl FnOnce(S) -> R) -> OnCarrier<R> {
         OnCarrier { arm: arm(self.arm), carrier: self.carrier }
     }

@@ -145,8 +145,7 @@ fn a_motion_that_all_but_ends_at_a_tick_ends_at_it() {
         let (segments, summary) = lay(&motion, tick);
         assert_eq!((summary.ticks, summary.end.rate), (254, rate));
         assert_near("rounded by", summary.rounded_by, -ticks * tick, 1e-10);
-        let off = summary.end.angle.since(motion.end().angle);
-        assert_eq!(off, 0.0);
+        assert_eq!(summary.end.angle.since(motion.end().angle), 0.0);
         let last = motion.pieces().last().expect("a piece").duration;
         let mut n = 0;
         for segment in &segments {
@@ -221,7 +220,7 @@ proptest! {
         let tick = 0.01;
         let jerk = if jumps { f64::INFINITY } else { 40.0 };
         let motion = reach(&hub(0.0, v0, a0), &hub(to, v1, 0.0), &Bounds { jerk, ..BOUNDS });
-        // Where it all but ends at a tick, its last piece is a little shorter or longer: below.
+        // Where it all but ends at a tick, its last piece is a little shorter or longer: above.
         prop_assume!(beside_tick(&motion, tick).abs() > 1e-6);
         let (segments, summary) = lay(&motion, tick);
         let mut n = 0;
