@@ -2,7 +2,7 @@
 //! solvers that choose their own steps.
 
 use stillbeam::hub::{Angle, HubState};
-use stillbeam::motion::{Limits, MoveSummary, Path, Plan, RowError, Segment, Shaper, Waypoint};
+use stillbeam::motion::{Limits, MoveSummary, Path, Plan, RowError, Segment, Shaper};
 use stillbeam::{Error as CoreError, Move};
 
 use crate::error::Error;
@@ -40,8 +40,6 @@ struct Piece {
     end: f64,
     /// Time of the segment's first whole tick.
     first: f64,
-    /// Tick of the segment, s: the trajectory's, or a part of it.
-    tick: f64,
     segment: Segment<f64>,
 }
 
@@ -91,7 +89,7 @@ impl Trajectory {
 
     fn append_move(&mut self, motion: &Move, limits: &Limits) -> Result<(), CoreError> {
         let Plan { segments, summary } = Plan::new(motion, self.end, limits, self.tick)?;
-        self.lay(&segments, self.tick);
+        self.lay(&segments);
         let arrives = !matches!(motion, Move::Dwell { .. });
         self.take(Planned { segments: segments.iter().copied().collect(), summary }, arrives);
         Ok(())
@@ -101,16 +99,12 @@ impl Trajectory {
         let rows = path.rows(self.tick);
         let refused =
             |error: RowError| Error::new(error.error).within(path.place(error.row as usize));
-        let begun_at = |tick: f64| {
-            let core = Path::new(path.spline(), self.end, &Limits::default(), tick)?;
-            path.begun(core).map_err(|error| Error::new(error).within(path.place_of_begin()))
-        };
-        let segments = |tick: f64| -> Result<Vec<_>, Error> {
-            let all = begun_at(tick)?.segments(rows.iter().copied());
-            all.map(|segment| segment.map_err(refused)).collect()
-        };
-        let planned = segments(self.tick)?;
-        let surveyed = begun_at(self.tick)?.survey(rows.iter().copied()).map_err(refused)?;
+        let core = Path::new(path.spline(), self.end, &Limits::default(), self.tick)?;
+        let begun =
+            path.begun(core).map_err(|error| Error::new(error).within(path.place_of_begin()))?;
+        let surveyed = begun.survey(rows.iter().copied()).map_err(refused)?;
+        let segments = begun.segments(rows.iter().copied());
+        let segments = segments.collect::<Result<Vec<_>, _>>().map_err(refused)?;
         let end = rows.last().map_or(self.end, |row| {
             let angle = Angle::from_radians(row.angle);
             let acceleration = path.end_acceleration_of(row);
@@ -119,31 +113,23 @@ impl Trajectory {
         let ticks = path.ticks(self.tick);
         let rounded_by = f64::from(ticks) * self.tick - path.duration();
         let summary = MoveSummary { end, ticks, peaks: *surveyed.peaks(), rounded_by };
-        if planned.len() == rows.len() {
-            self.lay(&planned, self.tick);
-        } else {
-            // Rows within one tick have no segment of their own. They do in a part of a tick.
-            let fine = self.tick / parts(&rows, self.tick);
-            self.lay(&segments(fine)?, fine);
-        }
-        self.take(Planned { segments: planned, summary }, true);
+        self.lay(&segments);
+        self.take(Planned { segments, summary }, true);
         Ok(())
     }
 
-    /// Puts pieces behind the others. The segments are those of a motion with setpoints every
-    /// `tick` s.
-    fn lay(&mut self, segments: &[Segment<f64>], tick: f64) {
-        let begin = self.ticks as f64 * self.tick;
-        let mut k = 0;
+    /// Puts the segments of a motion behind the others.
+    fn lay(&mut self, segments: &[Segment<f64>]) {
+        let mut k = self.ticks;
         for segment in segments {
-            let first = begin + f64::from(k) * tick;
-            let begin = first - segment.ticks_before() * tick;
+            let first = k as f64 * self.tick;
+            let begin = first - segment.ticks_before() * self.tick;
             if let Some(last) = self.pieces.last_mut() {
                 last.end = begin;
             }
-            k += segment.count();
-            let end = first + f64::from(segment.count()) * tick;
-            self.pieces.push(Piece { begin, end, first, tick, segment: *segment });
+            k += u64::from(segment.count());
+            let end = k as f64 * self.tick;
+            self.pieces.push(Piece { begin, end, first, segment: *segment });
         }
     }
 
@@ -200,7 +186,7 @@ impl Trajectory {
         };
         let piece = &self.pieces[after.saturating_sub(1)];
         let t = t.clamp(piece.begin, piece.end);
-        piece.segment.hub_at((t - piece.first) / piece.tick)
+        piece.segment.hub_at((t - piece.first) / self.tick)
     }
 
     /// Returns the times strictly inside the run at which the motion's formula changes. Its
@@ -245,15 +231,4 @@ impl Trajectory {
     pub fn plans(&self) -> &[Planned] {
         &self.plans
     }
-}
-
-/// Returns the number of parts of a tick in each of which no more than one row lies.
-fn parts(rows: &[Waypoint], tick: f64) -> f64 {
-    let mut before = 0.0;
-    let mut least = tick;
-    for row in rows {
-        least = least.min(row.time - before);
-        before = row.time;
-    }
-    (tick / least).log2().ceil().exp2()
 }

@@ -17,6 +17,7 @@ mod motions;
 mod residual;
 mod scene_files;
 mod shaped;
+mod short;
 mod shortest;
 mod still;
 mod truth;

@@ -242,4 +242,28 @@ mod tests {
         };
         assert_eq!(begun(1 << 25), begun(0));
     }
+
+    /// Three ticks hold three of an S-curve's seven stretches, and the joint passes through all.
+    #[test]
+    fn a_move_is_followed_through_stretches_without_a_tick() {
+        let (tick, third) = (0.01, 1.0 / 3.0);
+        let turn = Move::To { profile: Profile::SCurve, duration: 3.0 * tick, to: 0.2 };
+        let pushed = |tick| {
+            let mut queue = JointQueue::<f64, 8>::new(Angle { turns: 0, part: 0.0 });
+            queue.push(&turn, tick, |_| Ok(())).expect("a move");
+            queue
+        };
+        // In sevenths of a tick every stretch holds three.
+        let fine = pushed(tick / 7.0);
+        let mut queue = pushed(tick);
+        for k in 0..5 {
+            let next = queue.next_command(third);
+            for (at, ahead) in [(next.third, third), (next.end, 1.0)] {
+                let same = fine.far(7.0 * (f64::from(k) + ahead));
+                assert!(at.angle.since(same.angle).abs() < 1e-14, "{at:?} {same:?}");
+                assert!((at.rate - same.rate).abs() < 1e-11, "{at:?} {same:?}");
+                assert!((at.acceleration - same.acceleration).abs() < 1e-8, "{at:?} {same:?}");
+            }
+        }
+    }
 }

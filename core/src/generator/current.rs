@@ -160,6 +160,11 @@ impl<T: Scalar> Current<T> {
         &self.segment
     }
 
+    /// The segment, to be given another end.
+    pub(super) fn segment_mut(&mut self) -> &mut Segment<T> {
+        &mut self.segment
+    }
+
     /// Index in the segment of the latest tick.
     #[inline(always)]
     pub(super) fn k(&self) -> u32 {

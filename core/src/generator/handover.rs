@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-use super::{Generator, Part};
+use super::{Closing, Generator, Part};
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
@@ -22,7 +22,10 @@ pub struct PlanContext {
 /// A move ready for the generator that its [`PlanContext`] came from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedMove<T> {
+    /// Those that hold a tick.
     segments: Vec<Segment<T>, MAX_SEGMENTS>,
+    /// Moment for the hold behind them, see [`Segment::kink_moment`].
+    kink_moment: T,
     start: HubState<f64>,
     summary: MoveSummary,
 }
@@ -40,16 +43,21 @@ impl PlanContext {
     /// Moves that come over a wire are planned here, so it demands more than [`Generator::push`]: a
     /// move turns by 2⁻¹⁶/ε turns at most, 128 in f32, so that its angle is right to 2⁻¹⁶ turn.
     pub fn plan<T: Scalar>(&self, motion: &impl Plannable) -> Result<PlannedMove<T>, Error> {
-        let mut segments = Vec::new();
+        let (mut segments, mut closing) = (Vec::new(), None);
         let summary =
             motion.plan_segments(self.start, &self.limits, self.tick, &mut |segment| {
-                // No move has more.
-                let _ = segments.push(*segment);
+                closing = Closing::of(segment);
+                if closing.is_none() {
+                    // No move has more.
+                    let _ = segments.push(*segment);
+                }
             })?;
         if !motion.keeps_rate() {
             resolved::<T>(&self.start, &summary)?;
         }
-        Ok(PlannedMove { segments, start: self.start, summary })
+        let kink_moment =
+            closing.zip(segments.last_mut()).map_or(T::ZERO, |(closing, last)| closing.close(last));
+        Ok(PlannedMove { segments, kink_moment, start: self.start, summary })
     }
 
     pub(crate) fn start(&self) -> &HubState<f64> {
@@ -108,6 +116,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let end = planned.summary.end;
         self.end = HubState::turning(end.angle.plus(turned), end.rate);
         self.tail = super::hold(self.end, self.stepper.tick());
+        self.tail.set_kink_moment(planned.kink_moment);
         Ok(())
     }
 

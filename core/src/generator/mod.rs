@@ -1,6 +1,7 @@
 //! The one type the firmware drives.
 
 mod change;
+mod closing;
 mod current;
 mod follow;
 mod handover;
@@ -11,6 +12,7 @@ mod stop;
 mod stream;
 
 pub(crate) use change::Replaced;
+use closing::Closing;
 use current::{Current, Part};
 pub use handover::{PlanContext, PlannedMove};
 use heapless::Deque;
@@ -101,11 +103,14 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn push(&mut self, motion: &impl Plannable) -> Result<MoveSummary, Error> {
         let (start, tick) = (self.next_start(), self.stepper.tick());
         let (mut needed, free) = (0, QUEUE - self.queue.len());
-        let mut moment = self.border_moment();
+        let (mut moment, mut closing) = (self.border_moment(), None);
         let summary = motion.plan_segments(start, &self.limits, tick, &mut |segment| {
-            needed += 1;
-            // A full queue gives it back; told below.
-            let _ = self.queue.push_back(segment.behind(&mut moment));
+            closing = Closing::of(segment);
+            if closing.is_none() {
+                needed += 1;
+                // A full queue gives it back; told below.
+                let _ = self.queue.push_back(segment.behind(&mut moment));
+            }
         })?;
         let fits = if needed > free { Err(Error::QueueFull { needed, free }) } else { Ok(()) };
         if let Err(error) = fits.and(self.stepper.admit(&summary.peaks, summary.end.rate)) {
@@ -118,6 +123,9 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.revision = self.revision.wrapping_add(1);
         self.end = summary.end;
         self.tail = hold(summary.end, tick);
+        if let Some((closing, last)) = closing.zip(self.queue.back_mut()) {
+            self.tail.set_kink_moment(closing.close(last));
+        }
         Ok(summary)
     }
 
@@ -269,7 +277,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     }
 
     /// Moment of the queue's end within the tick before the next move, see
-    /// [`Segment::kink_moment`]: not zero if the motion before ends inside a tick.
+    /// [`Segment::kink_moment`]: not zero if the motion before ends inside a tick, or with a stretch
+    /// that holds none.
     fn border_moment(&self) -> S::Scalar {
         if self.is_holding() { S::Scalar::ZERO } else { self.tail.kink_moment() }
     }

@@ -2,15 +2,22 @@
 
 use heapless::Vec;
 
-use super::{Generator, Part, hold};
+use super::{Closing, Generator, Part, hold};
 use crate::Error;
 use crate::hub::HubState;
+use crate::math::Scalar;
 use crate::motion::optimal::{Bounds, MAX_PIECES, TimeOptimal};
 use crate::motion::{MoveSummary, Segment};
 use crate::stepper::Stepper;
 
-/// The segments of a motion, and its summary.
-type Laid<T> = (Vec<Segment<T>, MOST>, MoveSummary);
+/// A motion ready to be taken up.
+struct Laid<T> {
+    /// The segments that hold a tick.
+    segments: Vec<Segment<T>, MOST>,
+    /// Moment for the hold behind them, see [`Segment::kink_moment`].
+    kink_moment: T,
+    summary: MoveSummary,
+}
 
 /// Segments of the longest motion: its pieces and the tick that they end in.
 const MOST: usize = MAX_PIECES + 1;
@@ -25,7 +32,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Those of [`TimeOptimal::reach`], [`Error::QueueFull`], or what the stepper was not set up
     /// for. Nothing has changed then.
     pub fn reach(&mut self, end: &HubState<f64>) -> Result<MoveSummary, Error> {
-        let (segments, summary) = self.shortest_to(end)?;
+        let Laid { segments, kink_moment, summary } = self.shortest_to(end)?;
         let Some((first, others)) = segments.split_first() else { return Ok(summary) };
         self.end_acceleration = self.acceleration_before();
         self.queue.clear();
@@ -40,6 +47,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.revision = self.revision.wrapping_add(1);
         self.end = summary.end;
         self.tail = hold(self.end, self.stepper.tick());
+        self.tail.set_kink_moment(kink_moment);
         Ok(summary)
     }
 
@@ -47,10 +55,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let tick = self.stepper.tick();
         let bounds = Bounds::new(&self.limits, tick)?;
         let motion = TimeOptimal::reach(&self.hub.precise(), end, &bounds)?;
-        let mut segments = Vec::new();
+        let (mut segments, mut closing) = (Vec::new(), None);
         let summary = motion.lay(tick, &mut |segment| {
-            // No motion has more.
-            let _ = segments.push(*segment);
+            closing = Closing::of(segment);
+            if closing.is_none() {
+                // No motion has more.
+                let _ = segments.push(*segment);
+            }
         })?;
         // The first is under way at once and needs no place.
         let (needed, free) = (segments.len(), QUEUE + 1);
@@ -58,6 +69,9 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return Err(Error::QueueFull { needed, free });
         }
         self.stepper.admit(&summary.peaks, summary.end.rate)?;
-        Ok((segments, summary))
+        let kink_moment = closing
+            .zip(segments.last_mut())
+            .map_or(S::Scalar::ZERO, |(closing, last)| closing.close(last));
+        Ok(Laid { segments, kink_moment, summary })
     }
 }

@@ -1,9 +1,9 @@
 //! Paths of any length through a queue of fixed size.
 
-use super::{Generator, hold};
+use super::{Closing, Generator, hold};
 use crate::Error;
 use crate::math::Scalar;
-use crate::motion::{Path, PathPiece, RowError, Spline, Stream, Waypoint};
+use crate::motion::{Path, PathPiece, RowError, Segment, Spline, Stream, Waypoint};
 use crate::stepper::Stepper;
 
 impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
@@ -74,8 +74,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         let joins = if path.is_next(next) { self.joins(path) } else { Err(Error::Stale) };
         joins.map_err(|error| path.row_error(error))?;
         let kept = self.queue.len() - usize::from(path.stream.stops);
-        let needed = usize::from(next.segment.is_some()) + usize::from(next.rest.stop.is_some());
-        if kept + needed > QUEUE {
+        if kept + next.queued().count() > QUEUE {
             return Ok(false);
         }
         let admitted = self.stepper.admit(&next.peaks, next.rest.end.rate);
@@ -105,7 +104,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if path.stream.stops {
             self.queue.pop_back();
         }
-        for segment in next.segment.iter().chain(&next.rest.stop) {
+        for segment in next.queued() {
             // There is room: just counted.
             let _ = self.queue.push_back(segment.cast().behind(&mut moment));
         }
@@ -114,8 +113,21 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         self.end = next.rest.end;
         self.tail = hold(self.end, self.stepper.tick());
-        self.tail.set_kink_moment(S::Scalar::from_f64(next.rest.kink_moment));
+        let closing = next.closing().and_then(|segment| Closing::of(&segment.cast()));
+        let moment = match closing {
+            Some(closing) => closing.close(self.last_segment()),
+            None => S::Scalar::from_f64(next.rest.kink_moment),
+        };
+        self.tail.set_kink_moment(moment);
         self.revision = self.revision.wrapping_add(1);
         path.stream = Stream { revision: Some(self.revision), stops: next.rest.stop.is_some() };
+    }
+
+    /// The segment that holds the queue's last tick.
+    fn last_segment(&mut self) -> &mut Segment<S::Scalar> {
+        match self.queue.back_mut() {
+            Some(segment) => segment,
+            None => self.current.segment_mut(),
+        }
     }
 }

@@ -57,20 +57,26 @@ impl Joiner {
         self.ticks
     }
 
-    /// Appends a curve. Returns its segment, if a tick lies within.
+    /// Appends a curve. Returns its segment, which holds no tick if none lies within the curve;
+    /// none if the curve is as good as without duration.
     pub fn append(&mut self, curve: &Curve) -> Option<Segment<f64>> {
         let length = curve.until - self.border;
         let before = self.ticks as f64 - self.border;
         let before = if before < CLOSE { 0.0 } else { before };
         let until = snapped(curve.until);
         let count = (libm::ceil(until) - self.ticks as f64).max(0.0) as u32;
-        let segment = (count > 0).then(|| self.segment(curve, length, before, count));
-        if let Some(segment) = &segment {
-            let last = segment.hub_at(f64::from(count - 1));
-            self.last = Some((last, curve.end.acceleration));
-        }
+        let mut segment =
+            (count > 0 || length > CLOSE).then(|| self.segment(curve, length, before, count));
         self.ticks += u64::from(count);
         (self.border, self.here) = (until, curve.end);
+        if let Some(segment) = &mut segment {
+            if count > 0 {
+                let last = segment.hub_at(f64::from(count - 1));
+                self.last = Some((last, curve.end.acceleration));
+            } else if until == self.ticks as f64 {
+                segment.set_kink_moment(self.moment(&curve.end));
+            }
+        }
         segment
     }
 
@@ -81,12 +87,15 @@ impl Joiner {
             return segment.beginning(self.here.rate, curve.begin_acceleration);
         }
         let mut segment = segment;
-        segment.set_kink_moment(self.moment(&segment.hub(0)));
+        if count > 0 {
+            segment.set_kink_moment(self.moment(&segment.hub(0)));
+        }
         segment
     }
 
     /// Ends the motion: the hub keeps its rate from the border on. Returns its state at the first
-    /// tick from there on, and the moment of the border within the tick before.
+    /// tick from there on, and the moment of the border within the tick before. A border at a tick
+    /// has none: a last segment without a tick has its own.
     pub fn finish(&self) -> (HubState<f64>, f64) {
         let left = self.ticks as f64 - self.border;
         if left < CLOSE {

@@ -34,7 +34,8 @@ pub struct MoveSummary {
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub struct Plan {
-    /// The motion, first to last.
+    /// The motion, first to last and without a gap. A stretch that holds no tick is a segment too,
+    /// whose [count](Segment::count) is 0.
     pub segments: Vec<Segment<f64>, MAX_SEGMENTS>,
     /// Duration, end and peaks.
     pub summary: MoveSummary,

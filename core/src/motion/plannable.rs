@@ -18,7 +18,8 @@ mod sealed {
 /// others.
 pub trait Plannable: Sealed {
     /// Plans the motion from `start`, with setpoints every `tick` s, and hands its segments to
-    /// `sink`, first to last. A motion that is refused may have handed over none.
+    /// `sink`, first to last, those that hold no tick too. A motion that is refused may have handed
+    /// over none.
     ///
     /// # Errors
     /// A parameter of the move out of range, a limit that it exceeds, or a limit of torque or

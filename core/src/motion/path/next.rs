@@ -17,7 +17,9 @@ const JUMP: f64 = 1e-5;
 pub struct PathPiece {
     /// Number of the row that it leads to.
     pub(super) row: u32,
-    /// Its segment, if a tick lies within.
+    /// True if that is the path's last.
+    ends: bool,
+    /// Its segment, which may hold no tick.
     pub(crate) segment: Option<Segment<f64>>,
     /// Greatest magnitudes on it.
     pub(crate) peaks: Peaks,
@@ -36,6 +38,19 @@ pub(crate) struct Rest {
     pub end: HubState<f64>,
     /// Moment of the last border within the tick before, see [`Segment::kink_moment`].
     pub kink_moment: f64,
+}
+
+impl PathPiece {
+    /// The segments with a tick: its own, and the stop behind it.
+    pub(crate) fn queued(&self) -> impl Iterator<Item = &Segment<f64>> {
+        let all = self.segment.iter().chain(&self.rest.stop);
+        all.filter(|segment| segment.count() > 0)
+    }
+
+    /// The path's last segment, if it holds no tick.
+    pub(crate) fn closing(&self) -> Option<&Segment<f64>> {
+        self.segment.as_ref().filter(|segment| self.ends && segment.count() == 0)
+    }
 }
 
 impl Path {
@@ -59,8 +74,16 @@ impl Path {
         admit(&self.limits, &peaks, self.tick).map_err(refused)?;
         let mut joiner = self.joiner;
         let segment = joiner.append(&curve);
-        let rest = self.rest_behind(joiner, &peaks).map_err(refused)?;
-        Ok(Some(PathPiece { row: self.row, segment, peaks, rest, joiner }))
+        let mut rest = self.rest_behind(joiner, &peaks).map_err(refused)?;
+        if let Some(segment) = segment.filter(|own| own.count() == 0 && rest.stop.is_none()) {
+            rest.kink_moment += segment.kink_moment();
+        }
+        Ok(Some(PathPiece { row: self.row, ends: self.ends(), segment, peaks, rest, joiner }))
+    }
+
+    /// True if the path ends with the first row that waits.
+    fn ends(&self) -> bool {
+        self.closed && self.rows.len() == 1
     }
 
     /// True if all is known on which the way to the first row depends.
@@ -104,10 +127,9 @@ impl Path {
     fn joined_peaks(&self, curve: &Curve, peaks: Peaks) -> Peaks {
         let most = JUMP * peaks.acceleration.max(self.peaks.acceleration);
         let jumps = |jump: f64| jump.abs() > most;
-        let ends = self.closed && self.rows.len() == 1;
         let before = if self.row == 0 { &self.start } else { self.joiner.here() };
         let begin = curve.begin_acceleration - before.acceleration;
-        if jumps(begin) || (ends && jumps(curve.end.acceleration)) {
+        if jumps(begin) || (self.ends() && jumps(curve.end.acceleration)) {
             return Peaks { jerk: f64::INFINITY, ..peaks };
         }
         peaks
@@ -116,8 +138,7 @@ impl Path {
     /// The hub's way from the row at the end of `joiner`: on at its rate if the path ends there,
     /// else a stop.
     fn rest_behind(&self, mut joiner: Joiner, peaks: &Peaks) -> Result<Rest, Error> {
-        let ends = self.closed && self.rows.len() == 1;
-        let here = *joiner.here();
+        let (ends, here) = (self.ends(), *joiner.here());
         let stop = if ends || here.rate == 0.0 {
             None
         } else {

@@ -21,7 +21,8 @@ impl Path {
         Ok(path)
     }
 
-    /// Returns the segments of a whole path, first to last, in f64.
+    /// Returns the segments of a whole path, first to last, in f64: one a row, of
+    /// [count](Segment::count) 0 where no tick lies before the next row.
     ///
     /// `rows` is an iterator over all rows. An item is the error of a row that is refused; nothing
     /// follows it.

@@ -17,7 +17,8 @@ use crate::math::Scalar;
 /// coefficients are small and nothing cancels: rounding is an eighth of that in `0..1`.
 ///
 /// The first tick that belongs to a segment may lie a fraction of a tick after its beginning: the
-/// thirds of a trapezoid need not be whole ticks.
+/// thirds of a trapezoid need not be whole ticks. Where the next tick lies behind its end, no tick
+/// belongs to it: its [count](Self::count) is 0, and [`Self::hub_at`] alone gives the hub in it.
 ///
 /// Error in f32: angle 2e-7 of the segment's own turn (a cruise: 3e-8 turn, however long), rate
 /// 5e-7 and acceleration 1e-6 of their peaks. The hub at tick 0 and the acceleration at the end are
@@ -178,12 +179,12 @@ impl<T: Scalar> Segment<T> {
         }
     }
 
-    /// Ticks from the segment's true beginning to its first tick, 0 to 1.
+    /// Ticks from the segment's true beginning to its first tick, or the next one, 0 to 1.
     pub fn ticks_before(&self) -> T {
         if self.advance == T::ZERO { T::ZERO } else { (self.offset + T::ONE) / self.advance }
     }
 
-    /// Ticks that belong to the segment.
+    /// Ticks that belong to the segment; 0 if none lies within it.
     pub fn count(&self) -> u32 {
         self.count
     }
@@ -206,6 +207,9 @@ impl<T: Scalar> Segment<T> {
     /// of the parabola with the same mean and ends. The later end is the left-hand value at the
     /// border. Zero where the border is a tick. The stepper takes it in by
     /// [`Stepper::kink`](crate::Stepper::kink).
+    ///
+    /// Of a segment without a tick that ends at one: moment of all borders within that tick, for
+    /// what comes behind.
     pub fn kink_moment(&self) -> T {
         self.kink_moment
     }
