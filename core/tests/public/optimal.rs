@@ -129,8 +129,7 @@ fn beside_tick(motion: &TimeOptimal, tick: f64) -> f64 {
     ticks - ticks.round()
 }
 
-/// A motion that ends within a millionth of a tick of one ends at it: its last piece takes as much
-/// longer or shorter, at whose ends the hub is where it is asked to be.
+/// A motion that ends within 1e-7 of a tick of one ends at it, and is else the motion itself.
 #[test]
 fn a_motion_that_all_but_ends_at_a_tick_ends_at_it() {
     let (tick, rate) = (0.01, 1.9288955443815492);
@@ -138,7 +137,7 @@ fn a_motion_that_all_but_ends_at_a_tick_ends_at_it() {
     let reach_beside = |to: f64| reach(&start, &hub(to, rate, 0.0), &BOUNDS);
     let turned = -1.6369047927911637;
     let beside = beside_tick(&reach_beside(turned), tick);
-    for ticks in [-9e-7, -4e-7, 1e-7, 9e-7] {
+    for ticks in [-9e-8, -4e-8, 1e-8, 9e-8] {
         // Before the last stretch it turns at full speed, against the sense of `rate`.
         let motion = reach_beside(turned - (ticks - beside) * tick * BOUNDS.rate);
         assert_near("end beside the tick", beside_tick(&motion, tick), ticks, 1e-9);
@@ -146,21 +145,28 @@ fn a_motion_that_all_but_ends_at_a_tick_ends_at_it() {
         assert_eq!((summary.ticks, summary.end.rate), (254, rate));
         assert_near("rounded by", summary.rounded_by, -ticks * tick, 1e-10);
         assert_eq!(summary.end.angle.since(motion.end().angle), 0.0);
-        let last = motion.pieces().last().expect("a piece").duration;
         let mut n = 0;
         for segment in &segments {
             for k in 0..segment.count() {
                 let (laid, asked) = (segment.hub(k), motion.at(f64::from(n + k) * tick));
-                let most = ticks.abs() * tick * BOUNDS.rate;
-                let apart = TAU * laid.angle.since(asked.angle);
-                assert!(apart.abs() <= most + 1e-12, "{apart:e} rad, {most:e}");
-                let most = most / last + ticks.abs() * tick * BOUNDS.acceleration;
-                let apart = laid.rate - asked.rate;
-                assert!(apart.abs() <= most + 1e-10, "{apart:e} rad/s, {most:e}");
+                assert_near("angle", TAU * laid.angle.since(asked.angle), 0.0, 1e-12);
+                assert_near("rate", laid.rate, asked.rate, 1e-10);
             }
             n += segment.count();
         }
+        assert_eq!(n, summary.ticks);
     }
+}
+
+/// One that would end a ten-millionth of a tick late is slowed down to the next tick: sped up to
+/// end at this one it would pass its limits.
+#[test]
+fn a_turn_from_rest_to_rest_is_never_sped_up() {
+    let (to, tick) = (1.6971130313142715, 0.011640309400706449);
+    let motion = reach(&rest(0.0), &rest(to), &BOUNDS);
+    assert!((1e-8..1e-6).contains(&beside_tick(&motion, tick)), "{}", beside_tick(&motion, tick));
+    let (_, summary) = lay(&motion, tick);
+    assert!(summary.rounded_by > 0.9 * tick && summary.peaks.rate < 2.0, "{summary:?}");
 }
 
 /// A state within the bounds, that can be kept within them.
@@ -220,12 +226,10 @@ proptest! {
         let tick = 0.01;
         let jerk = if jumps { f64::INFINITY } else { 40.0 };
         let motion = reach(&hub(0.0, v0, a0), &hub(to, v1, 0.0), &Bounds { jerk, ..BOUNDS });
-        // Where it all but ends at a tick, its last piece is a little shorter or longer: above.
-        prop_assume!(beside_tick(&motion, tick).abs() > 1e-6);
         let (segments, summary) = lay(&motion, tick);
         let mut n = 0;
         let mut end_acceleration = 0.0;
-        for segment in &segments {
+        for segment in segments.iter().filter(|segment| segment.count() > 0) {
             for k in 0..segment.count() {
                 let (laid, asked) = (segment.hub(k), motion.at(f64::from(n + k) * tick));
                 prop_assert!((laid.angle.since(asked.angle)).abs() < 1e-9);
@@ -248,7 +252,7 @@ proptest! {
         }
         prop_assert_eq!(n, summary.ticks);
         let after = f64::from(summary.ticks) * tick;
-        prop_assert!((0.0..2.0 * tick + 1e-6).contains(&(after - motion.duration())));
+        prop_assert!((-1e-9..2.0 * tick + 1e-6).contains(&(after - motion.duration())));
         prop_assert!((summary.rounded_by - (after - motion.duration())).abs() < 1e-9);
         prop_assert!(summary.end.angle.since(motion.at(after).angle).abs() < 1e-9);
     }
@@ -260,11 +264,11 @@ proptest! {
         let (segments, summary) = lay(&motion, tick);
         prop_assert!(segments.len() <= 7);
         // No turn at all takes a tick.
-        let least = if to == 0.0 { tick } else { -1e-5 * tick };
+        let least = if to == 0.0 { tick } else { -1e-9 * tick };
         prop_assert!((least..=tick).contains(&summary.rounded_by), "{}", summary.rounded_by);
         prop_assert_eq!(summary.end, rest(to));
         prop_assert!(summary.peaks.rate <= 2.0 + 1e-9);
-        prop_assert!(summary.peaks.acceleration <= 5.0 + 1e-9 && summary.peaks.jerk <= 40.001);
+        prop_assert!(summary.peaks.acceleration <= 5.0 + 1e-8 && summary.peaks.jerk <= 40.0 + 1e-7);
         let last = segments.last().expect("a segment");
         prop_assert!(last.hub_at(f64::from(last.count())).angle.since(summary.end.angle).abs() < 1e-12);
     }

@@ -11,16 +11,18 @@ use crate::motion::joiner::{Curve, Joiner};
 use crate::motion::segment::Shape;
 use crate::motion::{MoveSummary, Segment};
 
-/// Part of a tick that is rounding: a motion that ends as close to a tick ends at it.
-const ROUNDING: f64 = 1e-6;
+/// Part of a tick that is rounding: a motion from rest to rest that ends as little behind a tick is
+/// not slowed down to the next one.
+const ROUNDING: f64 = 1e-10;
 
 impl TimeOptimal {
-    /// Hands the segments of the motion to `sink`, first to last, with setpoints every `tick` s.
+    /// Hands the segments of the motion to `sink`, first to last, with setpoints every `tick` s. A
+    /// piece that holds no tick has one too, of [count](Segment::count) 0.
     ///
     /// A motion from rest to rest is slowed down until it ends at a tick. Another one ends inside
     /// of a tick, in general. The hub then keeps its rate for the rest of that tick and for the
-    /// next one, whose segment carries what the arm feels of the end. A motion that ends within a
-    /// millionth of a tick of one ends at it: its last piece takes as much longer or shorter.
+    /// next one, whose segment carries what the arm feels of the end. A motion that ends within
+    /// 1e-7 of a tick of one ends at it.
     ///
     /// # Errors
     /// A motion that takes more than 2²⁴ ticks; nothing has been handed over then.
@@ -37,7 +39,7 @@ impl TimeOptimal {
         for (i, piece) in motion.pieces().iter().enumerate() {
             time += piece.duration;
             let last = i + 1 == motion.pieces().len();
-            let until = if last { whole(time / tick) } else { time / tick };
+            let until = time / tick;
             let end = if last { *self.end() } else { motion.state_after(piece) };
             let begin_acceleration = piece.acceleration;
             let curve = Curve { shape: piece.shape(), until, end, begin_acceleration };
@@ -68,8 +70,8 @@ impl TimeOptimal {
     /// Returns a motion from rest to rest, slowed down to end at a tick. By a factor σ the
     /// durations grow; rates, accelerations and jerks fall by σ, σ² and σ³.
     fn ending_at_tick(&self, tick: f64) -> Self {
-        let ticks = whole(self.duration() / tick);
-        let factor = libm::ceil(ticks) * tick / self.duration();
+        let ticks = libm::ceil(self.duration() / tick - ROUNDING).max(1.0);
+        let factor = ticks * tick / self.duration();
         let mut slower = self.clone();
         if factor.is_finite() {
             slower.slow_down(factor);
@@ -101,10 +103,4 @@ impl Piece {
         let c3 = self.jerk * t * t * t / (6.0 * TAU);
         Shape::Cubic([(c1 + c2 + 0.75 * c3) / 2.0, (c2 + 1.5 * c3) / 4.0, c3 / 8.0])
     }
-}
-
-/// Returns a number of ticks, rounded if it is as good as whole.
-fn whole(ticks: f64) -> f64 {
-    let nearest = libm::round(ticks);
-    if libm::fabs(ticks - nearest) <= ROUNDING { nearest } else { ticks }
 }
