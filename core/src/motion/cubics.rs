@@ -44,18 +44,17 @@ pub(super) fn lay_cubics<T: Scalar>(
         if next == first {
             kink_moment += moment(T::ONE - before, T::ONE - after, begin, end_acceleration);
             segment.set_kink_moment(kink_moment);
-            sink(&segment);
         } else {
             if before == T::ZERO {
                 kink_moment = T::ZERO;
             }
             kink_moment += moment(T::ONE - before, T::ONE, begin, at_first);
             segment.set_kink_moment(kink_moment);
-            sink(&segment);
             // The tick's parabola goes up to the left-hand value at the border.
             let parabola = T::from_f64(1.0 / 12.0) * (at_last - end_acceleration);
             kink_moment = moment(T::ZERO, T::ONE - after, at_last, end_acceleration) - parabola;
         }
+        sink(&segment);
         (first, border) = (next, end);
     }
 }
