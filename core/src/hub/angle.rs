@@ -22,6 +22,7 @@ pub struct Angle<T> {
 impl<T: Scalar> Angle<T> {
     /// Returns the angle `delta` turns further on; `|delta|` below 2²¹ − 1 turns.
     #[inline(always)]
+    #[must_use]
     pub fn plus(self, delta: T) -> Self {
         let (whole, part) = (self.part + delta).split();
         Self { turns: self.turns.wrapping_add(whole), part }
@@ -29,6 +30,7 @@ impl<T: Scalar> Angle<T> {
 
     /// Returns the same angle in the precision of set-up.
     #[inline(always)]
+    #[must_use]
     pub fn precise(self) -> Angle<f64> {
         Angle { turns: self.turns, part: self.part.to_f64() }
     }
@@ -64,6 +66,7 @@ impl Angle<f64> {
     }
 
     /// Rounds the remainder to the scalar of the tick.
+    #[must_use]
     pub fn cast<T: Scalar>(self) -> Angle<T> {
         Angle { turns: self.turns, part: T::from_f64(self.part) }
     }

@@ -66,6 +66,7 @@ impl Limits {
     }
 
     /// The limits of the hub's motion alone: rate, acceleration, deceleration and jerk.
+    #[must_use]
     pub fn kinematic(self) -> Self {
         Self { torque: None, moment: None, ..self }
     }

@@ -108,6 +108,7 @@ impl<T: Scalar> Mapping<T> {
 
     /// Returns the same gear with the zero at which the shaft's angle `shaft` belongs to the hub
     /// angle `hub`.
+    #[must_use]
     pub fn homed(self, shaft: Angle<T>, hub: Angle<T>) -> Self {
         let from_zero = self.turned(self.ratio.scale(hub));
         Self { zero: sum(shaft, negative(from_zero)), ..self }

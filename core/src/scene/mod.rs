@@ -164,6 +164,7 @@ impl<T: Scalar, S: LinkShape> Scene<T, S> {
 
     /// The arm with every stiffness, of link and joint, multiplied by `factor`: its frequencies are
     /// multiplied by the square root.
+    #[must_use]
     pub fn stiffened(mut self, factor: T) -> Self {
         self.link.bending_stiffness = self.link.bending_stiffness * factor;
         self.hub.stiffness = self.hub.stiffness.map(|stiffness| stiffness * factor);

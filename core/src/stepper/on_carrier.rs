@@ -46,6 +46,7 @@ impl<S: Stepper> OnCarrier<S> {
 
     /// Returns the same arm on the same carrier, its stepper as another type: what `arm` makes of
     /// it must step alike.
+    #[must_use]
     pub fn map<R: Stepper<Scalar = S::Scalar>>(self, arm: impl FnOnce(S) -> R) -> OnCarrier<R> {
         OnCarrier { arm: arm(self.arm), carrier: self.carrier }
     }

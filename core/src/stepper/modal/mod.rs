@@ -88,6 +88,7 @@ pub struct ModalState<T, const K: usize> {
 
 impl<T: Scalar, const K: usize> Modal<T, K> {
     /// Leaves out every term in θ̇², as [`super::Newmark::without_spin`] does.
+    #[must_use]
     pub fn without_spin(mut self) -> Self {
         self.terms.spin = false;
         // Linear ticks do not ask.

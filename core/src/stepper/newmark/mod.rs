@@ -131,6 +131,7 @@ impl<T: Scalar, const N: usize, const W: usize, const AXES: bool> Newmark<T, N, 
 
     /// Leaves out every term in θ̇²: no centrifugal stiffening or softening, and their share of the
     /// torque. Cheaper, and wrong as soon as `θ̇` is not small against the first frequency.
+    #[must_use]
     pub fn without_spin(mut self) -> Self {
         self.terms.spin = false;
         // Linear ticks do not ask.
