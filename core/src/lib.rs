@@ -40,8 +40,7 @@
 //!    length.
 //! 5. [`Generator`]: stepper and motion; [`Generator::tick`] gives the next [`Setpoint`].
 //! 6. [`planner`]: moves after which the arm is at rest; [`select`]: the cheapest stepper that will
-//!    do.
-//!    Both can be set up on the desktop and loaded: [`prepared`].
+//!    do. Both can be set up on the desktop and loaded: [`prepared`].
 //! 7. [`axis`]: a generator under a policy: enable, stop, a late tick, a lost link.
 //! 8. [`motor`]: the setpoint's demand on the motor's shaft, behind gear and friction.
 //! 9. [`drive`]: that demand as the bytes of a drive's protocol.

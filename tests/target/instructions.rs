@@ -81,7 +81,8 @@ fn no_skip_raises_the_worst_tick() {
     assert!(compared > 100, "{compared}");
 }
 
-/// True of the method whose steps a tick follow from the frequencies, which a lighter arm has higher.
+/// True of the method whose steps a tick follow from the frequencies, which a lighter arm has
+/// higher.
 fn is_lighter_pointwise(count: &Count) -> bool {
     count.key[0] == "pointwise" && count.key[3].contains("no-payload")
 }

@@ -97,8 +97,7 @@ impl<
     /// # Errors
     /// A joint that does not exist, [`Error::PassiveJoint`], [`Error::Moving`] during a stop,
     /// [`Error::BendsTooFar`] if the links of an open chain are expected to bend further than the
-    /// tick follows, and those of
-    /// [`Generator::push`](crate::Generator::push).
+    /// tick follows, and those of [`Generator::push`](crate::Generator::push).
     pub fn push(&mut self, joint: usize, motion: &impl Plannable) -> Result<MoveSummary, Error> {
         self.driven("moves.joint", joint)?;
         if self.stop.is_some() {

@@ -2,11 +2,11 @@
 //! often.
 //!
 //! `core::array::from_fn` is ready for a function that panics half-way and for elements that must
-//! be dropped. Each call compiles to some 200 lines of intermediate code, two fifths of all that the
-//! methods compile to; the loop below to a part of that. A desktop instantiates every method many
-//! times and takes the loop. A processor takes the standard function: inlined always, the loop
-//! makes set-up a tenth larger, and inlined as the compiler likes, a tick that is compiled for size 3.5 %
-//! slower.
+//! be dropped. Each call compiles to some 200 lines of intermediate code, two fifths of all that
+//! the methods compile to; the loop below to a part of that. A desktop instantiates every method
+//! many times and takes the loop. A processor takes the standard function: inlined always, the loop
+//! makes set-up a tenth larger, and inlined as the compiler likes, a tick that is compiled for size
+//! 3.5 % slower.
 
 use super::{Complex, Scalar};
 

@@ -98,8 +98,7 @@ pub trait Stepper {
     ) -> Response<Self::Scalar>;
 
     /// Angle of the link's tangent at the tip against the hub's x axis, rad. The payload's centre
-    /// is
-    /// [`Payload::offset`](crate::Payload) beyond the tip in that direction: see
+    /// is [`Payload::offset`](crate::Payload) beyond the tip in that direction: see
     /// [`Setpoint::payload_centre`](crate::Setpoint::payload_centre). Costs nothing where it is not
     /// called.
     fn tip_angle(&self, state: &Self::State) -> Self::Scalar;

@@ -18,7 +18,7 @@ impl<const D: usize, const N: usize> Condensation<D, N> {
             t[row][column] = 1.0;
         }
         // Gauss-Seidel would do; elimination is exact. `k` loses one massless rotation at a time,
-        // `gain[i]` records it as a combination of the degrees that are left.
+        // `t[i]` records it as a combination of the degrees that are left.
         let mut k: [[f64; D]; D] = array(|i| array(|j| chain.stiffness.get(i, j)));
         for p in (0..D).filter(|&p| !kept(p)) {
             let pivot = k[p];

@@ -34,8 +34,8 @@ const EQUILIBRIUM_STEPS: usize = 60;
 ///
 /// `M(a) ä = f(a, ȧ, θ̇, θ̈)`: the linear oscillators are advanced exactly, and the rest, which
 /// bending makes, by a predictor and a corrector of second order. A tick takes as many steps as
-/// keep the highest mode's turn within 1 rad and the first's within 0.2: it costs many times what one of
-/// `Elastica` does.
+/// keep the highest mode's turn within 1 rad and the first's within 0.2: it costs many times what
+/// one of `Elastica` does.
 ///
 /// Error against the exact rod with three modes, fraction of L: 2e-5 where `Elastica` errs by 1e-4.
 /// The third mode floors that, which its expansion takes to be that of the straight link.
