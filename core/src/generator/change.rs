@@ -74,6 +74,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         {
             waiting = waiting.saturating_sub(segment.count());
         }
+        // The quintic that takes their place ends at a tick.
+        self.queue.front_mut().unwrap_or(&mut self.tail).set_kink_moment(S::Scalar::ZERO);
     }
 }
 

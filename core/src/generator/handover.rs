@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-use super::{Closing, Generator, Part};
+use super::{Generator, MotionEnd, Part};
 use crate::Error;
 use crate::hub::{Angle, HubState};
 use crate::math::Scalar;
@@ -43,11 +43,10 @@ impl PlanContext {
     /// Moves that come over a wire are planned here, so it demands more than [`Generator::push`]: a
     /// move turns by 2⁻¹⁶/ε turns at most, 128 in f32, so that its angle is right to 2⁻¹⁶ turn.
     pub fn plan<T: Scalar>(&self, motion: &impl Plannable) -> Result<PlannedMove<T>, Error> {
-        let (mut segments, mut closing) = (Vec::new(), None);
+        let (mut segments, mut motion_end) = (Vec::new(), MotionEnd::new());
         let summary =
             motion.plan_segments(self.start, &self.limits, self.tick, &mut |segment| {
-                closing = Closing::of(segment);
-                if closing.is_none() {
+                if motion_end.holds_tick(segment) {
                     // No move has more.
                     let _ = segments.push(*segment);
                 }
@@ -55,8 +54,7 @@ impl PlanContext {
         if !motion.keeps_rate() {
             resolved::<T>(&self.start, &summary)?;
         }
-        let kink_moment =
-            closing.zip(segments.last_mut()).map_or(T::ZERO, |(closing, last)| closing.close(last));
+        let kink_moment = motion_end.close(segments.last_mut());
         Ok(PlannedMove { segments, kink_moment, start: self.start, summary })
     }
 

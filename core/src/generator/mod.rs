@@ -1,10 +1,10 @@
 //! The one type the firmware drives.
 
 mod change;
-mod closing;
 mod current;
 mod follow;
 mod handover;
+mod motion_end;
 mod reach;
 mod redirect;
 mod setpoint;
@@ -12,10 +12,10 @@ mod stop;
 mod stream;
 
 pub(crate) use change::Replaced;
-use closing::Closing;
 use current::{Current, Part};
 pub use handover::{PlanContext, PlannedMove};
 use heapless::Deque;
+use motion_end::MotionEnd;
 pub(crate) use redirect::Branch;
 pub use setpoint::Setpoint;
 pub(crate) use stop::Arrival;
@@ -103,10 +103,9 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     pub fn push(&mut self, motion: &impl Plannable) -> Result<MoveSummary, Error> {
         let (start, tick) = (self.next_start(), self.stepper.tick());
         let (mut needed, free) = (0, QUEUE - self.queue.len());
-        let (mut moment, mut closing) = (self.border_moment(), None);
+        let (mut moment, mut motion_end) = (self.border_moment(), MotionEnd::new());
         let summary = motion.plan_segments(start, &self.limits, tick, &mut |segment| {
-            closing = Closing::of(segment);
-            if closing.is_none() {
+            if motion_end.holds_tick(segment) {
                 needed += 1;
                 // A full queue gives it back; told below.
                 let _ = self.queue.push_back(segment.behind(&mut moment));
@@ -123,9 +122,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.revision = self.revision.wrapping_add(1);
         self.end = summary.end;
         self.tail = hold(summary.end, tick);
-        if let Some((closing, last)) = closing.zip(self.queue.back_mut()) {
-            self.tail.set_kink_moment(closing.close(last));
-        }
+        self.tail.set_kink_moment(motion_end.close(self.queue.back_mut()));
         Ok(summary)
     }
 
@@ -277,8 +274,8 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     }
 
     /// Moment of the queue's end within the tick before the next move, see
-    /// [`Segment::kink_moment`]: not zero if the motion before ends inside a tick, or with a stretch
-    /// that holds none.
+    /// [`Segment::kink_moment`]: not zero if the motion before ends inside a tick, or with a
+    /// stretch that holds none.
     fn border_moment(&self) -> S::Scalar {
         if self.is_holding() { S::Scalar::ZERO } else { self.tail.kink_moment() }
     }
@@ -323,6 +320,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             self.tail.cut(u32::MAX);
         }
         self.tail = self.tail.moved(self.current.segment().angle(self.current.k()));
+        self.tail.set_kink_moment(S::Scalar::ZERO);
     }
 }
 

@@ -2,16 +2,15 @@
 
 use heapless::Vec;
 
-use super::{Closing, Generator, Part, hold};
+use super::{Generator, MotionEnd, Part, hold};
 use crate::Error;
 use crate::hub::HubState;
-use crate::math::Scalar;
 use crate::motion::optimal::{Bounds, MAX_PIECES, TimeOptimal};
 use crate::motion::{MoveSummary, Segment};
 use crate::stepper::Stepper;
 
 /// A motion ready to be taken up.
-struct Laid<T> {
+struct Planned<T> {
     /// The segments that hold a tick.
     segments: Vec<Segment<T>, MOST>,
     /// Moment for the hold behind them, see [`Segment::kink_moment`].
@@ -32,7 +31,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
     /// Those of [`TimeOptimal::reach`], [`Error::QueueFull`], or what the stepper was not set up
     /// for. Nothing has changed then.
     pub fn reach(&mut self, end: &HubState<f64>) -> Result<MoveSummary, Error> {
-        let Laid { segments, kink_moment, summary } = self.shortest_to(end)?;
+        let Planned { segments, kink_moment, summary } = self.shortest_to(end)?;
         let Some((first, others)) = segments.split_first() else { return Ok(summary) };
         self.end_acceleration = self.acceleration_before();
         self.queue.clear();
@@ -51,14 +50,13 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         Ok(summary)
     }
 
-    fn shortest_to(&self, end: &HubState<f64>) -> Result<Laid<S::Scalar>, Error> {
+    fn shortest_to(&self, end: &HubState<f64>) -> Result<Planned<S::Scalar>, Error> {
         let tick = self.stepper.tick();
         let bounds = Bounds::new(&self.limits, tick)?;
         let motion = TimeOptimal::reach(&self.hub.precise(), end, &bounds)?;
-        let (mut segments, mut closing) = (Vec::new(), None);
+        let (mut segments, mut motion_end) = (Vec::new(), MotionEnd::new());
         let summary = motion.lay(tick, &mut |segment| {
-            closing = Closing::of(segment);
-            if closing.is_none() {
+            if motion_end.holds_tick(segment) {
                 // No motion has more.
                 let _ = segments.push(*segment);
             }
@@ -69,9 +67,7 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
             return Err(Error::QueueFull { needed, free });
         }
         self.stepper.admit(&summary.peaks, summary.end.rate)?;
-        let kink_moment = closing
-            .zip(segments.last_mut())
-            .map_or(S::Scalar::ZERO, |(closing, last)| closing.close(last));
-        Ok(Laid { segments, kink_moment, summary })
+        let kink_moment = motion_end.close(segments.last_mut());
+        Ok(Planned { segments, kink_moment, summary })
     }
 }

@@ -3,6 +3,7 @@
 use super::{Generator, hold};
 use crate::Error;
 use crate::hub::{Angle, HubState};
+use crate::math::Scalar;
 use crate::motion::{Peaks, Segment, admit};
 use crate::stepper::Stepper;
 
@@ -51,6 +52,14 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         if needed > free {
             return Err(Error::QueueFull { needed, free });
         }
+        // What the arm feels of a border within the tick before.
+        let moment = match place {
+            Place::Waiting(index, 0) => {
+                self.queue.iter().nth(index).map_or(S::Scalar::ZERO, Segment::kink_moment)
+            }
+            Place::Held(0) => self.border_moment(),
+            _ => S::Scalar::ZERO,
+        };
         match place {
             Place::Current(k) => self.current.break_off(k),
             Place::Waiting(index, k) => {
@@ -67,7 +76,9 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         while self.queue.len() > kept {
             self.queue.pop_back();
         }
-        let _ = self.queue.push_back(branch.segment.cast());
+        let mut segment = branch.segment.cast();
+        segment.set_kink_moment(moment);
+        let _ = self.queue.push_back(segment);
         self.revision = self.revision.wrapping_add(1);
         let end = HubState::turning(Angle::from_radians(branch.to), branch.rate);
         self.end = end;

@@ -54,25 +54,33 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         self.hub.acceleration = acceleration;
     }
 
-    /// Drops what lies behind the arrival.
+    /// Drops what lies behind the arrival; the hub rests there.
     fn finish(&mut self, arrival: Arrival) {
+        self.keep_until(arrival, Segment::rest(arrival.end.angle.cast()));
+    }
+
+    /// Drops what lies behind the arrival, and holds on along `tail`.
+    fn keep_until(&mut self, arrival: Arrival, tail: Segment<S::Scalar>) {
         let under_way = self.current.segment().count().saturating_sub(self.current.k());
         let mut waiting = self.queue.iter().fold(0u32, |n, s| n.saturating_add(s.count()));
         let keep = arrival.ticks.saturating_sub(under_way);
+        // What the arm feels of the arrival is with the segment behind it.
+        let mut moment = self.border_moment();
         while waiting > keep
             && let Some(last) = self.queue.pop_back()
         {
             waiting = waiting.saturating_sub(last.count());
+            moment = last.kink_moment();
         }
         self.revision = self.revision.wrapping_add(1);
         self.end = arrival.end;
-        self.tail = Segment::rest(arrival.end.angle.cast());
+        self.tail = tail;
+        self.tail.set_kink_moment(moment);
     }
 
     /// Drops what lies behind the arrival, after which the hub may go on turning. Not for the tick.
     pub(crate) fn end_with(&mut self, arrival: Arrival) {
-        self.finish(arrival);
-        self.tail = super::hold(arrival.end, self.stepper.tick());
+        self.keep_until(arrival, super::hold(arrival.end, self.stepper.tick()));
     }
 
     /// Makes the hub rest at `angle` after the queue.

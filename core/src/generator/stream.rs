@@ -1,6 +1,6 @@
 //! Paths of any length through a queue of fixed size.
 
-use super::{Closing, Generator, hold};
+use super::{Generator, MotionEnd, hold};
 use crate::Error;
 use crate::math::Scalar;
 use crate::motion::{Path, PathPiece, RowError, Segment, Spline, Stream, Waypoint};
@@ -113,9 +113,12 @@ impl<S: Stepper, const QUEUE: usize> Generator<S, QUEUE> {
         }
         self.end = next.rest.end;
         self.tail = hold(self.end, self.stepper.tick());
-        let closing = next.closing().and_then(|segment| Closing::of(&segment.cast()));
-        let moment = match closing {
-            Some(closing) => closing.close(self.last_segment()),
+        let moment = match next.closing() {
+            Some(segment) => {
+                let mut motion_end = MotionEnd::new();
+                motion_end.holds_tick(&segment.cast());
+                motion_end.close(Some(self.last_segment()))
+            }
             None => S::Scalar::from_f64(next.rest.kink_moment),
         };
         self.tail.set_kink_moment(moment);

@@ -8,8 +8,8 @@ use super::shapes::Piece;
 use crate::hub::Angle;
 use crate::math::{Each, Scalar};
 
-/// Hands the segments of cubics end to end over `ticks` ticks to `sink`. A stretch may hold no tick:
-/// the next segment's kink makes up for it.
+/// Hands the segments of cubics end to end over `ticks` ticks to `sink`. Where a stretch holds no
+/// tick, the kink of the next one that does makes up for it.
 pub(super) fn lay_cubics<T: Scalar>(
     pieces: &[Piece],
     turn: f64,
@@ -43,7 +43,7 @@ pub(super) fn lay_cubics<T: Scalar>(
         let [at_first, at_last] = segment.accelerations();
         if next == first {
             kink_moment += moment(T::ONE - before, T::ONE - after, begin, end_acceleration);
-            segment.set_kink_moment(kink_moment);
+            segment.set_kink_moment(if after == T::ZERO { kink_moment } else { T::ZERO });
         } else {
             if before == T::ZERO {
                 kink_moment = T::ZERO;

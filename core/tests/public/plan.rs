@@ -210,6 +210,7 @@ fn borders_inside_a_tick_have_their_moment() {
             }
         }
     }
+    // S-curves of 2 to 6 ticks, a trapezoid of 2.
     assert!(inside > 50 && at_end == 6, "{inside} {at_end}");
 }
 

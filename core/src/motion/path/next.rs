@@ -47,9 +47,10 @@ impl PathPiece {
         all.filter(|segment| segment.count() > 0)
     }
 
-    /// The path's last segment, if it holds no tick.
+    /// The path's last segment, if it ends at a tick and holds none.
     pub(crate) fn closing(&self) -> Option<&Segment<f64>> {
-        self.segment.as_ref().filter(|segment| self.ends && segment.count() == 0)
+        let ends = self.ends && self.joiner.is_at_tick();
+        self.segment.as_ref().filter(|segment| ends && segment.count() == 0)
     }
 }
 
@@ -74,10 +75,7 @@ impl Path {
         admit(&self.limits, &peaks, self.tick).map_err(refused)?;
         let mut joiner = self.joiner;
         let segment = joiner.append(&curve);
-        let mut rest = self.rest_behind(joiner, &peaks).map_err(refused)?;
-        if let Some(segment) = segment.filter(|own| own.count() == 0 && rest.stop.is_none()) {
-            rest.kink_moment += segment.kink_moment();
-        }
+        let rest = self.rest_behind(joiner, &peaks).map_err(refused)?;
         Ok(Some(PathPiece { row: self.row, ends: self.ends(), segment, peaks, rest, joiner }))
     }
 
@@ -147,7 +145,7 @@ impl Path {
         };
         let (mut end, kink_moment) = joiner.finish();
         // A quintic goes on from the acceleration that the last row gives, if it ends at a tick.
-        if ends && self.spline == Spline::Quintic && joiner.border() == joiner.ticks() as f64 {
+        if ends && self.spline == Spline::Quintic && joiner.is_at_tick() {
             end.acceleration = here.acceleration;
         }
         Ok(Rest { stop, end, kink_moment })
