@@ -1,4 +1,4 @@
-//! Maps numbers to the types of steppers. No other place lists them.
+//! Maps numbers to the types of steppers: all that the desktop can run.
 
 use std::fmt;
 use std::marker::PhantomData;

@@ -34,6 +34,10 @@ fn motions() -> Vec<Case> {
         let back = "[[moves]]\nprofile = \"ramp\"\nrate = 0.0\n";
         all.push(Case { text: format!("{limits}{there}{back}"), to: None, bound: 2e-5 });
     }
+    // Its pulses carry each of these stretches into another tick.
+    let shaped = "[shaper]\nkind = \"zv\"\nfrequency = 3.0\n[limits]\nrate = 3.0\n\
+                  acceleration = 25.0\njerk = 60000.0\n[move]\nprofile = \"reach\"\nto = 0.5\n";
+    all.push(Case { text: shaped.into(), to: Some(0.5), bound: 1e-5 });
     // A ramp up whose second half begins at a tick, and whose first ends with a stretch of 2 ms.
     let limits = "[limits]\nacceleration = 25.0\njerk = 12500.0\n";
     let ramp = "profile = \"ramp\"\nrate = 0.25\nsettle = 0.1\n";

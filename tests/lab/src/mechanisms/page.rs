@@ -1,6 +1,7 @@
 //! The table of `docs/mechanisms.md`.
 
 use stillbeam_sim::error::Error;
+use stillbeam_sim::number::{self, Digits};
 use stillbeam_sim::truth::Reference;
 
 use super::{NAMES, SOLVERS, Solver, Truth};
@@ -40,8 +41,10 @@ fn header(solver: Solver) -> String {
     }
 }
 
-/// Returns a fraction in %, with two digits that count.
+/// Returns a fraction in %, to three decimals.
 fn percent(fraction: f64) -> String {
-    let percent = 100.0 * fraction;
-    if percent < 1e-3 { "< 0.001 %".to_owned() } else { format!("{percent:.3} %") }
+    if fraction < 1e-5 {
+        return "< 0.001 %".to_owned();
+    }
+    number::percent(fraction, 1.0, Digits::Decimals(3))
 }
