@@ -73,6 +73,14 @@ fn paths() -> Vec<Case> {
         });
         rows.collect::<Vec<_>>().join(", ")
     };
+    // Rows of a quintic behind a shaper: two of them 1 ms apart, rounded to 7 digits.
+    let quintic = [0.2, 0.303, 0.304, 0.4, 0.6].map(|time: f64| {
+        let s = time / 0.6;
+        let angle = 0.3 * s.powi(3) * (10.0 - 15.0 * s + 6.0 * s * s);
+        let rate = 0.3 / 0.6 * 30.0 * s * s * (1.0 - s) * (1.0 - s);
+        let acceleration = 0.3 / 0.36 * 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s);
+        format!("[{time}, {angle:.7}, {rate:.7}, {acceleration:.7}]")
+    });
     let at_the_end = "[0.3, 0.2], [0.397, 0.25], [0.4, 0.25]";
     let within = "[0.397, 0.25], [0.4, 0.25], [0.6, 0.3]";
     [
@@ -86,13 +94,37 @@ fn paths() -> Vec<Case> {
         to: Some(to),
         bound,
     })
-    .into()
+    .into_iter()
+    .chain([Case {
+        text: format!(
+            "[shaper]\nkind = \"zv\"\nfrequency = 6.0\n[move]\nwaypoints = [{}]\n",
+            quintic.join(", ")
+        ),
+        to: Some(0.3),
+        bound: 5e-6,
+    }])
+    .collect()
 }
 
 fn scene(text: &str) -> SceneFile {
     let settled = text.trim_end();
     SceneFile::parse("test", &format!("{ARM}{settled}\nsettle = 0.2\n"))
         .unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// What the core has planned at its own jerk is not refused for it, late in a run and in stretches
+/// of a few microseconds too.
+#[test]
+fn a_jerk_that_is_kept_is_not_refused() {
+    for jerk in ["10628.1", "3e5", "1e6", "1e8"] {
+        for rate in ["0.2", "0.5", "1.3"] {
+            let limits = format!("[limits]\nrate = 3.0\nacceleration = 25.0\njerk = {jerk}\n");
+            let ramp = format!("[[moves]]\nprofile = \"ramp\"\nrate = {rate}\n");
+            scene(&format!("{limits}{ramp}[[moves]]\nprofile = \"reach\"\nto = 0.9\n"))
+                .trajectory(TICK)
+                .expect("a motion");
+        }
+    }
 }
 
 /// Angle and rate go on where one formula ends and the next begins, and between.

@@ -19,6 +19,8 @@ pub(super) fn lay_cubics<T: Scalar>(
     sink: &mut dyn FnMut(&Segment<T>),
 ) {
     let share = pieces.len() as u32;
+    // Of another number an inner border may be a tick behind a stretch that holds none.
+    debug_assert!(matches!(share, 1 | 3 | 7), "a prime number of stretches");
     let length = T::from_u32(ticks) / T::from_u32(share);
     let shares = |n: u32| T::from_u32(n) / T::from_u32(share);
     // Borders are multiples of a tick's share, counted in integers: at most 7 × 2²⁴ of them.

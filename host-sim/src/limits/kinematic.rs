@@ -174,14 +174,18 @@ impl Stretch<'_> {
     /// peak.
     fn jerk(&self, t: f64) -> f64 {
         let step = DIFFERENCE * (self.end - self.begin);
-        let a = |t: f64| self.hub(t).1;
-        if t - step < self.begin {
-            (4.0 * a(t + step) - 3.0 * a(t) - a(t + 2.0 * step)) / (2.0 * step)
+        let here = self.hub(t).1;
+        // Divided by what the times differ in after rounding: late in a run a short step loses
+        // digits.
+        let beside = |step: f64| [t + step - t, self.hub(t + step).1 - here];
+        let [[h, f], [k, g]] = if t - step < self.begin {
+            [step, 2.0 * step].map(beside)
         } else if t + step > self.end {
-            (3.0 * a(t) - 4.0 * a(t - step) + a(t - 2.0 * step)) / (2.0 * step)
+            [-step, -2.0 * step].map(beside)
         } else {
-            (a(t + step) - a(t - step)) / (2.0 * step)
-        }
+            [-step, step].map(beside)
+        };
+        (k * k * f - h * h * g) / (h * k * (k - h))
     }
 
     /// Raises the peaks of a hub that speeds up and of one that slows down. Between two zeros of

@@ -12,6 +12,9 @@ use crate::table::significant;
 /// Rounding error by which a limit may be exceeded, as in the core.
 const ROUNDING: f64 = 1e-9;
 
+/// The same of the jerk, which is found by difference quotients.
+const ROUNDING_OF_JERK: f64 = 1e-7;
+
 /// A limit that is exceeded during a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
@@ -28,7 +31,8 @@ pub struct Excess {
 impl Excess {
     /// Returns the excess, or `None` if the peak keeps the limit.
     pub fn of(quantity: Quantity, peak: Peak, limit: f64, index: usize) -> Option<Self> {
-        let exceeds = peak.value > limit * (1.0 + ROUNDING);
+        let rounding = if quantity == Quantity::Jerk { ROUNDING_OF_JERK } else { ROUNDING };
+        let exceeds = peak.value > limit * (1.0 + rounding);
         exceeds.then_some(Self { quantity, peak, limit, index })
     }
 

@@ -205,7 +205,8 @@ impl<T: Scalar> Segment<T> {
 
     /// Moment of the border within the tick before, rad/s²: excess of `∫₀¹(1 − s)θ̈ ds` over that
     /// of the parabola with the same mean and ends. The later end is the left-hand value at the
-    /// border. Zero where the border is a tick. The stepper takes it in by
+    /// border. Zero where the border is a tick and the stretch before it holds one. The stepper
+    /// takes it in by
     /// [`Stepper::kink`](crate::Stepper::kink).
     ///
     /// Of a segment without a tick that ends at one: moment of all borders within that tick, for

@@ -2,7 +2,7 @@
 
 use crate::math::Scalar;
 
-/// Jumps of θ̈ and of its first two derivatives inside one tick.
+/// Jumps of θ̈ and of its first three derivatives inside one tick: all that a quintic has.
 ///
 /// A stepper takes θ̈ within a tick as a parabola through the values at both ends, with the mean
 /// that the rate gained. A jump at a fraction `x` of the tick is far from a parabola. Its departure
@@ -26,8 +26,8 @@ pub struct Kink<T> {
 /// Moments beyond the mean.
 pub(crate) const ORDERS: usize = 8;
 
-/// Legendre polynomials that two further integrals of the last moment take.
-const POLYNOMIALS: usize = ORDERS + 4;
+/// Legendre polynomials that three further integrals of the last moment take.
+const POLYNOMIALS: usize = ORDERS + 5;
 
 impl<T: Scalar> Kink<T> {
     /// A tick in which nothing jumps.
@@ -45,11 +45,12 @@ impl<T: Scalar> Kink<T> {
     }
 
     /// Adds jumps at `left` ticks, 0 to 1, before the end of the tick: of θ̈, rad/s², and of its
-    /// first and second derivatives by the tick.
-    pub(super) fn add(&mut self, left: T, jumps: [T; 3]) {
+    /// first three derivatives by the tick.
+    pub(super) fn add(&mut self, left: T, jumps: [T; 4]) {
         let mut integrals = legendre(T::ONE - T::TWO * left);
         let mut power = T::ONE;
-        for (n, jump) in [T::ONE, T::TWO, T::TWO + T::ONE].into_iter().zip(jumps) {
+        let three = T::TWO + T::ONE;
+        for (n, jump) in [T::ONE, T::TWO, three, T::TWO + T::TWO].into_iter().zip(jumps) {
             integrals = integrated(&integrals);
             for (moment, &integral) in self.moments.iter_mut().zip(&integrals[1..]) {
                 *moment += jump * integral;

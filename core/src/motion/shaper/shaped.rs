@@ -105,7 +105,7 @@ impl<'a, T: Scalar> Shaped<'a, T> {
 
     /// Jumps inside the tick from `k` to `k + 1`.
     pub fn kink(&self, k: u32) -> Kink<T> {
-        let rest = [[T::ZERO; 3]; 2];
+        let rest = [[T::ZERO; 4]; 2];
         let mut kink = Kink::NONE;
         for copy in &self.copies[..self.count] {
             let (mut first, mut last) = (0, None);
@@ -191,7 +191,7 @@ impl<T: Scalar> Delayed<T> {
     }
 
     /// The copy's share of the jumps from one course to another.
-    fn jumps(&self, from: [T; 3], to: [T; 3]) -> [T; 3] {
+    fn jumps(&self, from: [T; 4], to: [T; 4]) -> [T; 4] {
         array(|n| self.share * (to[n] - from[n]))
     }
 }
