@@ -268,7 +268,7 @@ proptest! {
         prop_assert!((least..=tick).contains(&summary.rounded_by), "{}", summary.rounded_by);
         prop_assert_eq!(summary.end, rest(to));
         prop_assert!(summary.peaks.rate <= 2.0 + 1e-9);
-        prop_assert!(summary.peaks.acceleration <= 5.0 + 1e-8 && summary.peaks.jerk <= 40.0 + 1e-7);
+        prop_assert!(summary.peaks.acceleration <= 5.0 + 1e-9 && summary.peaks.jerk <= 40.0 + 1e-7);
         let last = segments.last().expect("a segment");
         prop_assert!(last.hub_at(f64::from(last.count())).angle.since(summary.end.angle).abs() < 1e-12);
     }
